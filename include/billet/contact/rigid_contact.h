@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_RIGID_CONTACT_H
+#define BILLET_CONTACT_RIGID_CONTACT_H
+
+#include "billet/contact/traction.h"
+#include "billet/discretization/supports.h"
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <vector>
+
+namespace billet {
+
+/// What a contact pair does to the scene, summed over all ranks.
+struct ContactLoad {
+  dealii::Tensor<1, 3> force;  ///< on the body, by the tool [force]
+  dealii::Tensor<1, 3> moment; ///< about the tool's moved centre [force length]
+  double area = 0.;            ///< current area in contact [length²]
+  double stored_energy = 0.;   ///< in the penalty springs [energy]
+  double dissipation = 0.;     ///< by friction in this step [energy]
+  double deepest = 0.;         ///< largest penetration [length]
+
+  ContactLoad &operator+=(const ContactLoad &other);
+};
+
+/// Contact of boundary faces of a deformable body with a rigid tool: nodal quadrature on current areas, the pressure by
+/// penalty, friction by return map in the contact frame of each slave node.
+///
+/// Each facet's share of a node's area is ∫ N_a <−ν·n> dξdη over the current facet, ν its outward area vector and n
+/// the tool's normal: the facet's area seen along the tool's normal, weighted by the shape function. On a flat contact this is one
+/// quarter of a parallelogram, as in the paper; on a general quadrilateral it is what makes a uniform pressure a uniform
+/// stress, and a facet that does not face the tool (the side of a billet, before it folds onto the die) has no share.
+///
+/// Node states are kept, and computed alike, on every rank that owns a facet at the node.
+class RigidContact {
+public:
+  RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization, ContactTangent tangent);
+
+  std::size_t tool() const { return pair_.tool; }
+
+  /// The tool moves from where it is at t_n to where it is at t.
+  void start_step(double t_n, double t);
+
+  /// Computes gaps and tractions at `displacements` (ghosted).
+  void update(const Vector &displacements);
+
+  /// Adds −F_c [force] to `residual` (additive vector), after update().
+  void add_forces(Vector &residual) const;
+
+  /// Adds −∂F_c/∂u [force/length] to `matrix`, after update().
+  void add_tangent(const Constraints &constraints, dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
+  /// The state of the last update() becomes the start of the next step.
+  void commit();
+
+  /// After update().
+  ContactLoad compute_load() const;
+
+  /// State of a slave node, for output.
+  struct NodeReport {
+    std::array<DofIndex, 3> dofs;
+    ContactStatus status;
+    double pressure, gap, slip, area;
+    dealii::Tensor<1, 3> traction;
+  };
+  /// Of every node at a facet of this rank; `area` is this rank's share.
+  std::vector<NodeReport> report() const;
+
+  /// Doubles of history on this rank.
+  std::size_t history_size() const;
+
+private:
+  struct Node {
+    std::array<DofIndex, 3> dofs;
+    dealii::Point<3> reference;
+    ContactStiffness stiffness;
+    // at the last update()
+    dealii::Tensor<1, 3> position;
+    dealii::Tensor<1, 3> normal;
+    double gap = 0.;
+    ContactStatus status = ContactStatus::open;
+    double pressure = 0.;
+    dealii::Tensor<1, 3> traction;
+    dealii::Tensor<2, 3> tangent;
+    double slip_increment = 0.;
+    double dissipation = 0.;      // per area, in this step
+    double tangential_energy = 0.; // per area
+    // at the start of the step
+    double gap_n = 0.;
+  };
+  /// Only with friction.
+  struct FrictionHistory {
+    bool is_active = false;
+    Frame frame;
+    std::array<double, 2> tangential{};
+    dealii::Tensor<1, 3> tool_position; ///< of the slave node, in the tool's coordinates
+    double slip = 0.;                   ///< length of the path slipped
+  };
+  /// Nodes ordered so that the area vector points out of the body.
+  struct Facet {
+    std::array<unsigned int, 4> nodes;
+  };
+  struct FacetAreas {
+    std::array<double, 4> areas;
+    /// ∂A_a/∂x_b
+    std::array<std::array<dealii::Tensor<1, 3>, 4>, 4> derivatives;
+  };
+
+  void collect_facets(const Discretization &discretization);
+  void set_penalties(const Scene &scene, const Discretization &discretization);
+  void apply_friction(Node &node, const FrictionHistory &history_n, FrictionHistory &history) const;
+  FacetAreas compute_areas(const Facet &facet, bool with_derivatives) const;
+
+  const ContactPair &pair_;
+  const Tool &tool_;
+  const MPI_Comm communicator_;
+  const ContactTangent tangent_;
+  std::vector<Node> nodes_;
+  std::vector<FrictionHistory> friction_n_, friction_;
+  std::vector<Facet> facets_;
+  Placement placement_n_, placement_;
+};
+
+} // namespace billet
+
+#endif

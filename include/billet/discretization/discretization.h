@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_DISCRETIZATION_H
+#define BILLET_DISCRETIZATION_DISCRETIZATION_H
+
+#include "billet/mechanics/mean_dilatation.h"
+#include "billet/scene/scene.h"
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <array>
+#include <vector>
+
+namespace billet {
+
+using Vector = dealii::TrilinosWrappers::MPI::Vector;
+using DofIndex = dealii::types::global_dof_index;
+using CellIterator = dealii::DoFHandler<3>::active_cell_iterator;
+
+/// One owned hexahedron.
+struct Element {
+  CellIterator cell;
+  std::array<DofIndex, n_element_dofs> dofs; ///< node by node
+};
+
+/// The mesh of all bodies, partitioned by METIS so that each rank holds its own cells and one layer around them, and
+/// the displacement's degrees of freedom on it. Cell material ids are body indices.
+class Discretization {
+public:
+  /// Builds the mesh on the first rank and sends it out. Throws InputError.
+  Discretization(const Scene &scene, MPI_Comm communicator);
+
+  MPI_Comm communicator() const { return communicator_; }
+  const dealii::DoFHandler<3> &dof_handler() const { return dof_handler_; }
+  const dealii::IndexSet &owned_dofs() const { return owned_; }
+  const dealii::IndexSet &relevant_dofs() const { return relevant_; }
+  /// Owned elements of a body.
+  const std::vector<Element> &elements(const std::size_t body) const { return elements_[body]; }
+
+  std::size_t n_global_elements() const { return tria_.n_global_active_cells(); }
+
+  /// Of the undeformed bodies: the middle and half the diagonal of the box around them [length].
+  const dealii::Tensor<1, 3> &centre() const { return centre_; }
+  double radius() const { return radius_; }
+
+  /// A vector of owned entries; one of relevant entries to read from; one to add to from any rank that shares a dof.
+  Vector make_owned_vector() const { return Vector(owned_, communicator_); }
+  Vector make_ghosted_vector() const { return Vector(owned_, relevant_, communicator_); }
+  Vector make_additive_vector() const {
+    Vector vector;
+    vector.reinit(owned_, relevant_, communicator_, true);
+    return vector;
+  }
+
+private:
+  MPI_Comm communicator_;
+  dealii::parallel::fullydistributed::Triangulation<3> tria_;
+  dealii::FESystem<3> fe_;
+  dealii::DoFHandler<3> dof_handler_;
+  dealii::IndexSet owned_, relevant_;
+  std::vector<std::vector<Element>> elements_;
+  dealii::Tensor<1, 3> centre_;
+  double radius_ = 0.;
+};
+
+/// Entries of a ghosted vector at the dofs of an element.
+inline ElementVectors gather(const Vector &vector, const std::array<DofIndex, n_element_dofs> &dofs) {
+  ElementVectors values{};
+  for (unsigned int i = 0; i < n_element_dofs; ++i)
+    values[i] = vector(dofs[i]);
+  return values;
+}
+
+/// Reference positions of an element's nodes.
+ElementVectors nodal_positions(const CellIterator &cell);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_SUPPORTS_H
+#define BILLET_DISCRETIZATION_SUPPORTS_H
+
+#include "billet/discretization/discretization.h"
+
+#include <deal.II/lac/affine_constraints.h>
+
+namespace billet {
+
+using Constraints = dealii::AffineConstraints<double>;
+
+/// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements. The planes
+/// n · u = value that meet at a node may have any normals; at most three of them are independent.
+class Supports {
+public:
+  Supports(const Scene &scene, const Discretization &discretization);
+
+  /// Constraints with right-hand sides 0: for assembly and for Newton's corrections. Their pattern never changes.
+  const Constraints &homogeneous() const { return homogeneous_; }
+
+  /// The same with the values at time t. Throws InputError where planes at one node contradict each other.
+  Constraints at_time(double t) const;
+
+  /// Number of prescribed nodal components on all ranks.
+  DofIndex n_constrained() const;
+
+private:
+  struct Term {
+    const Hold *hold;
+    double weight;
+  };
+  /// u_dof = Σ factor u_other + Σ weight value(t)
+  struct Line {
+    DofIndex dof;
+    std::vector<std::pair<DofIndex, double>> others;
+    std::vector<Term> terms;
+    dealii::Point<3> position;
+  };
+  /// Σ weight value(t) must vanish.
+  struct Redundancy {
+    std::vector<Term> terms;
+    dealii::Point<3> position;
+  };
+  void eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
+                 const dealii::Point<3> &position);
+  Constraints make(bool with_values, double t) const;
+
+  const Discretization &discretization_;
+  std::vector<Line> lines_;
+  std::vector<Redundancy> redundancies_;
+  Constraints homogeneous_;
+};
+
+} // namespace billet
+
+#endif

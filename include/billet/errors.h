@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_ERRORS_H
+#define BILLET_ERRORS_H
+
+#include <mpi.h>
+
+#include <exception>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace billet {
+
+/// What the program returns to the shell.
+enum class ExitCode : int {
+  success = 0,
+  bad_input = 2,       ///< the scene file or the command line; nothing was written
+  failed_solution = 3, ///< the scene is sound, the solution stopped; what was computed is on disk
+  internal_error = 4   ///< a defect of the program or of the machine
+};
+
+/// The user's input cannot be used. The message says where, what was found and what is allowed.
+/// Thrown on all ranks or on none.
+class InputError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The computation cannot go on. The message says when, why and what to try. Thrown on all ranks or on none.
+class SolutionFailure : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Calls `action` on every rank; if it throws on any of them, every rank throws: the same InputError or
+/// SolutionFailure where that was its kind, std::runtime_error else. `action` itself must not communicate.
+void fail_together(MPI_Comm communicator, const std::function<void()> &action);
+
+} // namespace billet
+
+#endif

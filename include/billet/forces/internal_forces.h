@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_FORCES_INTERNAL_FORCES_H
+#define BILLET_FORCES_INTERNAL_FORCES_H
+
+#include "billet/discretization/supports.h"
+#include "billet/mechanics/element_block.h"
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <memory>
+
+namespace billet {
+
+using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+/// Nodal forces of the stresses in all bodies, and their tangent.
+class InternalForces {
+public:
+  /// Throws InputError, on all ranks, if an element is inverted in the undeformed mesh.
+  InternalForces(const Scene &scene, const Discretization &discretization);
+
+  /// Adds the forces [force] to `forces` (additive vector). False if an element on this rank is not admissible.
+  bool assemble_forces(const Vector &displacements, Vector &forces);
+
+  /// Adds the tangent [force/length] to `matrix`, constraints eliminated. False as above.
+  bool assemble_tangent(const Vector &displacements, const Constraints &constraints, Matrix &matrix);
+
+  /// The state of the last assembly becomes the start of the next step.
+  void commit();
+
+  struct Energies {
+    double elastic = 0.;
+    double plastic = 0.;
+  };
+  /// At committed history; on all ranks the same.
+  Energies compute_energies(const Vector &displacements) const;
+
+  /// One entry for each owned element of the body, in the order of Discretization::elements().
+  std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements) const;
+
+  /// Doubles of history on this rank.
+  std::size_t history_size() const;
+
+private:
+  const Discretization &discretization_;
+  std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_FRAME_H
+#define BILLET_GEOMETRY_FRAME_H
+
+#include <deal.II/base/tensor.h>
+
+namespace billet {
+
+/// Contact reference system (CRS): right-handed, q × r = n.
+struct Frame {
+  dealii::Tensor<1, 3> q, r, n;
+
+  /// Any frame about the unit vector `n`; the same for the same n.
+  static Frame from_normal(const dealii::Tensor<1, 3> &n) {
+    unsigned int least = 0;
+    for (unsigned int i = 1; i < 3; ++i)
+      if (std::abs(n[i]) < std::abs(n[least]))
+        least = i;
+    dealii::Tensor<1, 3> axis;
+    axis[least] = 1.;
+    Frame frame;
+    frame.n = n;
+    frame.q = dealii::cross_product_3d(n, axis);
+    frame.q /= frame.q.norm();
+    frame.r = dealii::cross_product_3d(n, frame.q);
+    return frame;
+  }
+
+  /// This frame, carried along by the rotation of the tool and then turned onto the new normal `n`
+  /// (Bittencourt & Creus 1998, eqs. (4), (5) with the sign of (5) mended and the spin of the tool added):
+  ///   q* = R q,  r = n × q* / |n × q*|,  q = r × n.
+  /// Where the normal has turned onto q* the frame follows r instead.
+  Frame transported(const dealii::Tensor<2, 3> &rotation, const dealii::Tensor<1, 3> &n_new) const {
+    Frame frame;
+    frame.n = n_new;
+    const dealii::Tensor<1, 3> q_carried = rotation * q;
+    frame.r = dealii::cross_product_3d(n_new, q_carried);
+    const double length = frame.r.norm();
+    if (length > 0.5) {
+      frame.r /= length;
+      frame.q = dealii::cross_product_3d(frame.r, n_new);
+    } else { // |n × q*|² + |n × r*|² ≥ 1: one of the two is always usable
+      frame.q = dealii::cross_product_3d(rotation * r, n_new);
+      frame.q /= frame.q.norm();
+      frame.r = dealii::cross_product_3d(n_new, frame.q);
+    }
+    return frame;
+  }
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MATERIAL_PLASTIC_H
+#define BILLET_MATERIAL_PLASTIC_H
+
+#include "billet/material/elastic.h"
+#include "billet/material/hardening.h"
+
+#include <cmath>
+#include <limits>
+
+namespace billet {
+
+/// Solves q − 3G Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0. Newton,
+/// kept inside a shrinking bracket: hardening laws with kinks or steep starts cannot throw it off. Ends at round-off.
+template <class Hardening>
+double solve_consistency(const Hardening &hardening, const double q, const double three_g, const double alpha_n) {
+  double low = 0., high = q / three_g;
+  double delta = 0.;
+  const double tolerance = 4. * std::numeric_limits<double>::epsilon() * q;
+  for (unsigned int i = 0; i < 200; ++i) {
+    const double f = q - three_g * delta - hardening.stress(alpha_n + delta);
+    if (std::abs(f) <= tolerance)
+      break;
+    (f > 0. ? low : high) = delta;
+    double next = delta + f / (three_g + hardening.slope(alpha_n + delta));
+    if (!(next > low && next < high))
+      next = 0.5 * (low + high);
+    if (next == delta)
+      break;
+    delta = next;
+  }
+  return delta;
+}
+
+/// Multiplicative J2 plasticity with Hencky elasticity: F = F_e F_p, Kirchhoff stress linear in the elastic
+/// logarithmic strain, yield |τ| = σ_y(α) in the sense of von Mises in *Kirchhoff* stress, associated flow by the
+/// exponential map. The return map is radial in logarithmic principal space and exact (Simo & Hughes 1998, box 9.1;
+/// Eterovic & Bathe 1990).
+template <class Hardening> class HenckyPlasticity {
+public:
+  struct History {
+    dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>(); ///< C_p⁻¹
+    double equivalent_plastic_strain = 0.;                                                     ///< α
+  };
+  static constexpr bool has_plasticity = true;
+
+  HenckyPlasticity(const ElasticModuli &elastic, Hardening hardening)
+      : elastic_(elastic), hardening_(std::move(hardening)) {}
+
+  /// From the deformation gradient F at the end of a step and the history at its start: Kirchhoff stress `tau`
+  /// [stress], the history at its end, and, if `moduli` is given, the consistent tangent. `history_n` and
+  /// `history` may not be the same object. False where F is not admissible (not finite, singular): the step has
+  /// to be cut.
+  bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
+              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli) const {
+    PrincipalElasticState trial;
+    PrincipalResponse response;
+    double delta_alpha = 0.;
+    if (!respond(F, history_n, trial, response, delta_alpha))
+      return false;
+    tau = compute_kirchhoff_stress(trial, response);
+    if (moduli != nullptr)
+      compute_spatial_moduli(trial, response, elastic_, *moduli);
+
+    history = history_n;
+    if (delta_alpha > 0.) {
+      history.equivalent_plastic_strain += delta_alpha;
+      // b_e = Σ exp(2 ε_e) m_A after the return; C_p⁻¹ = F⁻¹ b_e F⁻ᵀ.
+      dealii::SymmetricTensor<2, 3> b_e;
+      for (unsigned int a = 0; a < 3; ++a)
+        b_e += std::exp(2. * (trial.volumetric_log_strain / 3. + response.beta * trial.deviatoric_log_strains[a])) *
+               dealii::symmetrize(dealii::outer_product(trial.directions[a], trial.directions[a]));
+      const dealii::Tensor<2, 3> F_inverse = dealii::invert(F);
+      history.inverse_plastic_metric =
+          dealii::symmetrize(F_inverse * static_cast<dealii::Tensor<2, 3>>(b_e) * dealii::transpose(F_inverse));
+    }
+    return true;
+  }
+
+  /// Stored energy per reference volume [stress] at F with a history that belongs to F.
+  double elastic_energy(const dealii::Tensor<2, 3> &F, const History &history) const {
+    PrincipalElasticState trial;
+    PrincipalResponse response;
+    double delta_alpha = 0.;
+    return respond(F, history, trial, response, delta_alpha)
+               ? compute_elastic_energy(elastic_, trial, response.beta)
+               : 0.;
+  }
+
+  double plastic_work(const History &history) const { return hardening_.work(history.equivalent_plastic_strain); }
+  static double equivalent_plastic_strain(const History &history) { return history.equivalent_plastic_strain; }
+
+private:
+  bool respond(const dealii::Tensor<2, 3> &F, const History &history_n, PrincipalElasticState &trial,
+               PrincipalResponse &response, double &delta_alpha) const {
+    const dealii::Tensor<2, 3> C_p_inverse = history_n.inverse_plastic_metric;
+    if (!compute_principal_state(dealii::symmetrize(F * C_p_inverse * dealii::transpose(F)), trial))
+      return false;
+
+    const double two_g = 2. * elastic_.shear;
+    double dev_norm = 0.;
+    for (const double e : trial.deviatoric_log_strains)
+      dev_norm += e * e;
+    dev_norm = std::sqrt(dev_norm);
+    const double q = std::sqrt(1.5) * two_g * dev_norm; // von Mises stress of the trial state
+
+    delta_alpha = 0.;
+    const double alpha_n = history_n.equivalent_plastic_strain;
+    if (q > hardening_.stress(alpha_n)) {
+      const double three_g = 3. * elastic_.shear;
+      delta_alpha = solve_consistency(hardening_, q, three_g, alpha_n);
+      const double reduction = three_g * delta_alpha / q;
+      response.beta = 1. - reduction;
+      response.gamma = three_g / (three_g + hardening_.slope(alpha_n + delta_alpha)) - reduction;
+      for (unsigned int a = 0; a < 3; ++a)
+        response.flow_direction[a] = trial.deviatoric_log_strains[a] / dev_norm;
+    }
+    for (unsigned int a = 0; a < 3; ++a)
+      response.stress[a] =
+          elastic_.bulk * trial.volumetric_log_strain + two_g * response.beta * trial.deviatoric_log_strains[a];
+    return true;
+  }
+
+  ElasticModuli elastic_;
+  Hardening hardening_;
+};
+
+} // namespace billet
+
+#endif

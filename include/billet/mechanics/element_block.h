@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_ELEMENT_BLOCK_H
+#define BILLET_MECHANICS_ELEMENT_BLOCK_H
+
+#include "billet/material/hardening.h"
+#include "billet/mechanics/mean_dilatation.h"
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+namespace billet {
+
+/// What a body is made of. The law is chosen by the alternative it holds; std::monostate means elastic.
+struct MaterialLaw {
+  ElasticModuli elastic;
+  std::variant<std::monostate, LinearHardening, VoceHardening, PowerLawHardening, TabulatedHardening> hardening;
+};
+
+/// Averages and integrals over one element, for output.
+struct ElementSummary {
+  dealii::SymmetricTensor<2, 3> cauchy_stress; ///< average over the current volume [stress]
+  double equivalent_plastic_strain = 0.;       ///< average over the reference volume
+  double elastic_energy = 0.;                  ///< integral [energy]
+  double plastic_work = 0.;                    ///< integral [energy]
+};
+
+/// All elements of one body on one rank: the same law, history in one array. The law is fixed when the block is
+/// made; nothing is decided per element. History advances in two beats: evaluate() computes the end of the step from
+/// the history at its start, as often as it is called; commit() makes the last evaluation the new start.
+class ElementBlock {
+public:
+  virtual ~ElementBlock() = default;
+
+  /// Nodal positions of the undeformed elements [length]. False, with the index of the first offender, if one is
+  /// degenerate or inverted.
+  virtual bool initialize(const std::vector<ElementVectors> &positions, std::size_t &offender) = 0;
+
+  virtual std::size_t size() const = 0;
+
+  /// Overwrites `force` [force] and, if given, `matrix` [force/length]. False if the state is not admissible
+  /// (det F ≤ 0, not finite): the step has to be cut.
+  virtual bool evaluate(std::size_t element, const ElementVectors &displacements, ElementVectors &force,
+                        ElementMatrix *matrix) = 0;
+
+  virtual void commit() = 0;
+
+  /// At committed history and the displacements that belong to it.
+  virtual ElementSummary summarize(std::size_t element, const ElementVectors &displacements) const = 0;
+
+  /// Doubles of history kept per element, both beats counted.
+  virtual std::size_t history_size() const = 0;
+};
+
+std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_HISTORY_FILE_H
+#define BILLET_OUTPUT_HISTORY_FILE_H
+
+#include "billet/solve/quasi_static.h"
+
+#include <fstream>
+
+namespace billet {
+
+/// What a step took to solve.
+struct StepReport {
+  unsigned int step = 0;
+  double length = 0.;
+  NewtonReport newton;
+  unsigned int total_iterations = 0; ///< since time 0, those of failed tries included
+  unsigned int total_cuts = 0;
+};
+
+/// history.csv: a line for every accepted step, on disk as soon as it is known. Written by the first rank.
+class HistoryFile {
+public:
+  HistoryFile(const Scene &scene, const std::string &folder);
+
+  void write(const StepReport &report, const SolutionState &state);
+
+private:
+  std::ofstream stream_;
+};
+
+} // namespace billet
+
+#endif

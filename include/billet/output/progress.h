@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_PROGRESS_H
+#define BILLET_OUTPUT_PROGRESS_H
+
+#include "billet/output/history_file.h"
+
+#include <chrono>
+#include <iosfwd>
+
+namespace billet {
+
+/// The console of a run: a line for every step, and on a terminal a bar with the time to go. First rank only.
+class Progress {
+public:
+  Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
+
+  void start(const Discretization &discretization, const QuasiStatic &problem, std::size_t n_dofs);
+  void accept(const StepReport &report, const SolutionState &state);
+  void reject(const StepReport &report, double from, double to);
+  void finish(const std::string &file_to_open);
+
+private:
+  void show_iterations(const NewtonReport &newton);
+  void show_bar(double time);
+  void erase_bar();
+  double elapsed() const;
+
+  const Scene &scene_;
+  std::ostream &stream_;
+  bool is_terminal_;
+  bool has_bar_ = false;
+  unsigned int n_lines_ = 0;
+  parameters::Output::Verbosity verbosity_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace billet
+
+#endif

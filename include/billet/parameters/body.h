@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_BODY_H
+#define BILLET_PARAMETERS_BODY_H
+
+#include "billet/parameters/reader.h"
+
+#include <array>
+
+namespace billet::parameters {
+
+/// Subsection Mesh: where the hexahedra of a body come from.
+struct Mesh {
+  enum class Source { primitive, extruded, file };
+
+  Source source;
+  Located<std::string> primitive; ///< function of dealii::GridGenerator
+  std::string arguments;
+  unsigned int refinements;
+  Located<double> section_area; ///< 0: as generated
+  double height;
+  unsigned int n_layers;
+  Located<std::string> file_name; ///< relative to the scene file
+  double scale;
+  dealii::Tensor<1, 3> rotation_axis;
+  double rotation_angle;
+  dealii::Tensor<1, 3> translation;
+  /// New id and muParser condition on x, y, z of the face's centre; the last match holds.
+  Located<std::vector<std::pair<unsigned int, std::string>>> boundary_ids;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// Subsection Material.
+struct Material {
+  enum class Law { elastic, elastoplastic };
+  enum class Hardening { linear, voce, power_law, table };
+
+  Law law;
+  double young_modulus;
+  double poisson_ratio;
+  Hardening hardening = Hardening::linear;
+  double yield_stress = 0.;
+  double hardening_modulus = 0.;
+  double saturation_stress = 0.;
+  double saturation_rate = 0.;
+  double strength = 0.;
+  double prestrain = 0.;
+  double exponent = 0.;
+  std::vector<double> table_strains, table_stresses;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// One named subsection of Supports.
+struct Support {
+  std::string name;
+  Located<std::vector<unsigned int>> boundary_ids;
+  std::array<bool, 3> components{};
+  /// Expressions of x, y, z (reference position), t and the amplitudes.
+  Located<std::array<std::string, 3>> displacement;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// n · X = offset: boundary nodes on it do not leave it.
+struct SymmetryPlane {
+  dealii::Tensor<1, 3> normal;
+  double offset;
+  std::string text;
+};
+
+/// One named subsection of Bodies.
+struct Body {
+  std::string name;
+  std::string origin;
+  Mesh mesh;
+  Material material;
+  std::vector<Support> supports;
+  Located<std::vector<SymmetryPlane>> symmetry_planes;
+
+  static void declare(dealii::ParameterHandler &prm, const std::vector<std::string> &support_names);
+  void parse(Reader &reader);
+};
+
+} // namespace billet::parameters
+
+#endif

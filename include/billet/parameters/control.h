@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_CONTROL_H
+#define BILLET_PARAMETERS_CONTROL_H
+
+#include "billet/parameters/reader.h"
+
+namespace billet::parameters {
+
+/// One named subsection of Amplitudes: a function of time, for use by its name in expressions.
+struct Amplitude {
+  enum class Interpolation { linear, smooth };
+
+  std::string name;
+  std::vector<double> times, values;
+  Interpolation interpolation;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// Subsection Time stepping.
+struct TimeStepping {
+  enum class Control { automatic, fixed };
+
+  double end_time;
+  Control control;
+  double initial_step, smallest_step, largest_step;
+  unsigned int few_iterations, many_iterations;
+  double growth_factor, shrink_factor, cut_factor;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// How the contact forces are linearised; see contact/rigid_contact.h.
+enum class ContactTangent { exact, consistent, continuum, symmetrised_upper, symmetrised_lower, symmetrised_mean };
+
+/// Subsection Solver.
+struct Solver {
+  enum class LineSearch { none, energy };
+  enum class Predictor { none, extrapolation };
+  enum class LinearSolver { automatic, mumps_symmetric, mumps, klu };
+
+  ContactTangent contact_tangent;
+  double force_tolerance, energy_tolerance;
+  unsigned int most_iterations;
+  LineSearch line_search;
+  Predictor predictor;
+  LinearSolver linear_solver;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// Subsection Output.
+struct Output {
+  enum class Format { vtu, hdf5, none };
+  enum class Verbosity { quiet, steps, iterations };
+
+  Located<std::string> folder;
+  Format format;
+  unsigned int every_steps;
+  double interval;
+  bool stress, plastic_strain, contact;
+  Verbosity verbosity;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+} // namespace billet::parameters
+
+#endif

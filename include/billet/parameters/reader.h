@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_READER_H
+#define BILLET_PARAMETERS_READER_H
+
+#include "billet/parameters/scene_file.h"
+
+#include <deal.II/base/tensor.h>
+
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// A parameter with the place where the user set it, for checks that can only be made later.
+template <class T> struct Located {
+  T value{};
+  /// "file:line: 'Boundary ids' in 'Bodies / billet'", the beginning of a message.
+  std::string origin;
+};
+
+/// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws InputError
+/// with file, line, parameter, what was found and what is allowed.
+class Reader {
+public:
+  Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
+
+  /// Calls `read` inside the subsection `name`.
+  template <class Function> void in(const std::string &name, const Function &read) {
+    enter(name);
+    read();
+    leave();
+  }
+  /// The subsections that the user opened here, by name.
+  std::vector<std::string> names() const { return file_.names_below(path_); }
+
+  std::string text(const std::string &key) const;
+  bool flag(const std::string &key) const;
+  double number(const std::string &key) const;
+  double positive(const std::string &key) const;
+  double not_negative(const std::string &key) const;
+  unsigned int count(const std::string &key, unsigned int least = 0) const;
+  std::vector<double> numbers(const std::string &key) const;
+  std::vector<unsigned int> counts(const std::string &key) const;
+  /// Three numbers.
+  dealii::Tensor<1, 3> vector(const std::string &key) const;
+  /// Three numbers, not all zero, normalised.
+  dealii::Tensor<1, 3> direction(const std::string &key) const;
+  /// Parts between semicolons, trimmed, empty ones left out.
+  std::vector<std::string> parts(const std::string &key, char separator = ';') const;
+
+  template <class T> Located<T> located(const std::string &key, T value) const {
+    return {std::move(value), origin(key)};
+  }
+  std::string origin(const std::string &key) const;
+  /// The subsection at hand, for messages about what is missing in it.
+  std::string origin() const;
+  bool is_set(const std::string &key) const { return file_.is_set(path_, key); }
+  const SceneFile &file() const { return file_; }
+
+  [[noreturn]] void reject(const std::string &key, const std::string &allowed) const;
+
+private:
+  void enter(const std::string &name);
+  void leave();
+
+  dealii::ParameterHandler &prm_;
+  const SceneFile &file_;
+  SceneFile::Path path_;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_SCENE_H
+#define BILLET_PARAMETERS_SCENE_H
+
+#include "billet/parameters/body.h"
+#include "billet/parameters/control.h"
+#include "billet/parameters/tool.h"
+
+#include <iosfwd>
+
+namespace billet::parameters {
+
+/// Everything that a scene file says, each value checked, and names that refer to each other resolved.
+struct Scene {
+  std::string title;
+  std::string file_name;
+  std::string text; ///< the file as read
+  std::vector<Amplitude> amplitudes;
+  std::vector<Body> bodies;
+  std::vector<Tool> tools;
+  std::vector<ContactPair> pairs;
+  TimeStepping time_stepping;
+  Solver solver;
+  Output output;
+
+  /// Throws InputError.
+  static Scene read(const std::string &file_name);
+
+  std::size_t body_index(const ContactPair &pair) const;
+  std::size_t tool_index(const ContactPair &pair) const;
+};
+
+/// Prints every parameter with its default, range, unit and meaning.
+void print_all_parameters(std::ostream &stream);
+
+} // namespace billet::parameters
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_SCENE_FILE_H
+#define BILLET_PARAMETERS_SCENE_FILE_H
+
+#include <istream>
+#include <string>
+#include <vector>
+
+namespace dealii {
+class ParameterHandler;
+}
+
+namespace billet {
+
+/// A scene file as its author wrote it: which subsections it opens, which entries it sets, and on which line of which
+/// file. ParameterHandler holds the values; this class knows the names that the user chose for bodies, tools and
+/// pairs before anything is declared, and lets every message name file and line.
+class SceneFile {
+public:
+  using Path = std::vector<std::string>;
+
+  struct Entry {
+    Path path;
+    std::string key;
+    std::string value;
+    std::string where; ///< "file:line"
+  };
+  struct Subsection {
+    Path path;
+    std::string where;
+  };
+
+  /// Reads `file_name` and what it includes. Understands ParameterHandler's text format: `set`, `subsection`, `end`,
+  /// `include` (relative to the including file), `#` comments and `\` at a line's end. Throws InputError.
+  static SceneFile read(const std::string &file_name);
+
+  /// The same for text at hand; `name` stands for the file in messages.
+  static SceneFile scan(std::istream &text, const std::string &name);
+
+  /// Names of the subsections right below `path`, in the order of their appearance.
+  std::vector<std::string> names_below(const Path &path) const;
+
+  /// Hands every entry to `prm`. Throws InputError with file and line on an unknown subsection or parameter, one that
+  /// is set twice, or a value of the wrong type.
+  void set_all(dealii::ParameterHandler &prm) const;
+
+  /// Where an entry was set, "file:line"; "file (default)" if it was not.
+  std::string where(const Path &path, const std::string &key) const;
+  bool is_set(const Path &path, const std::string &key) const;
+  /// Where a subsection was opened.
+  std::string where(const Path &path) const;
+
+  const std::string &file_name() const { return file_name_; }
+  /// The folder of the scene file, with a slash at its end unless it is empty.
+  std::string folder() const;
+  /// The file's text as read, includes resolved.
+  const std::string &text() const { return text_; }
+
+private:
+  void scan_file(std::istream &text, const std::string &name, Path &path, unsigned int depth);
+  const Entry *find(const Path &path, const std::string &key) const;
+
+  std::string file_name_;
+  std::string text_;
+  std::vector<Entry> entries_;
+  std::vector<Subsection> subsections_;
+};
+
+/// "Bodies / billet / Material".
+std::string join(const SceneFile::Path &path);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SCENE_EXPRESSION_H
+#define BILLET_SCENE_EXPRESSION_H
+
+#include "billet/parameters/control.h"
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Value of an amplitude at time t.
+double evaluate_amplitude(const parameters::Amplitude &amplitude, double t);
+
+/// A muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the position x, y, z.
+class Expression {
+public:
+  enum class Variables { time, time_and_position };
+
+  /// Throws InputError, beginning with `origin`, if the text does not make sense.
+  Expression(const std::string &text, Variables variables, std::vector<parameters::Amplitude> amplitudes,
+             const std::string &origin);
+
+  double value(double t, const dealii::Point<3> &position = {}) const;
+
+private:
+  void parse(double t) const;
+
+  std::string text_;
+  std::string variables_;
+  std::vector<parameters::Amplitude> amplitudes_;
+  // The parser takes amplitudes as constants and is made anew when the time changes.
+  mutable std::unique_ptr<dealii::FunctionParser<3>> parser_;
+  mutable double parsed_time_ = 0.;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SCENE_SCENE_H
+#define BILLET_SCENE_SCENE_H
+
+#include "billet/mechanics/element_block.h"
+#include "billet/parameters/scene.h"
+#include "billet/scene/mesh_builder.h"
+#include "billet/scene/tool.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <iosfwd>
+#include <memory>
+#include <vector>
+
+namespace billet {
+
+/// A plane or a prescribed displacement that holds boundary nodes.
+struct Hold {
+  std::string name; ///< for messages and reports
+  /// n · u = value; either nodes of these boundaries ...
+  std::vector<unsigned int> boundary_ids;
+  /// ... or, where there are none, boundary nodes on this plane.
+  bool on_plane = false;
+  dealii::Tensor<1, 3> normal;
+  double offset = 0.;
+  const Expression *value = nullptr; ///< none: 0
+};
+
+/// What a body is made of and how it is held; its mesh is elsewhere.
+struct Body {
+  std::string name;
+  MaterialLaw material;
+  double young_modulus;
+  std::vector<Hold> holds;
+  std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by the holds
+};
+
+/// Boundary faces of a body that may touch a tool.
+struct ContactPair {
+  std::string name;
+  std::size_t body;
+  std::vector<unsigned int> boundary_ids;
+  std::size_t tool;
+  double friction_coefficient;
+  bool penalty_is_factor;
+  double normal_penalty, tangential_penalty;
+
+  /// k [force/length³] from the scene's number, for facets of size h on a body with Young's modulus E.
+  double scaled_penalty(const double penalty, const double young_modulus, const double h) const {
+    return penalty_is_factor ? penalty * young_modulus / h : penalty;
+  }
+};
+
+/// What the scene asks of the program. Nothing that is false here is allocated or run.
+struct Capabilities {
+  bool plasticity = false;
+  bool contact = false;
+  bool friction = false;
+  bool moving_supports = false;
+  bool unsymmetric_matrix = false;
+};
+
+/// What the user described, built once: everything but the mesh, which is distributed elsewhere.
+class Scene {
+public:
+  /// Throws InputError.
+  explicit Scene(const parameters::Scene &parameters);
+
+  const parameters::Scene &parameters() const { return parameters_; }
+  const std::vector<Body> &bodies() const { return bodies_; }
+  const std::vector<Tool> &tools() const { return tools_; }
+  const std::vector<ContactPair> &pairs() const { return pairs_; }
+  const Capabilities &capabilities() const { return capabilities_; }
+
+  /// Builds the meshes of all bodies in one; see merge_bodies(). Then checks what needs a mesh: boundary ids, nodes on
+  /// symmetry planes, supports, initial penetration. Throws InputError. Serial.
+  void build_mesh(MeshDetail detail, dealii::Triangulation<3> &mesh) const;
+
+  /// What will be modelled, for --check; from the outlines of the meshes.
+  void describe(std::ostream &stream) const;
+
+private:
+  void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
+  void check_supports(const dealii::Triangulation<3> &mesh) const;
+  void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;
+
+  parameters::Scene parameters_;
+  std::vector<Body> bodies_;
+  std::vector<Tool> tools_;
+  std::vector<ContactPair> pairs_;
+  Capabilities capabilities_;
+};
+
+/// Whether the boundary face is part of the hold's boundaries or has all nodes in its plane. `tolerance` [length].
+bool holds_face(const Hold &hold, const dealii::Triangulation<3>::active_face_iterator &face, double tolerance);
+
+} // namespace billet
+
+#endif

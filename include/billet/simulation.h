@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SIMULATION_H
+#define BILLET_SIMULATION_H
+
+#include "billet/parameters/scene.h"
+
+#include <mpi.h>
+
+namespace billet {
+
+/// Runs a scene from start to end. Collective. Throws InputError before anything is written, SolutionFailure after
+/// everything that was computed is on disk.
+void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_NEWTON_H
+#define BILLET_SOLVE_NEWTON_H
+
+#include "billet/parameters/control.h"
+
+#include <string>
+#include <vector>
+
+class Epetra_Vector;
+
+namespace billet {
+
+/// R(x) = 0 with its tangent K = ∂R/∂x. All members are called, and answer, alike on all ranks; false means that the
+/// state is not admissible and the step has to be cut.
+class NonlinearProblem {
+public:
+  virtual ~NonlinearProblem() = default;
+  virtual bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) = 0;
+  virtual bool compute_tangent(const Epetra_Vector &x) = 0;
+  /// dx = K⁻¹ residual
+  virtual bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx) = 0;
+  /// What a residual is small against, at the last x [force].
+  virtual double force_scale() const = 0;
+  /// The residual of an exact solution, from round-off alone [force].
+  virtual double round_off_force() const = 0;
+};
+
+/// One Newton iteration: the residual it starts from and the correction it makes.
+struct NewtonIteration {
+  double force;       ///< |R| / force scale
+  double energy;      ///< |R · dx| of the full correction [energy]
+  double step_length; ///< part of the correction that the line search took
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::vector<NewtonIteration> iterations;
+  double force = 0.;   ///< |R| / force scale at the end
+  std::string failure; ///< why it did not converge
+};
+
+/// Newton's method by NOX. Starts from, and overwrites, `x`; `increment_norm` is |x − x_n| of the step, to make the
+/// energy tolerance relative, and is kept up by the caller's x_n.
+NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Epetra_Vector &x_n,
+                          Epetra_Vector &x);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_STEP_CONTROL_H
+#define BILLET_SOLVE_STEP_CONTROL_H
+
+#include "billet/parameters/control.h"
+
+namespace billet {
+
+/// Chooses the step: fixed, or by the iterations that the last one needed. Knows nothing of what is solved.
+class StepControl {
+public:
+  /// Steps also end at multiples of `interval`, unless it is 0.
+  StepControl(const parameters::TimeStepping &parameters, double interval);
+
+  double time() const { return time_; }
+  bool is_finished() const { return time_ >= parameters_.end_time; }
+
+  /// Length of the step to try next from time(); ends exactly at the end time and at output times.
+  double next_step() const;
+  /// End of that step; exact where it is the end time or an output time.
+  double next_time() const;
+
+  void accept(unsigned int n_iterations);
+
+  /// Cuts the step. False if that is not allowed: steps are fixed, or it would fall below the smallest one.
+  bool reject();
+
+  unsigned int n_steps() const { return n_steps_; }
+  unsigned int n_cuts() const { return n_cuts_; }
+
+private:
+  double target() const;
+
+  parameters::TimeStepping parameters_;
+  double interval_;
+  double time_ = 0.;
+  double step_;
+  unsigned int n_steps_ = 0, n_cuts_ = 0;
+};
+
+} // namespace billet
+
+#endif

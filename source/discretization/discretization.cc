@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/discretization/discretization.h"
+
+#include "billet/errors.h"
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria_description.h>
+
+namespace billet {
+
+namespace {
+
+/// First rank only: the whole mesh, cut by METIS into as many parts as there are ranks.
+void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::Triangulation<3> &mesh) {
+  scene.build_mesh(MeshDetail::full, mesh);
+  if (mesh.n_active_cells() < n_parts)
+    throw InputError(scene.parameters().file_name + ": found " + std::to_string(mesh.n_active_cells()) +
+                     " elements for " + std::to_string(n_parts) + " ranks, allowed is at least one for each rank");
+  dealii::GridTools::partition_triangulation(n_parts, mesh, dealii::SparsityTools::Partitioner::metis);
+}
+
+} // namespace
+
+Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
+    : communicator_(communicator), tria_(communicator), fe_(dealii::FE_Q<3>(1), 3) {
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+
+  dealii::Triangulation<3> whole; // on the first rank, until it is sent out
+  fail_together(communicator, [&] {
+    if (is_first)
+      build_partitioned(scene, n_ranks, whole);
+  });
+  std::array<double, 6> box{};
+  if (is_first) {
+    const auto corners = dealii::GridTools::compute_bounding_box(whole).get_boundary_points();
+    for (unsigned int i = 0; i < 3; ++i) {
+      box[i] = corners.first[i];
+      box[3 + i] = corners.second[i];
+    }
+  }
+  box = dealii::Utilities::MPI::broadcast(communicator, box, 0);
+  dealii::Tensor<1, 3> diagonal;
+  for (unsigned int i = 0; i < 3; ++i) {
+    centre_[i] = 0.5 * (box[i] + box[3 + i]);
+    diagonal[i] = 0.5 * (box[3 + i] - box[i]);
+  }
+  radius_ = diagonal.norm();
+
+  const auto description = dealii::TriangulationDescription::Utilities::
+      create_description_from_triangulation_in_groups<3, 3>(
+          [&whole](dealii::Triangulation<3> &mesh) { mesh.copy_triangulation(whole); },
+          [&whole](dealii::Triangulation<3> &mesh, const MPI_Comm &, const unsigned int) {
+            auto from = whole.begin_active();
+            for (const auto &cell : mesh.active_cell_iterators()) {
+              cell->set_subdomain_id(from->subdomain_id());
+              ++from;
+            }
+          },
+          communicator, static_cast<int>(n_ranks));
+  whole.clear();
+  tria_.create_triangulation(description);
+
+  dof_handler_.reinit(tria_);
+  dof_handler_.distribute_dofs(fe_);
+  owned_ = dof_handler_.locally_owned_dofs();
+  dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant_);
+
+  elements_.resize(scene.bodies().size());
+  for (const auto &cell : dof_handler_.active_cell_iterators())
+    if (cell->is_locally_owned()) {
+      Element element;
+      element.cell = cell;
+      for (unsigned int v = 0; v < n_element_nodes; ++v)
+        for (unsigned int i = 0; i < 3; ++i)
+          element.dofs[3 * v + i] = cell->vertex_dof_index(v, i);
+      elements_[cell->material_id()].push_back(element);
+    }
+}
+
+ElementVectors nodal_positions(const CellIterator &cell) {
+  ElementVectors positions{};
+  for (unsigned int v = 0; v < n_element_nodes; ++v)
+    for (unsigned int i = 0; i < 3; ++i)
+      positions[3 * v + i] = cell->vertex(v)[i];
+  return positions;
+}
+
+} // namespace billet

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/discretization/supports.h"
+
+#include "billet/compatibility.h"
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace billet {
+
+Supports::Supports(const Scene &scene, const Discretization &discretization) : discretization_(discretization) {
+  struct NodeHolds {
+    std::vector<const Hold *> holds;
+    std::array<DofIndex, 3> dofs;
+    dealii::Point<3> position;
+  };
+  // Ghost cells count too: every rank knows all faces around the nodes of its own cells.
+  std::map<DofIndex, NodeHolds> nodes;
+  const double tolerance = 1e-8 * discretization.radius();
+  for (const auto &cell : discretization.dof_handler().active_cell_iterators()) {
+    if (cell->is_artificial())
+      continue;
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary())
+        continue;
+      for (const auto &hold : scene.bodies()[cell->material_id()].holds) {
+        if (!holds_face(hold, cell->face(f), tolerance))
+          continue;
+        for (const unsigned int v : cell->face(f)->vertex_indices()) {
+          auto &node = nodes[cell->face(f)->vertex_dof_index(v, 0)];
+          for (unsigned int i = 0; i < 3; ++i)
+            node.dofs[i] = cell->face(f)->vertex_dof_index(v, i);
+          node.position = cell->face(f)->vertex(v);
+          if (std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
+            node.holds.push_back(&hold);
+        }
+      }
+    }
+  }
+  for (auto &entry : nodes) {
+    // The order of a node's planes must not depend on the rank.
+    std::sort(entry.second.holds.begin(), entry.second.holds.end());
+    eliminate(entry.second.holds, entry.second.dofs, entry.second.position);
+  }
+  homogeneous_ = make(false, 0.);
+}
+
+void Supports::eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
+                         const dealii::Point<3> &position) {
+  // Gauss-Jordan on the rows (n | weights of the values), the largest component as pivot.
+  struct Row {
+    dealii::Tensor<1, 3> n;
+    std::vector<double> weights;
+    int pivot = -1;
+  };
+  std::vector<Row> rows(holds.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    rows[r].n = holds[r]->normal;
+    rows[r].weights.assign(holds.size(), 0.);
+    rows[r].weights[r] = 1.;
+  }
+  for (auto &row : rows) {
+    for (unsigned int i = 0; i < 3; ++i)
+      if (row.pivot < 0 || std::abs(row.n[i]) > std::abs(row.n[static_cast<unsigned int>(row.pivot)]))
+        row.pivot = static_cast<int>(i);
+    const double pivot = row.n[static_cast<unsigned int>(row.pivot)];
+    if (std::abs(pivot) < 1e-10) { // unit normals: this one depends on those before
+      row.pivot = -1;
+      continue;
+    }
+    row.n /= pivot;
+    for (double &weight : row.weights)
+      weight /= pivot;
+    for (auto &other : rows)
+      if (&other != &row) {
+        const double factor = other.n[static_cast<unsigned int>(row.pivot)];
+        other.n -= factor * row.n;
+        for (std::size_t h = 0; h < holds.size(); ++h)
+          other.weights[h] -= factor * row.weights[h];
+      }
+  }
+  for (const auto &row : rows) {
+    std::vector<Term> terms;
+    for (std::size_t h = 0; h < holds.size(); ++h)
+      if (holds[h]->value != nullptr && std::abs(row.weights[h]) > 1e-14)
+        terms.push_back({holds[h], row.weights[h]});
+    if (row.pivot < 0) {
+      if (!terms.empty())
+        redundancies_.push_back({terms, position});
+      continue;
+    }
+    Line line;
+    line.dof = dofs[static_cast<unsigned int>(row.pivot)];
+    line.terms = terms;
+    line.position = position;
+    for (unsigned int i = 0; i < 3; ++i)
+      if (static_cast<int>(i) != row.pivot && std::abs(row.n[i]) > 1e-14)
+        line.others.emplace_back(dofs[i], -row.n[i]);
+    lines_.push_back(line);
+  }
+}
+
+Constraints Supports::make(const bool with_values, const double t) const {
+  Constraints constraints;
+  compatibility::reinit(constraints, discretization_.owned_dofs(), discretization_.relevant_dofs());
+  for (const auto &line : lines_) {
+    constraints.add_line(line.dof);
+    constraints.add_entries(line.dof, line.others);
+    if (with_values) {
+      double value = 0.;
+      for (const auto &term : line.terms)
+        value += term.weight * term.hold->value->value(t, line.position);
+      constraints.set_inhomogeneity(line.dof, value);
+    }
+  }
+  constraints.close();
+  return constraints;
+}
+
+Constraints Supports::at_time(const double t) const {
+  fail_together(discretization_.communicator(), [&] {
+    for (const auto &redundancy : redundancies_) {
+      double sum = 0.;
+      for (const auto &term : redundancy.terms)
+        sum += term.weight * term.hold->value->value(t, redundancy.position);
+      if (std::abs(sum) > 1e-8 * discretization_.radius()) {
+        std::ostringstream message;
+        message << "at time " << t << " the node at (" << redundancy.position << ") is held by";
+        for (const auto &term : redundancy.terms)
+          message << " '" << term.hold->name << "'";
+        message << ", and they contradict each other by " << std::abs(sum)
+                << ". Allowed are prescribed displacements that agree where their boundaries meet";
+        throw InputError(message.str());
+      }
+    }
+  });
+  return make(true, t);
+}
+
+DofIndex Supports::n_constrained() const {
+  DofIndex n = 0;
+  for (const auto &line : lines_)
+    if (discretization_.owned_dofs().is_element(line.dof))
+      ++n;
+  return dealii::Utilities::MPI::sum(n, discretization_.communicator());
+}
+
+} // namespace billet

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/forces/internal_forces.h"
+
+#include "billet/errors.h"
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <sstream>
+
+namespace billet {
+
+InternalForces::InternalForces(const Scene &scene, const Discretization &discretization)
+    : discretization_(discretization) {
+  fail_together(discretization.communicator(), [&] {
+    for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+      std::vector<ElementVectors> positions;
+      for (const auto &element : discretization.elements(b))
+        positions.push_back(nodal_positions(element.cell));
+      blocks_.push_back(make_element_block(scene.bodies()[b].material));
+      std::size_t offender = 0;
+      if (!blocks_.back()->initialize(positions, offender)) {
+        std::ostringstream message;
+        message << scene.parameters().bodies[b].origin << ": the element with its centre at ("
+                << discretization.elements(b)[offender].cell->center()
+                << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
+        throw InputError(message.str());
+      }
+    }
+  });
+}
+
+bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces) {
+  ElementVectors force{};
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const auto &elements = discretization_.elements(b);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, nullptr))
+        return false;
+      forces.add(n_element_dofs, elements[e].dofs.data(), force.data());
+    }
+  }
+  return true;
+}
+
+bool InternalForces::assemble_tangent(const Vector &displacements, const Constraints &constraints, Matrix &matrix) {
+  ElementVectors force{};
+  ElementMatrix tangent{};
+  dealii::FullMatrix<double> cell_matrix(n_element_dofs, n_element_dofs);
+  std::vector<DofIndex> dofs(n_element_dofs);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const auto &elements = discretization_.elements(b);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, &tangent))
+        return false;
+      std::copy(tangent.begin(), tangent.end(), &cell_matrix(0, 0));
+      dofs.assign(elements[e].dofs.begin(), elements[e].dofs.end());
+      constraints.distribute_local_to_global(cell_matrix, dofs, matrix);
+    }
+  }
+  return true;
+}
+
+void InternalForces::commit() {
+  for (auto &block : blocks_)
+    block->commit();
+}
+
+InternalForces::Energies InternalForces::compute_energies(const Vector &displacements) const {
+  std::array<double, 2> sums{};
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (const auto &summary : summarize(b, displacements)) {
+      sums[0] += summary.elastic_energy;
+      sums[1] += summary.plastic_work;
+    }
+  std::array<double, 2> totals{};
+  dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()), discretization_.communicator(),
+                              dealii::ArrayView<double>(totals.data(), totals.size()));
+  return {totals[0], totals[1]};
+}
+
+std::vector<ElementSummary> InternalForces::summarize(const std::size_t body, const Vector &displacements) const {
+  std::vector<ElementSummary> result;
+  const auto &elements = discretization_.elements(body);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    result.push_back(blocks_[body]->summarize(e, gather(displacements, elements[e].dofs)));
+  return result;
+}
+
+std::size_t InternalForces::history_size() const {
+  std::size_t size = 0;
+  for (const auto &block : blocks_)
+    size += block->size() * block->history_size();
+  return size;
+}
+
+} // namespace billet

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/errors.h"
+#include "billet/scene/scene.h"
+#include "billet/simulation.h"
+#include "billet/version.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+const char help[] =
+    R"(Usage: mpirun -n N billet SCENE.prm      run a scene on N processes
+       billet --check SCENE.prm         read and check a scene, say what will be modelled, run nothing
+       billet --print-parameters        every parameter with default, range, unit and meaning
+       billet --version | --help
+
+Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
+in the output folder); 4 internal error.
+)";
+
+enum class Task { run, check, print_parameters, version, help };
+
+struct CommandLine {
+  Task task = Task::help;
+  std::string scene;
+};
+
+CommandLine read_command_line(const std::vector<std::string> &arguments) {
+  CommandLine command;
+  for (const auto &argument : arguments) {
+    if (argument == "--help" || argument == "-h")
+      return {Task::help, ""};
+    if (argument == "--version")
+      return {Task::version, ""};
+    if (argument == "--print-parameters")
+      return {Task::print_parameters, ""};
+    if (argument == "--check")
+      command.task = Task::check;
+    else if (argument.front() == '-' || !command.scene.empty())
+      throw billet::InputError("command line: found '" + argument + "', allowed is what follows.\n" + help);
+    else
+      command.scene = argument;
+  }
+  if (command.scene.empty())
+    throw billet::InputError(std::string("command line: no scene file is named.\n") + help);
+  if (command.task != Task::check)
+    command.task = Task::run;
+  return command;
+}
+
+void perform(const CommandLine &command, const bool is_first) {
+  switch (command.task) {
+  case Task::help:
+    if (is_first)
+      std::cout << help;
+    return;
+  case Task::version:
+    if (is_first)
+      std::cout << "billet " << billet::version << " (" << billet::git_revision << "), deal.II "
+                << billet::dealii_version << "\n";
+    return;
+  case Task::print_parameters:
+    if (is_first)
+      billet::parameters::print_all_parameters(std::cout);
+    return;
+  case Task::check:
+  case Task::run:
+    break;
+  }
+  billet::parameters::Scene parameters;
+  billet::fail_together(MPI_COMM_WORLD, [&] { parameters = billet::parameters::Scene::read(command.scene); });
+  if (command.task == Task::run)
+    billet::run_simulation(parameters, MPI_COMM_WORLD);
+  else
+    billet::fail_together(MPI_COMM_WORLD, [&] {
+      const billet::Scene scene(parameters);
+      dealii::Triangulation<3> outline;
+      scene.build_mesh(billet::MeshDetail::outline, outline);
+      if (is_first)
+        scene.describe(std::cout);
+    });
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  using billet::ExitCode;
+  // One thread a rank: more would only start idle workers.
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  ExitCode code = ExitCode::success;
+  try {
+    perform(read_command_line(std::vector<std::string>(argv + 1, argv + argc)), is_first);
+  } catch (const billet::InputError &error) { // the same on all ranks, as is the next
+    if (is_first)
+      std::cerr << "billet: " << error.what() << std::endl;
+    code = ExitCode::bad_input;
+  } catch (const billet::SolutionFailure &error) {
+    if (is_first)
+      std::cerr << "billet: " << error.what() << std::endl;
+    code = ExitCode::failed_solution;
+  } catch (const std::exception &error) {
+    // Other ranks may be waiting for this one: end them all.
+    std::cerr << "billet: internal error: " << error.what() << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
+  }
+  return static_cast<int>(code);
+}

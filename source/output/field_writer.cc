@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/field_writer.h"
+
+#include "billet/errors.h"
+
+#include <deal.II/fe/mapping_q_eulerian.h>
+#include <deal.II/lac/vector.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace billet {
+
+using Format = parameters::Output::Format;
+
+namespace {
+
+/// Fields that are constant in an element: name and value of each.
+struct CellFields {
+  std::vector<std::string> names;
+  std::vector<dealii::Vector<double>> values;
+};
+
+CellFields collect_cell_fields(const Scene &scene, const Discretization &discretization, const QuasiStatic &problem) {
+  const bool stress = scene.parameters().output.stress;
+  const bool strain = scene.parameters().output.plastic_strain && scene.capabilities().plasticity;
+  CellFields fields;
+  if (stress)
+    fields.names = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz", "von_mises_stress",
+                    "pressure"};
+  if (strain)
+    fields.names.emplace_back("equivalent_plastic_strain");
+  fields.names.emplace_back("body");
+  const auto n_cells = discretization.dof_handler().get_triangulation().n_active_cells();
+  fields.values.assign(fields.names.size(), dealii::Vector<double>(n_cells));
+
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body) {
+    const auto &elements = discretization.elements(body);
+    std::vector<ElementSummary> summaries(elements.size());
+    if (stress || strain)
+      summaries = problem.internal_forces().summarize(body, problem.state().displacements);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      const auto cell = elements[e].cell->active_cell_index();
+      std::size_t next = 0;
+      const auto add = [&](const double value) { fields.values[next++](cell) = value; };
+      if (stress) {
+        const auto &sigma = summaries[e].cauchy_stress;
+        for (const auto &ij : {std::pair<int, int>{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
+          add(sigma[ij.first][ij.second]);
+        add(std::sqrt(1.5) * dealii::deviator(sigma).norm());
+        add(-dealii::trace(sigma) / 3.);
+      }
+      if (strain)
+        add(summaries[e].equivalent_plastic_strain);
+      add(static_cast<double>(body));
+    }
+  }
+  return fields;
+}
+
+/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap NaN and status −1.
+std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const QuasiStatic &problem) {
+  std::array<Vector, 3> owned;
+  for (auto &vector : owned)
+    vector = discretization.make_owned_vector();
+  Vector area_sums = discretization.make_additive_vector();
+  for (const auto i : discretization.owned_dofs()) {
+    const auto component = (i - *discretization.owned_dofs().begin()) % 3;
+    if (component == 1)
+      owned[0](i) = std::numeric_limits<double>::quiet_NaN();
+    if (component == 0 || component == 2)
+      owned[1](i) = -1.;
+  }
+  for (std::size_t p = 0; p < problem.contacts().size(); ++p)
+    for (const auto &node : problem.contacts()[p].report()) {
+      area_sums.add(1, &node.dofs[1], &node.area);
+      if (!discretization.owned_dofs().is_element(node.dofs[0]))
+        continue;
+      // Of several pairs at a node the one with the smallest gap is shown.
+      const double shown = owned[0](node.dofs[1]);
+      if (!std::isnan(shown) && shown <= node.gap)
+        continue;
+      owned[0](node.dofs[0]) = node.pressure;
+      owned[0](node.dofs[1]) = node.gap;
+      owned[0](node.dofs[2]) = node.slip;
+      owned[1](node.dofs[0]) = static_cast<double>(node.status);
+      owned[1](node.dofs[2]) = static_cast<double>(p);
+      for (unsigned int i = 0; i < 3; ++i)
+        owned[2](node.dofs[i]) = node.traction[i];
+    }
+  area_sums.compress(dealii::VectorOperation::add);
+  Vector area_owned = discretization.make_owned_vector();
+  area_owned = area_sums;
+  std::array<Vector, 3> ghosted;
+  for (unsigned int k = 0; k < 3; ++k) {
+    owned[k].compress(dealii::VectorOperation::insert);
+    if (k == 1)
+      owned[k] += area_owned;
+    ghosted[k] = discretization.make_ghosted_vector();
+    ghosted[k] = owned[k];
+  }
+  return ghosted;
+}
+
+std::string numbered(const std::string &name, const unsigned int number, const std::string &ending) {
+  std::ostringstream stream;
+  stream << name << "_" << std::setw(5) << std::setfill('0') << number << ending;
+  return stream.str();
+}
+
+} // namespace
+
+FieldWriter::FieldWriter(const Scene &scene, const Discretization &discretization, std::string folder)
+    : scene_(scene), discretization_(discretization), folder_(std::move(folder)),
+      is_first_rank_(dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) {}
+
+std::string FieldWriter::file_to_open() const {
+  switch (scene_.parameters().output.format) {
+  case Format::vtu:
+    return folder_ + "/scene.pvd";
+  case Format::hdf5:
+    return folder_ + "/fields.xdmf (and " + folder_ + "/tools.pvd)";
+  case Format::none:
+    break;
+  }
+  return "";
+}
+
+void FieldWriter::write(const QuasiStatic &problem) {
+  const Format format = scene_.parameters().output.format;
+  if (format == Format::none)
+    return;
+  const SolutionState &state = problem.state();
+  const MPI_Comm communicator = discretization_.communicator();
+
+  // The pictures show the deformed bodies.
+  const dealii::MappingQEulerian<3, Vector> mapping(1, discretization_.dof_handler(), state.displacements);
+  dealii::DataOut<3> data_out;
+  using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+  const std::vector<Interpretation> as_vector(3, dealii::DataComponentInterpretation::component_is_part_of_vector);
+  const std::vector<Interpretation> as_scalars(3, dealii::DataComponentInterpretation::component_is_scalar);
+  data_out.add_data_vector(discretization_.dof_handler(), state.displacements,
+                           std::vector<std::string>(3, "displacement"), as_vector);
+  const CellFields cell_fields = collect_cell_fields(scene_, discretization_, problem);
+  for (std::size_t i = 0; i < cell_fields.names.size(); ++i)
+    data_out.add_data_vector(cell_fields.values[i], cell_fields.names[i], dealii::DataOut<3>::type_cell_data);
+  std::array<Vector, 3> contact_fields;
+  if (scene_.parameters().output.contact && scene_.capabilities().contact) {
+    contact_fields = collect_contact_fields(discretization_, problem);
+    data_out.add_data_vector(discretization_.dof_handler(), contact_fields[0],
+                             {"contact_pressure", "contact_gap", "contact_slip"}, as_scalars);
+    data_out.add_data_vector(discretization_.dof_handler(), contact_fields[1],
+                             {"contact_status", "contact_area", "contact_pair"}, as_scalars);
+    data_out.add_data_vector(discretization_.dof_handler(), contact_fields[2],
+                             std::vector<std::string>(3, "contact_traction"), as_vector);
+  }
+  data_out.build_patches(mapping);
+
+  Snapshot snapshot;
+  snapshot.time = state.time;
+  snapshot.tools = numbered("tools", n_written_, ".vtp");
+  if (format == Format::vtu) {
+    data_out.write_vtu_with_pvtu_record(folder_ + "/", "fields", n_written_, communicator, 5, 1);
+    snapshot.fields = numbered("fields", n_written_, ".pvtu");
+  } else {
+    // Vertices are not merged: cell data would be smeared over body interfaces.
+    dealii::DataOutBase::DataOutFilter filter(dealii::DataOutBase::DataOutFilterFlags(false, true));
+    data_out.write_filtered_data(filter);
+    const std::string name = numbered("fields", n_written_, ".h5");
+    data_out.write_hdf5_parallel(filter, folder_ + "/" + name, communicator);
+    xdmf_entries_.push_back(data_out.create_xdmf_entry(filter, name, state.time, communicator));
+    data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator);
+  }
+  snapshots_.push_back(snapshot);
+  ++n_written_;
+  fail_together(communicator, [&] {
+    if (is_first_rank_) {
+      write_tools(state, snapshot.tools);
+      write_index();
+    }
+  });
+}
+
+void FieldWriter::write_tools(const SolutionState &state, const std::string &name) const {
+  std::vector<dealii::Tensor<1, 3>> points;
+  std::vector<std::vector<std::size_t>> facets;
+  std::vector<std::size_t> tool_of_facet;
+  for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
+    const SurfacePicture picture = scene_.tools()[t].surface().picture(
+        state.placements[t].to_tool(discretization_.centre()), 1.5 * discretization_.radius());
+    for (const auto &facet : picture.facets) {
+      facets.emplace_back();
+      for (const unsigned int point : facet)
+        facets.back().push_back(points.size() + point);
+      tool_of_facet.push_back(t);
+    }
+    for (const auto &point : picture.points)
+      points.push_back(state.placements[t].to_space(point));
+  }
+  std::ofstream out(folder_ + "/" + name);
+  out << std::setprecision(9);
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+      << "<Piece NumberOfPoints=\"" << points.size() << "\" NumberOfPolys=\"" << facets.size() << "\">\n"
+      << "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
+  for (const auto &point : points)
+    out << point << "\n";
+  out << "</DataArray></Points>\n<Polys>\n<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n";
+  for (const auto &facet : facets) {
+    for (const auto point : facet)
+      out << point << " ";
+    out << "\n";
+  }
+  out << "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n";
+  std::size_t offset = 0;
+  for (const auto &facet : facets)
+    out << (offset += facet.size()) << " ";
+  out << "\n</DataArray>\n</Polys>\n<CellData Scalars=\"tool\">\n<DataArray type=\"Int32\" Name=\"tool\" format=\"ascii\">\n";
+  for (const auto tool : tool_of_facet)
+    out << tool << " ";
+  out << "\n</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+  out.close();
+  if (!out)
+    throw std::runtime_error(folder_ + "/" + name + " cannot be written");
+}
+
+void FieldWriter::write_index() const {
+  const bool with_fields = scene_.parameters().output.format == Format::vtu;
+  const std::string name = folder_ + (with_fields ? "/scene.pvd" : "/tools.pvd");
+  std::ofstream out(name);
+  out << std::setprecision(12) << "<?xml version=\"1.0\"?>\n"
+      << "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const auto &snapshot : snapshots_) {
+    if (with_fields)
+      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"0\" name=\"bodies\" file=\"" << snapshot.fields
+          << "\"/>\n";
+    if (!scene_.tools().empty())
+      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"1\" name=\"tools\" file=\"" << snapshot.tools
+          << "\"/>\n";
+  }
+  out << "</Collection>\n</VTKFile>\n";
+  out.close();
+  if (!out)
+    throw std::runtime_error(name + " cannot be written");
+}
+
+} // namespace billet

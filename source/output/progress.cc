@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/progress.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace billet {
+
+using Verbosity = parameters::Output::Verbosity;
+
+namespace {
+
+std::string format_duration(const double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  std::ostringstream stream;
+  stream << std::setfill('0');
+  if (whole >= 3600)
+    stream << whole / 3600 << ":" << std::setw(2);
+  stream << whole / 60 % 60 << ":" << std::setw(2) << whole % 60;
+  return stream.str();
+}
+
+} // namespace
+
+Progress::Progress(const Scene &scene, std::ostream &stream, const bool is_terminal)
+    : scene_(scene), stream_(stream), is_terminal_(is_terminal),
+      verbosity_(scene.parameters().output.verbosity) {}
+
+double Progress::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Progress::start(const Discretization &discretization, const QuasiStatic &problem, const std::size_t n_dofs) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  const auto histories = problem.history_sizes();
+  if (!scene_.parameters().title.empty())
+    stream_ << scene_.parameters().title << "\n";
+  stream_ << discretization.n_global_elements() << " elements, " << n_dofs << " dofs, "
+          << dealii::Utilities::MPI::n_mpi_processes(discretization.communicator()) << " ranks, "
+          << problem.linear_solver_name() << ", history " << histories[0] << " + " << histories[1]
+          << " doubles (elements + contact)\n";
+}
+
+void Progress::accept(const StepReport &report, const SolutionState &state) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  erase_bar();
+  if (verbosity_ == Verbosity::iterations)
+    show_iterations(report.newton);
+  if (n_lines_++ % 40 == 0) {
+    stream_ << "  step        time        step iter   residual";
+    for (const auto &tool : scene_.tools())
+      stream_ << std::setw(14) << ("|F| " + tool.name()).substr(0, 13);
+    stream_ << "   plastic work\n";
+  }
+  stream_ << std::setw(6) << report.step << std::setw(12) << std::setprecision(6) << state.time << std::setw(12)
+          << std::setprecision(4) << report.length << std::setw(5) << report.newton.iterations.size() << std::setw(11)
+          << std::setprecision(2) << report.newton.force << std::setprecision(7);
+  for (const auto &load : state.tool_loads)
+    stream_ << std::setw(14) << load.force.norm();
+  stream_ << std::setw(15) << state.energies.plastic << "\n";
+  show_bar(state.time);
+  stream_ << std::flush;
+}
+
+void Progress::reject(const StepReport &report, const double from, const double to) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  erase_bar();
+  if (verbosity_ == Verbosity::iterations)
+    show_iterations(report.newton);
+  stream_ << "       step from " << std::setprecision(6) << from << " to " << to << " failed ("
+          << report.newton.failure << ", residual " << std::setprecision(2) << report.newton.force << ")"
+          << std::endl;
+}
+
+void Progress::show_iterations(const NewtonReport &newton) {
+  unsigned int n = 0;
+  for (const auto &iteration : newton.iterations)
+    stream_ << "         iteration " << std::setw(2) << ++n << "  force " << std::scientific << std::setprecision(3)
+            << iteration.force << "  energy " << iteration.energy << std::defaultfloat << "  step length "
+            << std::setprecision(3) << iteration.step_length << "\n";
+}
+
+void Progress::show_bar(const double time) {
+  if (!is_terminal_)
+    return;
+  const double part = std::min(1., time / scene_.parameters().time_stepping.end_time);
+  constexpr int width = 40;
+  const int filled = static_cast<int>(part * width);
+  stream_ << "[" << std::string(static_cast<std::size_t>(filled), '=')
+          << std::string(static_cast<std::size_t>(width - filled), ' ') << "] " << static_cast<int>(100. * part)
+          << " %  " << format_duration(elapsed());
+  if (part > 0. && part < 1.)
+    stream_ << ", about " << format_duration(elapsed() * (1. - part) / part) << " to go";
+  has_bar_ = true;
+}
+
+void Progress::erase_bar() {
+  if (has_bar_)
+    stream_ << "\r\033[K";
+  has_bar_ = false;
+}
+
+void Progress::finish(const std::string &file_to_open) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  erase_bar();
+  stream_ << "Done in " << format_duration(elapsed()) << ".";
+  if (!file_to_open.empty())
+    stream_ << " Open in ParaView: " << file_to_open;
+  stream_ << std::endl;
+}
+
+} // namespace billet

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/parameters/body.h"
+
+#include "billet/errors.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <fstream>
+
+namespace billet::parameters {
+
+using dealii::ParameterHandler;
+namespace Patterns = dealii::Patterns;
+
+void Mesh::declare(ParameterHandler &prm) {
+  prm.declare_entry("Source", "primitive", Patterns::Selection("primitive|extruded primitive|file"),
+                    "A three-dimensional function of deal.II's GridGenerator, a two-dimensional one extruded along z, "
+                    "or a mesh file.");
+  prm.declare_entry("Primitive", "hyper_rectangle", Patterns::Anything(),
+                    "Name of the GridGenerator function, such as hyper_rectangle, subdivided_hyper_rectangle, cylinder; "
+                    "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell.");
+  prm.declare_entry("Arguments", "0, 0, 0 : 1, 1, 1", Patterns::Anything(),
+                    "Arguments of that function, separated by ':' (points and lists inside by ','). All arguments without a "
+                    "default have to be given.");
+  prm.declare_entry("Refinements", "0", Patterns::Integer(0),
+                    "Uniform refinements of the primitive (of the section, where it is extruded) or of the mesh read.");
+  prm.declare_entry("Section area", "0", Patterns::Double(),
+                    "Extruded primitives: scale the section about its origin until its area is this, so that a polygon "
+                    "stands for a circle without losing volume. 0: as generated. [length^2]");
+  prm.declare_entry("Height", "1", Patterns::Double(), "Extruded primitives: extent along z, from z = 0. [length]");
+  prm.declare_entry("Layers", "1", Patterns::Integer(0), "Extruded primitives: layers of elements along z.");
+  prm.declare_entry("File", "", Patterns::Anything(),
+                    "Mesh file (Gmsh .msh, .vtk, UCD .inp or .ucd, deal.II's .vtu) of hexahedra, relative to the scene "
+                    "file. Boundary ids are the file's.");
+  prm.declare_entry("Scale", "1", Patterns::Double(), "Multiplies all positions of the mesh, before it is turned and moved.");
+  prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(), "Axis through the origin about which the mesh is turned.");
+  prm.declare_entry("Rotation angle", "0", Patterns::Double(), "Angle by which the mesh is turned. [degrees]");
+  prm.declare_entry("Translation", "0, 0, 0", Patterns::Anything(), "Moves the mesh after it was turned. [length]");
+  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
+                    "Renames boundary faces: 'id : condition ; id : condition ...', each condition a muParser expression "
+                    "of the face's centre x, y, z in the final position, such as '7 : abs(z - 15) < 1e-6'. The last condition "
+                    "that holds wins; faces without one keep their id.");
+}
+
+void Mesh::parse(Reader &reader) {
+  const std::string chosen = reader.text("Source");
+  source = chosen == "primitive" ? Source::primitive : chosen == "file" ? Source::file : Source::extruded;
+  primitive = reader.located("Primitive", reader.text("Primitive"));
+  arguments = reader.text("Arguments");
+  refinements = reader.count("Refinements");
+  section_area = reader.located("Section area", reader.not_negative("Section area"));
+  height = reader.positive("Height");
+  n_layers = reader.count("Layers", 1);
+  file_name = reader.located("File", reader.text("File"));
+  scale = reader.positive("Scale");
+  rotation_axis = reader.direction("Rotation axis");
+  rotation_angle = reader.number("Rotation angle") * dealii::numbers::PI / 180.;
+  translation = reader.vector("Translation");
+  boundary_ids = reader.located("Boundary ids", std::vector<std::pair<unsigned int, std::string>>());
+  for (const auto &part : reader.parts("Boundary ids")) {
+    const auto colon = part.find(':');
+    if (colon == std::string::npos || part.find_first_not_of("0123456789 ") < colon || colon == 0)
+      reader.reject("Boundary ids", "'id : condition', separated by semicolons");
+    boundary_ids.value.emplace_back(dealii::Utilities::string_to_int(dealii::Utilities::trim(part.substr(0, colon))),
+                                    dealii::Utilities::trim(part.substr(colon + 1)));
+  }
+  const bool is_extruded = source == Source::extruded;
+  for (const std::string key : {"Section area", "Height", "Layers"})
+    if (reader.is_set(key) && !is_extruded)
+      reader.reject(key, "no value: it only makes sense with 'Source = extruded primitive'");
+  for (const std::string key : {"Primitive", "Arguments"})
+    if (reader.is_set(key) && source == Source::file)
+      reader.reject(key, "no value: the mesh comes from a file");
+  if (source == Source::file) {
+    if (file_name.value.empty())
+      reader.reject("File", "the name of a mesh file, since 'Source = file'");
+    if (file_name.value.front() != '/')
+      file_name.value = reader.file().folder() + file_name.value;
+    if (!std::ifstream(file_name.value))
+      reader.reject("File", "a file that can be read ('" + file_name.value + "' cannot)");
+  } else if (reader.is_set("File"))
+    reader.reject("File", "no value: the mesh does not come from a file");
+}
+
+void Material::declare(ParameterHandler &prm) {
+  prm.declare_entry("Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
+                    "Hencky's elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
+  prm.declare_entry("Young modulus", "0", Patterns::Double(), "E > 0. [stress]");
+  prm.declare_entry("Poisson ratio", "0.3", Patterns::Double(), "-1 < nu < 0.5.");
+  prm.declare_entry("Hardening", "linear", Patterns::Selection("linear|Voce|power law|table"),
+                    "Yield stress over equivalent plastic strain e: linear: Sy + H e; Voce: Sy + (Ss - Sy)(1 - exp(-d e)) + H e; "
+                    "power law: K (e0 + e)^n; table: straight lines through points.");
+  prm.declare_entry("Yield stress", "0", Patterns::Double(), "Sy > 0; linear and Voce hardening. [stress]");
+  prm.declare_entry("Hardening modulus", "0", Patterns::Double(), "H >= 0; linear and Voce hardening. [stress]");
+  prm.declare_entry("Saturation stress", "0", Patterns::Double(), "Ss >= Sy; Voce hardening. [stress]");
+  prm.declare_entry("Saturation rate", "0", Patterns::Double(), "d > 0; Voce hardening.");
+  prm.declare_entry("Strength coefficient", "0", Patterns::Double(), "K > 0; power law. [stress]");
+  prm.declare_entry("Prestrain", "0", Patterns::Double(), "e0 > 0; power law.");
+  prm.declare_entry("Hardening exponent", "0", Patterns::Double(), "0 <= n <= 1; power law.");
+  prm.declare_entry("Table", "", Patterns::Anything(),
+                    "'strain : stress, strain : stress, ...': plastic strains from 0, strictly increasing; yield stresses > 0, "
+                    "not decreasing; constant beyond the last point. [- : stress]");
+}
+
+void Material::parse(Reader &reader) {
+  law = reader.text("Law") == "elastic" ? Law::elastic : Law::elastoplastic;
+  young_modulus = reader.positive("Young modulus");
+  poisson_ratio = reader.number("Poisson ratio");
+  if (!(poisson_ratio > -1. && poisson_ratio < 0.5))
+    reader.reject("Poisson ratio", "a number > -1 and < 0.5");
+
+  const std::string chosen = reader.text("Hardening");
+  hardening = chosen == "linear" ? Hardening::linear
+              : chosen == "Voce" ? Hardening::voce
+              : chosen == "table" ? Hardening::table
+                                  : Hardening::power_law;
+  // What the chosen law does not use may not be set: a forgotten switch is the usual reason.
+  std::vector<std::string> used;
+  if (law == Law::elastoplastic)
+    switch (hardening) {
+    case Hardening::linear:
+      used = {"Hardening", "Yield stress", "Hardening modulus"};
+      break;
+    case Hardening::voce:
+      used = {"Hardening", "Yield stress", "Hardening modulus", "Saturation stress", "Saturation rate"};
+      break;
+    case Hardening::power_law:
+      used = {"Hardening", "Strength coefficient", "Prestrain", "Hardening exponent"};
+      break;
+    case Hardening::table:
+      used = {"Hardening", "Table"};
+      break;
+    }
+  for (const std::string key : {"Hardening", "Yield stress", "Hardening modulus", "Saturation stress",
+                                "Saturation rate", "Strength coefficient", "Prestrain", "Hardening exponent", "Table"})
+    if (reader.is_set(key) && std::find(used.begin(), used.end(), key) == used.end())
+      reader.reject(key, law == Law::elastic ? "no value: the law is elastic"
+                                             : "no value: '" + chosen + "' hardening does not use it");
+  if (law == Law::elastic)
+    return;
+
+  switch (hardening) {
+  case Hardening::linear:
+    yield_stress = reader.positive("Yield stress");
+    hardening_modulus = reader.not_negative("Hardening modulus");
+    break;
+  case Hardening::voce:
+    yield_stress = reader.positive("Yield stress");
+    hardening_modulus = reader.not_negative("Hardening modulus");
+    saturation_stress = reader.positive("Saturation stress");
+    if (saturation_stress < yield_stress)
+      reader.reject("Saturation stress", "a number not below the yield stress");
+    saturation_rate = reader.positive("Saturation rate");
+    break;
+  case Hardening::power_law:
+    strength = reader.positive("Strength coefficient");
+    prestrain = reader.positive("Prestrain");
+    exponent = reader.not_negative("Hardening exponent");
+    if (exponent > 1.)
+      reader.reject("Hardening exponent", "a number from 0 to 1");
+    break;
+  case Hardening::table:
+    for (const auto &part : reader.parts("Table", ',')) {
+      const auto pair = dealii::Utilities::split_string_list(part, ':');
+      try {
+        if (pair.size() != 2)
+          throw std::invalid_argument("pair");
+        table_strains.push_back(dealii::Utilities::string_to_double(pair[0]));
+        table_stresses.push_back(dealii::Utilities::string_to_double(pair[1]));
+      } catch (const std::exception &) {
+        reader.reject("Table", "'strain : stress' pairs, separated by commas");
+      }
+      const std::size_t n = table_strains.size();
+      if (n == 1 && table_strains[0] != 0.)
+        reader.reject("Table", "a curve that starts at plastic strain 0");
+      if (!(table_stresses.back() > 0.))
+        reader.reject("Table", "yield stresses > 0");
+      if (n > 1 && !(table_strains[n - 1] > table_strains[n - 2]))
+        reader.reject("Table", "a monotonic curve: plastic strain " + pair[0] + " does not increase on the one before");
+      if (n > 1 && !(table_stresses[n - 1] >= table_stresses[n - 2]))
+        reader.reject("Table", "a monotonic curve: stress " + pair[1] + " falls below the one before");
+    }
+    if (table_strains.empty())
+      reader.reject("Table", "at least one 'strain : stress' pair");
+    break;
+  }
+}
+
+void Support::declare(ParameterHandler &prm) {
+  prm.declare_entry("Boundary ids", "", Patterns::Anything(), "Boundary ids whose nodes are held, separated by commas.");
+  prm.declare_entry("Components", "x, y, z", Patterns::Anything(), "Which displacement components are prescribed.");
+  prm.declare_entry("Displacement", "0 ; 0 ; 0", Patterns::Anything(),
+                    "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position "
+                    "x, y, z, the time t and the names of amplitudes. Components that are not held are ignored. [length]");
+}
+
+void Support::parse(Reader &reader) {
+  boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
+  if (boundary_ids.value.empty())
+    reader.reject("Boundary ids", "at least one boundary id");
+  for (const auto &component : reader.parts("Components", ',')) {
+    if (component.size() != 1 || component[0] < 'x' || component[0] > 'z')
+      reader.reject("Components", "a list of x, y and z");
+    components[static_cast<std::size_t>(component[0] - 'x')] = true;
+  }
+  if (!components[0] && !components[1] && !components[2])
+    reader.reject("Components", "at least one of x, y and z");
+  const auto expressions = reader.parts("Displacement");
+  if (expressions.size() != 3)
+    reader.reject("Displacement", "three expressions, separated by semicolons");
+  displacement = reader.located("Displacement", std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
+}
+
+void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names) {
+  prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
+                    "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or with a normal and "
+                    "the distance along it, '1, 1, 0 = 3.5'. [length]");
+  prm.enter_subsection("Mesh");
+  Mesh::declare(prm);
+  prm.leave_subsection();
+  prm.enter_subsection("Material");
+  Material::declare(prm);
+  prm.leave_subsection();
+  prm.enter_subsection("Supports");
+  for (const auto &name : support_names) {
+    prm.enter_subsection(name);
+    Support::declare(prm);
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+}
+
+namespace {
+
+SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
+  const std::string allowed = "'x = 0', or 'nx, ny, nz = distance', separated by semicolons";
+  const auto equals = text.find('=');
+  if (equals == std::string::npos)
+    reader.reject("Symmetry planes", allowed);
+  SymmetryPlane plane;
+  plane.text = text;
+  try {
+    const std::string left = dealii::Utilities::trim(text.substr(0, equals));
+    plane.offset = dealii::Utilities::string_to_double(dealii::Utilities::trim(text.substr(equals + 1)));
+    if (left == "x" || left == "y" || left == "z")
+      plane.normal[static_cast<unsigned int>(left[0] - 'x')] = 1.;
+    else {
+      const auto components = dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(left, ','));
+      if (components.size() != 3)
+        throw std::invalid_argument("components");
+      for (unsigned int i = 0; i < 3; ++i)
+        plane.normal[i] = components[i];
+    }
+  } catch (const std::exception &) {
+    reader.reject("Symmetry planes", allowed);
+  }
+  const double length = plane.normal.norm();
+  if (!(length > 0.))
+    reader.reject("Symmetry planes", "normals that are not zero");
+  plane.normal /= length;
+  return plane;
+}
+
+} // namespace
+
+void Body::parse(Reader &reader) {
+  origin = reader.origin();
+  reader.in("Mesh", [&] { mesh.parse(reader); });
+  reader.in("Material", [&] { material.parse(reader); });
+  reader.in("Supports", [&] {
+    for (const auto &support_name : reader.names())
+      reader.in(support_name, [&] {
+        supports.emplace_back();
+        supports.back().name = support_name;
+        supports.back().parse(reader);
+      });
+  });
+  symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
+  for (const auto &part : reader.parts("Symmetry planes"))
+    symmetry_planes.value.push_back(parse_plane(reader, part));
+}
+
+} // namespace billet::parameters

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/parameters/control.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+namespace billet::parameters {
+
+using dealii::ParameterHandler;
+namespace Patterns = dealii::Patterns;
+
+void Amplitude::declare(ParameterHandler &prm) {
+  prm.declare_entry("Times", "0, 1", Patterns::Anything(), "Strictly increasing; constant before the first and after the last. [time]");
+  prm.declare_entry("Values", "0, 1", Patterns::Anything(), "As many as there are times. [any]");
+  prm.declare_entry("Interpolation", "linear", Patterns::Selection("linear|smooth"),
+                    "Between the times: straight lines, or quintic steps with vanishing first and second derivative at "
+                    "each time.");
+}
+
+void Amplitude::parse(Reader &reader) {
+  times = reader.numbers("Times");
+  values = reader.numbers("Values");
+  if (times.empty())
+    reader.reject("Times", "at least one number");
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (!(times[i] > times[i - 1]))
+      reader.reject("Times", "strictly increasing numbers");
+  if (values.size() != times.size())
+    reader.reject("Values", "as many numbers as there are times (" + std::to_string(times.size()) + ")");
+  interpolation = reader.text("Interpolation") == "linear" ? Interpolation::linear : Interpolation::smooth;
+}
+
+void TimeStepping::declare(ParameterHandler &prm) {
+  prm.declare_entry("End time", "1", Patterns::Double(), "The scene runs from time 0 to here. [time]");
+  prm.declare_entry("Step control", "automatic", Patterns::Selection("automatic|fixed"),
+                    "automatic: the step follows the iterations that the last one needed, and a failed step is cut and "
+                    "tried again; fixed: equal steps, a failed one ends the run.");
+  prm.declare_entry("Initial step", "0.01", Patterns::Double(), "First step; every step where they are fixed. [time]");
+  prm.declare_entry("Smallest step", "1e-6", Patterns::Double(), "The run ends when a step would have to be cut below this. [time]");
+  prm.declare_entry("Largest step", "0.1", Patterns::Double(), "[time]");
+  prm.declare_entry("Few iterations", "5", Patterns::Integer(0), "The step grows after at most so many iterations.");
+  prm.declare_entry("Many iterations", "9", Patterns::Integer(0), "The step shrinks after at least so many iterations.");
+  prm.declare_entry("Growth factor", "1.5", Patterns::Double(), "At least 1.");
+  prm.declare_entry("Shrink factor", "0.7", Patterns::Double(), "Between 0 and 1.");
+  prm.declare_entry("Cut factor", "0.5", Patterns::Double(), "A failed step is tried again at this part of it; between 0 and 1.");
+}
+
+void TimeStepping::parse(Reader &reader) {
+  end_time = reader.positive("End time");
+  control = reader.text("Step control") == "automatic" ? Control::automatic : Control::fixed;
+  initial_step = reader.positive("Initial step");
+  if (initial_step > end_time)
+    reader.reject("Initial step", "a number not above the end time");
+  if (control == Control::fixed)
+    for (const std::string key : {"Smallest step", "Largest step", "Few iterations", "Many iterations", "Growth factor",
+                                  "Shrink factor", "Cut factor"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value: steps are fixed");
+  smallest_step = reader.positive("Smallest step");
+  largest_step = reader.positive("Largest step");
+  if (control == Control::automatic) {
+    if (smallest_step > initial_step)
+      reader.reject("Smallest step", "a number not above the initial step");
+    if (largest_step < initial_step)
+      reader.reject("Largest step", "a number not below the initial step");
+  }
+  few_iterations = reader.count("Few iterations");
+  many_iterations = reader.count("Many iterations");
+  if (many_iterations <= few_iterations)
+    reader.reject("Many iterations", "a number above 'Few iterations'");
+  growth_factor = reader.positive("Growth factor");
+  if (growth_factor < 1.)
+    reader.reject("Growth factor", "a number >= 1");
+  shrink_factor = reader.positive("Shrink factor");
+  if (shrink_factor > 1.)
+    reader.reject("Shrink factor", "a number > 0 and <= 1");
+  cut_factor = reader.positive("Cut factor");
+  if (cut_factor >= 1.)
+    reader.reject("Cut factor", "a number > 0 and < 1");
+}
+
+namespace {
+
+const std::vector<std::pair<std::string, ContactTangent>> tangent_names = {
+    {"exact", ContactTangent::exact},
+    {"consistent", ContactTangent::consistent},
+    {"continuum", ContactTangent::continuum},
+    {"symmetrised upper", ContactTangent::symmetrised_upper},
+    {"symmetrised lower", ContactTangent::symmetrised_lower},
+    {"symmetrised mean", ContactTangent::symmetrised_mean}};
+
+template <class T> std::string selection(const std::vector<std::pair<std::string, T>> &names) {
+  std::string result;
+  for (const auto &entry : names)
+    result += (result.empty() ? "" : "|") + entry.first;
+  return result;
+}
+
+template <class T> T chosen(const std::vector<std::pair<std::string, T>> &names, const std::string &name) {
+  for (const auto &entry : names)
+    if (entry.first == name)
+      return entry.second;
+  throw std::logic_error("selection not in its own list: " + name);
+}
+
+const std::vector<std::pair<std::string, Solver::LinearSolver>> linear_solver_names = {
+    {"automatic", Solver::LinearSolver::automatic},
+    {"MUMPS symmetric", Solver::LinearSolver::mumps_symmetric},
+    {"MUMPS", Solver::LinearSolver::mumps},
+    {"KLU", Solver::LinearSolver::klu}};
+
+} // namespace
+
+void Solver::declare(ParameterHandler &prm) {
+  prm.declare_entry("Contact tangent", "exact", Patterns::Selection(selection(tangent_names)),
+                    "exact: the full derivative of the contact forces, change of area included; consistent, continuum: Bittencourt & "
+                    "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower triangle or the mean of "
+                    "the consistent one in the contact frame, meant for mu <= 0.1.");
+  prm.declare_entry("Force tolerance", "1e-6", Patterns::Double(),
+                    "Newton ends when the residual is below this part of the forces in the scene.");
+  prm.declare_entry("Energy tolerance", "1e-10", Patterns::Double(),
+                    "... and the work of the residual in the last correction is below this part of the forces' work in the step.");
+  prm.declare_entry("Most iterations", "20", Patterns::Integer(0), "A step that needs more has failed.");
+  prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
+                    "energy: shorten a correction while the residual's work along it grows; in any case a correction that turns an element "
+                    "inside out is shortened.");
+  prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("none|extrapolation"),
+                    "Where a step's iterations start: the last state, or the last increment continued.");
+  prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
+                    "Direct solvers. automatic: MUMPS, its symmetric form where the matrix is symmetric; KLU runs on one rank at a time and is slow.");
+}
+
+void Solver::parse(Reader &reader) {
+  contact_tangent = chosen(tangent_names, reader.text("Contact tangent"));
+  force_tolerance = reader.positive("Force tolerance");
+  if (force_tolerance >= 1.)
+    reader.reject("Force tolerance", "a number > 0 and < 1");
+  energy_tolerance = reader.positive("Energy tolerance");
+  most_iterations = reader.count("Most iterations", 1);
+  line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
+  predictor = reader.text("Predictor") == "none" ? Predictor::none : Predictor::extrapolation;
+  linear_solver = chosen(linear_solver_names, reader.text("Linear solver"));
+}
+
+void Output::declare(ParameterHandler &prm) {
+  prm.declare_entry("Folder", "results", Patterns::Anything(), "Made if it is not there; relative to where the program is started.");
+  prm.declare_entry("Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
+                    "Fields for ParaView: VTU and PVD; HDF5 and XDMF, one file a time on any number of ranks; or none.");
+  prm.declare_entry("Every steps", "1", Patterns::Integer(0), "Fields are written every so many steps, at the start and at the end. 0: "
+                                                             "only there, or by the interval.");
+  prm.declare_entry("Interval", "0", Patterns::Double(), "If not 0, steps end at multiples of this time, and fields are written there instead. [time]");
+  prm.declare_entry("Stress", "true", Patterns::Bool(), "Write Cauchy stress, von Mises stress and pressure.");
+  prm.declare_entry("Plastic strain", "true", Patterns::Bool(), "Write the equivalent plastic strain, if a body is plastic.");
+  prm.declare_entry("Contact", "true", Patterns::Bool(), "Write contact pressure, traction, gap, slip and status, if there is contact.");
+  prm.declare_entry("Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"), "What the console shows.");
+}
+
+void Output::parse(Reader &reader) {
+  folder = reader.located("Folder", reader.text("Folder"));
+  if (folder.value.empty())
+    reader.reject("Folder", "the name of a folder");
+  const std::string chosen_format = reader.text("Format");
+  format = chosen_format == "vtu" ? Format::vtu : chosen_format == "hdf5" ? Format::hdf5 : Format::none;
+  every_steps = reader.count("Every steps");
+  interval = reader.not_negative("Interval");
+  stress = reader.flag("Stress");
+  plastic_strain = reader.flag("Plastic strain");
+  contact = reader.flag("Contact");
+  const std::string chosen_verbosity = reader.text("Verbosity");
+  verbosity = chosen_verbosity == "quiet"   ? Verbosity::quiet
+              : chosen_verbosity == "steps" ? Verbosity::steps
+                                            : Verbosity::iterations;
+}
+
+} // namespace billet::parameters

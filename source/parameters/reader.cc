@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/parameters/reader.h"
+
+#include "billet/errors.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+
+namespace billet {
+
+void Reader::enter(const std::string &name) {
+  prm_.enter_subsection(name);
+  path_.push_back(name);
+}
+
+void Reader::leave() {
+  prm_.leave_subsection();
+  path_.pop_back();
+}
+
+std::string Reader::origin(const std::string &key) const {
+  return file_.where(path_, key) + ": '" + key + "'" + (path_.empty() ? "" : " in '" + join(path_) + "'");
+}
+
+std::string Reader::origin() const { return file_.where(path_) + ": '" + join(path_) + "'"; }
+
+void Reader::reject(const std::string &key, const std::string &allowed) const {
+  throw InputError(origin(key) + ": found '" + prm_.get(key) + "', allowed is " + allowed);
+}
+
+std::string Reader::text(const std::string &key) const { return prm_.get(key); }
+
+bool Reader::flag(const std::string &key) const { return prm_.get_bool(key); }
+
+double Reader::number(const std::string &key) const {
+  const double value = prm_.get_double(key);
+  if (!std::isfinite(value))
+    reject(key, "a finite number");
+  return value;
+}
+
+double Reader::positive(const std::string &key) const {
+  const double value = number(key);
+  if (!(value > 0.))
+    reject(key, "a number > 0");
+  return value;
+}
+
+double Reader::not_negative(const std::string &key) const {
+  const double value = number(key);
+  if (!(value >= 0.))
+    reject(key, "a number >= 0");
+  return value;
+}
+
+unsigned int Reader::count(const std::string &key, const unsigned int least) const {
+  const long value = prm_.get_integer(key);
+  if (value < static_cast<long>(least))
+    reject(key, "a whole number >= " + std::to_string(least));
+  return static_cast<unsigned int>(value);
+}
+
+std::vector<std::string> Reader::parts(const std::string &key, const char separator) const {
+  std::vector<std::string> result;
+  for (const auto &part : dealii::Utilities::split_string_list(prm_.get(key), separator))
+    if (!part.empty())
+      result.push_back(part);
+  return result;
+}
+
+std::vector<double> Reader::numbers(const std::string &key) const {
+  std::vector<double> result;
+  for (const auto &part : parts(key, ',')) {
+    try {
+      result.push_back(dealii::Utilities::string_to_double(part));
+    } catch (const std::exception &) {
+      reject(key, "numbers, separated by commas");
+    }
+    if (!std::isfinite(result.back()))
+      reject(key, "finite numbers, separated by commas");
+  }
+  return result;
+}
+
+std::vector<unsigned int> Reader::counts(const std::string &key) const {
+  std::vector<unsigned int> result;
+  for (const auto &part : parts(key, ',')) {
+    int value = -1;
+    try {
+      value = dealii::Utilities::string_to_int(part);
+    } catch (const std::exception &) {
+      value = -1;
+    }
+    if (value < 0)
+      reject(key, "whole numbers >= 0, separated by commas");
+    result.push_back(static_cast<unsigned int>(value));
+  }
+  return result;
+}
+
+dealii::Tensor<1, 3> Reader::vector(const std::string &key) const {
+  const auto values = numbers(key);
+  if (values.size() != 3)
+    reject(key, "three numbers, separated by commas");
+  dealii::Tensor<1, 3> result;
+  for (unsigned int i = 0; i < 3; ++i)
+    result[i] = values[i];
+  return result;
+}
+
+dealii::Tensor<1, 3> Reader::direction(const std::string &key) const {
+  const auto result = vector(key);
+  if (!(result.norm() > 0.))
+    reject(key, "three numbers that are not all zero");
+  return result / result.norm();
+}
+
+} // namespace billet

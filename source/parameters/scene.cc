@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/parameters/scene.h"
+
+#include "billet/errors.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <ostream>
+
+namespace billet::parameters {
+
+using dealii::ParameterHandler;
+
+namespace {
+
+void declare_named(ParameterHandler &prm, const std::string &list, const std::vector<std::string> &names,
+                   const std::function<void(const std::string &)> &declare) {
+  prm.enter_subsection(list);
+  for (const auto &name : names) {
+    prm.enter_subsection(name);
+    declare(name);
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+}
+
+/// Declares the whole tree; `names_below` tells which names each list of subsections has.
+void declare_all(ParameterHandler &prm,
+                 const std::function<std::vector<std::string>(const SceneFile::Path &)> &names_below) {
+  prm.declare_entry("Title", "", dealii::Patterns::Anything(), "Shown in the console and in --check.");
+  declare_named(prm, "Amplitudes", names_below({"Amplitudes"}), [&](const std::string &) { Amplitude::declare(prm); });
+  declare_named(prm, "Bodies", names_below({"Bodies"}),
+                [&](const std::string &name) { Body::declare(prm, names_below({"Bodies", name, "Supports"})); });
+  declare_named(prm, "Tools", names_below({"Tools"}), [&](const std::string &) { Tool::declare(prm); });
+  declare_named(prm, "Contact pairs", names_below({"Contact pairs"}),
+                [&](const std::string &) { ContactPair::declare(prm); });
+  prm.enter_subsection("Time stepping");
+  TimeStepping::declare(prm);
+  prm.leave_subsection();
+  prm.enter_subsection("Solver");
+  Solver::declare(prm);
+  prm.leave_subsection();
+  prm.enter_subsection("Output");
+  Output::declare(prm);
+  prm.leave_subsection();
+}
+
+template <class T> std::vector<T> parse_named(Reader &reader, const std::string &list) {
+  std::vector<T> result;
+  reader.in(list, [&] {
+    for (const auto &name : reader.names())
+      reader.in(name, [&] {
+        result.emplace_back();
+        result.back().name = name;
+        result.back().parse(reader);
+      });
+  });
+  return result;
+}
+
+template <class T> std::size_t index_of(const std::vector<T> &list, const Located<std::string> &name) {
+  std::string known;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].name == name.value)
+      return i;
+    known += (i == 0 ? "" : ", ") + list[i].name;
+  }
+  throw InputError(name.origin + ": found '" + name.value + "', allowed is one of: " + (known.empty() ? "(none is defined)" : known));
+}
+
+void check_amplitude_name(const std::string &name, const std::string &file_name) {
+  const auto is_word = [](const char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  if (!std::all_of(name.begin(), name.end(), is_word) || std::isdigit(static_cast<unsigned char>(name[0])) != 0 ||
+      name == "x" || name == "y" || name == "z" || name == "t" || name == "pi")
+    throw InputError(file_name + ": amplitude '" + name +
+                     "': found a name that expressions cannot use, allowed are letters, digits and '_', not first a digit, and not x, y, z, t, pi");
+}
+
+} // namespace
+
+std::size_t Scene::body_index(const ContactPair &pair) const { return index_of(bodies, pair.body); }
+
+std::size_t Scene::tool_index(const ContactPair &pair) const { return index_of(tools, pair.tool); }
+
+Scene Scene::read(const std::string &file_name) {
+  const SceneFile file = SceneFile::read(file_name);
+  ParameterHandler prm;
+  declare_all(prm, [&file](const SceneFile::Path &path) { return file.names_below(path); });
+  file.set_all(prm);
+
+  Reader reader(prm, file);
+  Scene scene;
+  scene.title = reader.text("Title");
+  scene.file_name = file_name;
+  scene.text = file.text();
+  scene.amplitudes = parse_named<Amplitude>(reader, "Amplitudes");
+  scene.bodies = parse_named<Body>(reader, "Bodies");
+  scene.tools = parse_named<Tool>(reader, "Tools");
+  scene.pairs = parse_named<ContactPair>(reader, "Contact pairs");
+  reader.in("Time stepping", [&] { scene.time_stepping.parse(reader); });
+  reader.in("Solver", [&] { scene.solver.parse(reader); });
+  reader.in("Output", [&] { scene.output.parse(reader); });
+
+  for (const auto &amplitude : scene.amplitudes)
+    check_amplitude_name(amplitude.name, file.where({"Amplitudes", amplitude.name}));
+  if (scene.bodies.empty())
+    throw InputError(file_name + ": the scene has no body: allowed is at least one subsection in 'Bodies'");
+  for (const auto &pair : scene.pairs) {
+    scene.body_index(pair);
+    scene.tool_index(pair);
+  }
+  return scene;
+}
+
+void print_all_parameters(std::ostream &stream) {
+  ParameterHandler prm;
+  declare_all(prm, [](const SceneFile::Path &path) -> std::vector<std::string> {
+    return {path.back() == "Amplitudes"      ? "(name of an amplitude)"
+            : path.back() == "Bodies"        ? "(name of a body)"
+            : path.back() == "Supports"      ? "(name of a support)"
+            : path.back() == "Tools"         ? "(name of a tool)"
+                                             : "(name of a contact pair)"};
+  });
+  prm.print_parameters(stream, ParameterHandler::Text | ParameterHandler::KeepDeclarationOrder);
+}
+
+} // namespace billet::parameters

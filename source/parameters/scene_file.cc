@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/parameters/scene_file.h"
+
+#include "billet/errors.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+using dealii::Utilities::trim;
+
+std::string folder_of(const std::string &file_name) {
+  const auto slash = file_name.rfind('/');
+  return slash == std::string::npos ? "" : file_name.substr(0, slash + 1);
+}
+
+/// If `line` starts with the keyword followed by a blank (or nothing), cuts it off.
+bool take_keyword(std::string &line, const std::string &keyword) {
+  if (line.compare(0, keyword.size(), keyword) != 0 ||
+      (line.size() > keyword.size() && line[keyword.size()] != ' ' && line[keyword.size()] != '\t'))
+    return false;
+  line = trim(line.substr(keyword.size()));
+  return true;
+}
+
+std::string single_spaced(const std::string &text) {
+  std::string result;
+  for (const char c : text) {
+    const bool blank = c == ' ' || c == '\t';
+    if (!(blank && (result.empty() || result.back() == ' ')))
+      result += blank ? ' ' : c;
+  }
+  return result;
+}
+
+/// What a pattern of ParameterHandler's stands for, in plain words.
+std::string describe_pattern(const std::string &message) {
+  const auto begin = message.find('[');
+  const auto end = message.rfind(']');
+  const std::string pattern =
+      begin != std::string::npos && end > begin ? message.substr(begin + 1, end - begin - 1) : message;
+  if (pattern.find("List of <[Double") != std::string::npos)
+    return "numbers, separated by commas";
+  if (pattern.find("List of <[Integer") != std::string::npos)
+    return "whole numbers, separated by commas";
+  if (pattern.compare(0, 6, "Double") == 0)
+    return "a number";
+  if (pattern.compare(0, 7, "Integer") == 0)
+    return "a whole number, not negative";
+  if (pattern.compare(0, 4, "Bool") == 0)
+    return "true or false";
+  if (pattern.compare(0, 9, "Selection") == 0) {
+    std::string choices = pattern.substr(10);
+    std::string result;
+    for (const char c : choices)
+      if (c == '|')
+        result += ", ";
+      else if (c != ' ' || (!result.empty() && result.back() != ' '))
+        result += c;
+    return "one of: " + trim(result);
+  }
+  return pattern;
+}
+
+} // namespace
+
+std::string join(const SceneFile::Path &path) {
+  std::string result;
+  for (const auto &name : path)
+    result += (result.empty() ? "" : " / ") + name;
+  return result;
+}
+
+SceneFile SceneFile::read(const std::string &file_name) {
+  std::ifstream stream(file_name);
+  if (!stream)
+    throw InputError(file_name + ": the scene file cannot be read. Is the name right?");
+  return scan(stream, file_name);
+}
+
+SceneFile SceneFile::scan(std::istream &text, const std::string &name) {
+  SceneFile file;
+  file.file_name_ = name;
+  Path path;
+  file.scan_file(text, name, path, 0);
+  if (!path.empty())
+    throw InputError(file.where(path) + ": subsection '" + join(path) + "' is opened but never closed: an 'end' is missing");
+  return file;
+}
+
+void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path, const unsigned int depth) {
+  if (depth > 20)
+    throw InputError(name + ": files include each other without end");
+  const std::size_t outer_depth = path.size();
+  std::string line;
+  for (unsigned int number = 1; std::getline(text, line); ++number) {
+    const std::string where = name + ":" + std::to_string(number);
+    std::string next;
+    while (!trim(line).empty() && trim(line).back() == '\\' && std::getline(text, next)) {
+      line = trim(line);
+      line.pop_back();
+      line += " " + trim(next);
+      ++number;
+    }
+    std::string statement = trim(line.substr(0, line.find('#')));
+    if (take_keyword(statement, "include")) {
+      const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
+      std::ifstream stream(included);
+      if (!stream)
+        throw InputError(where + ": the included file '" + included + "' cannot be read");
+      scan_file(stream, included, path, depth + 1);
+      continue;
+    }
+    text_ += line + "\n";
+    if (statement.empty())
+      continue;
+    if (take_keyword(statement, "subsection")) {
+      if (statement.empty())
+        throw InputError(where + ": 'subsection' needs a name");
+      path.push_back(single_spaced(statement));
+      subsections_.push_back({path, where});
+    } else if (take_keyword(statement, "set")) {
+      const auto equals = statement.find('=');
+      if (equals == std::string::npos)
+        throw InputError(where + ": found 'set " + statement + "'; allowed is 'set parameter = value'");
+      Entry entry{path, single_spaced(trim(statement.substr(0, equals))), trim(statement.substr(equals + 1)), where};
+      if (const Entry *first = find(path, entry.key))
+        throw InputError(where + ": '" + entry.key + "' is set twice; the first time at " + first->where);
+      entries_.push_back(entry);
+    } else if (statement == "end") {
+      if (path.size() == outer_depth)
+        throw InputError(where + ": 'end' without a subsection to close");
+      path.pop_back();
+    } else
+      throw InputError(where + ": found '" + statement +
+                       "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'");
+  }
+  if (depth > 0 && path.size() != outer_depth)
+    throw InputError(name + ": a subsection opened in this file is not closed in it");
+}
+
+const SceneFile::Entry *SceneFile::find(const Path &path, const std::string &key) const {
+  const auto entry = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry &e) { return e.key == key && e.path == path; });
+  return entry == entries_.end() ? nullptr : &*entry;
+}
+
+std::vector<std::string> SceneFile::names_below(const Path &path) const {
+  std::vector<std::string> names;
+  for (const auto &subsection : subsections_)
+    if (subsection.path.size() == path.size() + 1 &&
+        std::equal(path.begin(), path.end(), subsection.path.begin()) &&
+        std::find(names.begin(), names.end(), subsection.path.back()) == names.end())
+      names.push_back(subsection.path.back());
+  return names;
+}
+
+std::string SceneFile::where(const Path &path, const std::string &key) const {
+  const Entry *entry = find(path, key);
+  return entry != nullptr ? entry->where : file_name_ + " (default)";
+}
+
+bool SceneFile::is_set(const Path &path, const std::string &key) const { return find(path, key) != nullptr; }
+
+std::string SceneFile::where(const Path &path) const {
+  for (const auto &subsection : subsections_)
+    if (subsection.path == path)
+      return subsection.where;
+  return file_name_;
+}
+
+std::string SceneFile::folder() const { return folder_of(file_name_); }
+
+void SceneFile::set_all(dealii::ParameterHandler &prm) const {
+  using dealii::ParameterHandler;
+  // What may stand below a path, taken from ParameterHandler's own print-out.
+  const auto known = [&prm](const Path &path) {
+    std::ostringstream printed;
+    prm.print_parameters(printed, ParameterHandler::ShortText);
+    std::istringstream text(printed.str());
+    const SceneFile all = SceneFile::scan(text, "");
+    std::string list;
+    for (const auto &entry : all.entries_)
+      if (entry.path == path)
+        list += (list.empty() ? "" : ", ") + entry.key;
+    for (const auto &name : all.names_below(path))
+      list += (list.empty() ? "subsection " : ", subsection ") + name;
+    return list;
+  };
+
+  for (const auto &subsection : subsections_)
+    if (!prm.subsection_path_exists(subsection.path)) {
+      const Path above(subsection.path.begin(), subsection.path.end() - 1);
+      throw InputError(subsection.where + ": unknown subsection '" + join(subsection.path) + "'; known " +
+                       (above.empty() ? "at the top level" : "in '" + join(above) + "'") + ": " + known(above));
+    }
+
+  for (const auto &entry : entries_) {
+    for (const auto &name : entry.path)
+      prm.enter_subsection(name);
+    const auto leave = [&] {
+      for (std::size_t i = 0; i < entry.path.size(); ++i)
+        prm.leave_subsection();
+    };
+    const std::string place = entry.path.empty() ? "" : " in '" + join(entry.path) + "'";
+    try {
+      prm.set(entry.key, entry.value);
+    } catch (const ParameterHandler::ExcEntryUndeclared &) {
+      leave();
+      throw InputError(entry.where + ": unknown parameter '" + entry.key + "'" + place +
+                       "; known here: " + known(entry.path));
+    } catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error) {
+      leave();
+      throw InputError(entry.where + ": '" + entry.key + "'" + place + ": found '" + entry.value +
+                       "', allowed is " + describe_pattern(error.what()));
+    }
+    leave();
+  }
+}
+
+} // namespace billet

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/scene/expression.h"
+
+#include "billet/errors.h"
+
+#include <algorithm>
+
+namespace billet {
+
+double evaluate_amplitude(const parameters::Amplitude &amplitude, const double t) {
+  const auto &times = amplitude.times;
+  const auto &values = amplitude.values;
+  if (t <= times.front())
+    return values.front();
+  if (t >= times.back())
+    return values.back();
+  const auto i = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());
+  const double s = (t - times[i - 1]) / (times[i] - times[i - 1]);
+  const double weight = amplitude.interpolation == parameters::Amplitude::Interpolation::linear
+                            ? s
+                            : s * s * s * (10. + s * (-15. + 6. * s));
+  return values[i - 1] + weight * (values[i] - values[i - 1]);
+}
+
+Expression::Expression(const std::string &text, const Variables variables,
+                       std::vector<parameters::Amplitude> amplitudes, const std::string &origin)
+    : text_(text),
+      // The parser wants three coordinates; names that cannot be meant hide them where they make no sense.
+      variables_(variables == Variables::time ? "no_x_here,no_y_here,no_z_here,t" : "x,y,z,t"),
+      amplitudes_(std::move(amplitudes)) {
+  try {
+    parse(0.);
+    parser_->value(dealii::Point<3>());
+  } catch (const std::exception &) {
+    std::string allowed = variables == Variables::time ? "t, pi" : "x, y, z, t, pi";
+    for (const auto &amplitude : amplitudes_)
+      allowed += ", " + amplitude.name;
+    throw InputError(origin + ": found '" + text + "', allowed is a muParser expression of " + allowed);
+  }
+}
+
+void Expression::parse(const double t) const {
+  std::map<std::string, double> constants{{"pi", dealii::numbers::PI}};
+  for (const auto &amplitude : amplitudes_)
+    constants[amplitude.name] = evaluate_amplitude(amplitude, t);
+  parser_ = std::make_unique<dealii::FunctionParser<3>>(1);
+  parser_->initialize(variables_, text_, constants, true);
+  parser_->set_time(t);
+  parsed_time_ = t;
+}
+
+double Expression::value(const double t, const dealii::Point<3> &position) const {
+  if (t != parsed_time_)
+    parse(t);
+  return parser_->value(position);
+}
+
+} // namespace billet

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/scene/scene.h"
+
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <ostream>
+
+namespace billet {
+
+namespace {
+
+MaterialLaw make_material(const parameters::Material &material) {
+  MaterialLaw law{ElasticModuli::from_young_poisson(material.young_modulus, material.poisson_ratio), std::monostate()};
+  if (material.law == parameters::Material::Law::elastoplastic)
+    switch (material.hardening) {
+    case parameters::Material::Hardening::linear:
+      law.hardening = LinearHardening{material.yield_stress, material.hardening_modulus};
+      break;
+    case parameters::Material::Hardening::voce:
+      law.hardening = VoceHardening{material.yield_stress, material.saturation_stress, material.saturation_rate,
+                                    material.hardening_modulus};
+      break;
+    case parameters::Material::Hardening::power_law:
+      law.hardening = PowerLawHardening{material.strength, material.prestrain, material.exponent};
+      break;
+    case parameters::Material::Hardening::table:
+      law.hardening = TabulatedHardening(material.table_strains, material.table_stresses);
+      break;
+    }
+  return law;
+}
+
+Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
+  Body body;
+  body.name = parameters.name;
+  body.material = make_material(parameters.material);
+  body.young_modulus = parameters.material.young_modulus;
+  for (const auto &plane : parameters.symmetry_planes.value) {
+    Hold hold;
+    hold.name = "symmetry plane " + plane.text;
+    hold.on_plane = true;
+    hold.normal = plane.normal;
+    hold.offset = plane.offset;
+    body.holds.push_back(hold);
+  }
+  for (const auto &support : parameters.supports)
+    for (unsigned int i = 0; i < 3; ++i)
+      if (support.components[i]) {
+        Hold hold;
+        hold.name = "support " + support.name;
+        hold.boundary_ids = support.boundary_ids.value;
+        hold.normal[i] = 1.;
+        body.expressions.push_back(std::make_unique<Expression>(
+            support.displacement.value[i], Expression::Variables::time_and_position, amplitudes,
+            support.displacement.origin));
+        if (support.displacement.value[i] != "0")
+          hold.value = body.expressions.back().get();
+        body.holds.push_back(hold);
+      }
+  return body;
+}
+
+} // namespace
+
+Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
+  for (const auto &body : parameters.bodies)
+    bodies_.push_back(make_body(body, parameters.amplitudes));
+  for (const auto &tool : parameters.tools)
+    tools_.emplace_back(tool, parameters.amplitudes);
+  for (const auto &pair : parameters.pairs)
+    pairs_.push_back({pair.name, parameters.body_index(pair), pair.boundary_ids.value, parameters.tool_index(pair),
+                      pair.friction_coefficient, pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor,
+                      pair.normal_penalty, pair.tangential_penalty});
+
+  const auto tangent = parameters.solver.contact_tangent;
+  capabilities_.contact = !pairs_.empty();
+  for (const auto &body : bodies_) {
+    capabilities_.plasticity |= !std::holds_alternative<std::monostate>(body.material.hardening);
+    for (const auto &hold : body.holds)
+      capabilities_.moving_supports |= hold.value != nullptr;
+  }
+  for (const auto &pair : pairs_)
+    capabilities_.friction |= pair.friction_coefficient > 0.;
+  using Tangent = parameters::ContactTangent;
+  capabilities_.unsymmetric_matrix =
+      capabilities_.contact &&
+      (tangent == Tangent::exact ||
+       (capabilities_.friction && (tangent == Tangent::consistent || tangent == Tangent::continuum)));
+  if (capabilities_.unsymmetric_matrix &&
+      parameters.solver.linear_solver == parameters::Solver::LinearSolver::mumps_symmetric)
+    throw InputError(parameters.file_name +
+                     ": 'Linear solver' in 'Solver': found 'MUMPS symmetric', but this scene's contact tangent is unsymmetric; "
+                     "allowed are automatic, MUMPS, KLU, or a symmetrised 'Contact tangent'");
+}
+
+void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) const {
+  std::vector<std::unique_ptr<dealii::Triangulation<3>>> meshes;
+  std::vector<const dealii::Triangulation<3> *> pointers;
+  for (const auto &body : parameters_.bodies) {
+    meshes.push_back(std::make_unique<dealii::Triangulation<3>>());
+    build_body_mesh(body, detail, *meshes.back());
+    pointers.push_back(meshes.back().get());
+  }
+  merge_bodies(pointers, mesh);
+  check_boundary_ids(mesh, detail);
+  check_supports(mesh);
+  check_initial_penetration(mesh);
+}
+
+void Scene::describe(std::ostream &stream) const {
+  const auto yes_no = [](const bool b) { return b ? "yes" : "no (neither allocated nor run)"; };
+  stream << "Scene          " << parameters_.file_name << "\n";
+  if (!parameters_.title.empty())
+    stream << "Title          " << parameters_.title << "\n";
+  std::size_t n_elements = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto &body = parameters_.bodies[i];
+    dealii::Triangulation<3> outline;
+    build_body_mesh(body, MeshDetail::outline, outline);
+    const std::size_t n = count_full_elements(body.mesh, outline);
+    n_elements += n;
+    stream << "Body           " << body.name << ": " << n << " hexahedra, "
+           << (body.material.law == parameters::Material::Law::elastic ? "Hencky elasticity"
+                                                                       : "Hencky J2 plasticity")
+           << ", " << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
+           << " supports\n";
+  }
+  for (const auto &tool : tools_)
+    stream << "Tool           " << tool.name() << ": rigid plane\n";
+  for (const auto &pair : pairs_)
+    stream << "Contact pair   " << pair.name << ": " << bodies_[pair.body].name << " on " << tools_[pair.tool].name()
+           << ", mu = " << pair.friction_coefficient << ", penalties " << pair.normal_penalty << ", "
+           << pair.tangential_penalty << (pair.penalty_is_factor ? " E/h" : " (absolute)") << "\n";
+  const auto &stepping = parameters_.time_stepping;
+  stream << "Time           0 to " << stepping.end_time
+         << (stepping.control == parameters::TimeStepping::Control::automatic ? ", automatic steps from "
+                                                                              : ", fixed steps of ")
+         << stepping.initial_step << "\n";
+  stream << "Elements       " << n_elements << " in all, quasi-static, implicit\n";
+  stream << "Plasticity     " << yes_no(capabilities_.plasticity) << "\n";
+  stream << "Contact        " << yes_no(capabilities_.contact) << "\n";
+  stream << "Friction       " << yes_no(capabilities_.friction) << "\n";
+  stream << "Moving support " << yes_no(capabilities_.moving_supports) << "\n";
+  stream << "Matrix         " << (capabilities_.unsymmetric_matrix ? "unsymmetric" : "symmetric (half is factorised)")
+         << "\n";
+  stream << "Output         " << parameters_.output.folder.value << "\n";
+}
+
+} // namespace billet

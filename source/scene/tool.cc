@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/scene/tool.h"
+
+#include "billet/geometry/plane.h"
+
+#include <deal.II/base/point.h>
+#include <deal.II/physics/transformations.h>
+
+namespace billet {
+
+Tool::Tool(const parameters::Tool &parameters, const std::vector<parameters::Amplitude> &amplitudes)
+    : name_(parameters.name), surface_(std::make_unique<Plane>(parameters.plane_point, parameters.plane_normal)),
+      angle_(parameters.motion.rotation_angle.value, Expression::Variables::time, amplitudes,
+             parameters.motion.rotation_angle.origin),
+      axis_(parameters.motion.rotation_axis), centre_(parameters.motion.centre) {
+  for (const auto &component : parameters.motion.translation.value)
+    translation_.emplace_back(component, Expression::Variables::time, amplitudes,
+                              parameters.motion.translation.origin);
+}
+
+Placement Tool::placement(const double t) const {
+  Placement placement;
+  for (unsigned int i = 0; i < 3; ++i)
+    placement.translation[i] = translation_[i].value(t);
+  placement.rotation_angle = angle_.value(t);
+  placement.rotation =
+      dealii::Physics::Transformations::Rotations::rotation_matrix_3d(axis_, placement.rotation_angle);
+  placement.centre = centre_;
+  return placement;
+}
+
+} // namespace billet

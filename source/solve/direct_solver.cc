@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/direct_solver.h"
+
+#include "billet/errors.h"
+
+#include <Amesos.h>
+#include <Amesos_BaseSolver.h>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_LinearProblem.h>
+#include <Epetra_Vector.h>
+#include <Teuchos_ParameterList.hpp>
+#include <dmumps_c.h>
+
+#include <vector>
+
+namespace billet {
+
+namespace {
+
+/// Trilinos' interface to unsymmetric direct solvers.
+class AmesosSolver final : public DirectSolver {
+public:
+  AmesosSolver(const std::string &amesos_name, const Epetra_CrsMatrix &matrix) : name_(amesos_name) {
+    // Amesos takes non-const pointers, but changes neither the matrix nor the right-hand side.
+    problem_.SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    Amesos factory;
+    solver_.reset(factory.Create(amesos_name, problem_));
+    if (solver_ == nullptr)
+      throw InputError("This Trilinos was built without " + amesos_name +
+                       "; allowed in 'Linear solver' is what it has, KLU at least");
+    Teuchos::ParameterList options;
+    options.set("PrintTiming", false);
+    options.set("PrintStatus", false);
+    options.sublist("mumps").set("ICNTL(14)", extra_memory_percent);
+    solver_->SetParameters(options);
+  }
+
+  bool factorize() override {
+    if (!is_analysed_ && solver_->SymbolicFactorization() != 0) {
+      failure_ = "the symbolic factorisation failed";
+      return false;
+    }
+    is_analysed_ = true;
+    if (solver_->NumericFactorization() != 0) {
+      failure_ = "the matrix is singular or the factorisation ran out of memory";
+      return false;
+    }
+    return true;
+  }
+
+  bool solve(const Epetra_Vector &b, Epetra_Vector &x) override {
+    problem_.SetLHS(&x);
+    problem_.SetRHS(const_cast<Epetra_Vector *>(&b)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    if (solver_->Solve() != 0) {
+      failure_ = "back substitution failed";
+      return false;
+    }
+    return true;
+  }
+
+  std::string name() const override { return name_ + " (unsymmetric)"; }
+
+private:
+  static constexpr int extra_memory_percent = 60;
+
+  std::string name_;
+  Epetra_LinearProblem problem_;
+  std::unique_ptr<Amesos_BaseSolver> solver_;
+  bool is_analysed_ = false;
+};
+
+/// MUMPS itself in its symmetric indefinite form, which Amesos does not offer: LDLᵀ of the upper triangle.
+class SymmetricMumpsSolver final : public DirectSolver {
+public:
+  SymmetricMumpsSolver(const Epetra_CrsMatrix &matrix, MPI_Comm communicator)
+      : matrix_(matrix), communicator_(communicator) {
+    MPI_Comm_rank(communicator, &rank_);
+    mumps_.par = 1;
+    mumps_.sym = 2;
+    mumps_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(communicator));
+    call(job_initialize);
+    for (const int output_stream : {1, 2, 3, 4})
+      control(output_stream) = output_stream == 4 ? 0 : -1;
+    control(18) = 3; // distributed matrix
+    control(14) = 60;
+    collect_pattern();
+    MPI_Allgather(&n_local_rows_, 1, MPI_INT, make_room(counts_), 1, MPI_INT, communicator);
+    offsets_.assign(counts_.size(), 0);
+    for (std::size_t i = 1; i < counts_.size(); ++i)
+      offsets_[i] = offsets_[i - 1] + counts_[i - 1];
+  }
+  SymmetricMumpsSolver(const SymmetricMumpsSolver &) = delete;
+  SymmetricMumpsSolver &operator=(const SymmetricMumpsSolver &) = delete;
+  ~SymmetricMumpsSolver() override { call(job_end); }
+
+  bool factorize() override {
+    collect_values();
+    if (!is_analysed_ && !call(job_analyze))
+      return false;
+    is_analysed_ = true;
+    // MUMPS says when its guess of the memory was too small.
+    for (int attempt = 0; attempt < 4; ++attempt) {
+      if (call(job_factorize))
+        return true;
+      const bool too_small = mumps_.infog[0] == -8 || mumps_.infog[0] == -9 || mumps_.infog[0] == -11 ||
+                             mumps_.infog[0] == -12 || mumps_.infog[0] == -14 || mumps_.infog[0] == -15;
+      if (!too_small)
+        return false;
+      control(14) *= 2;
+    }
+    return false;
+  }
+
+  bool solve(const Epetra_Vector &b, Epetra_Vector &x) override {
+    // The right-hand side is gathered on the first rank, which owns the first rows.
+    std::vector<double> whole(rank_ == 0 ? static_cast<std::size_t>(matrix_.NumGlobalRows()) : 0);
+    MPI_Gatherv(b.Values(), n_local_rows_, MPI_DOUBLE, whole.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, 0,
+                communicator_);
+    mumps_.rhs = whole.data();
+    const bool success = call(job_solve);
+    MPI_Scatterv(whole.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, x.Values(), n_local_rows_, MPI_DOUBLE, 0,
+                 communicator_);
+    return success;
+  }
+
+  std::string name() const override { return "MUMPS (symmetric)"; }
+
+private:
+  static constexpr int job_initialize = -1, job_end = -2, job_analyze = 1, job_factorize = 2, job_solve = 3;
+
+  MUMPS_INT &control(const int number) { return mumps_.icntl[number - 1]; } // numbered as in MUMPS's manual
+
+  bool call(const int job) {
+    mumps_.job = job;
+    dmumps_c(&mumps_);
+    if (mumps_.infog[0] < 0)
+      failure_ = mumps_.infog[0] == -10 ? "the matrix is singular"
+                                        : "MUMPS stopped with INFOG(1) = " + std::to_string(mumps_.infog[0]) +
+                                              ", INFOG(2) = " + std::to_string(mumps_.infog[1]);
+    return mumps_.infog[0] >= 0;
+  }
+
+  int *make_room(std::vector<int> &counts) const {
+    int n_ranks = 1;
+    MPI_Comm_size(communicator_, &n_ranks);
+    counts.resize(static_cast<std::size_t>(n_ranks));
+    return counts.data();
+  }
+
+  template <class Function> void for_each_upper_entry(const Function &f) const {
+    for (int row = 0; row < matrix_.NumMyRows(); ++row) {
+      int n = 0;
+      double *values = nullptr;
+      int *columns = nullptr;
+      matrix_.ExtractMyRowView(row, n, values, columns);
+      const int global_row = matrix_.RowMap().GID(row);
+      for (int k = 0; k < n; ++k) {
+        const int global_column = matrix_.ColMap().GID(columns[k]);
+        if (global_column >= global_row)
+          f(global_row, global_column, values[k]);
+      }
+    }
+  }
+
+  void collect_pattern() {
+    for_each_upper_entry([this](const int row, const int column, double) {
+      rows_.push_back(row + 1);
+      columns_.push_back(column + 1);
+    });
+    values_.resize(rows_.size());
+    n_local_rows_ = matrix_.NumMyRows();
+    mumps_.n = matrix_.NumGlobalRows();
+    mumps_.nnz_loc = static_cast<MUMPS_INT8>(rows_.size());
+    mumps_.irn_loc = rows_.data();
+    mumps_.jcn_loc = columns_.data();
+    mumps_.a_loc = values_.data();
+    mumps_.nrhs = 1;
+    mumps_.lrhs = mumps_.n;
+  }
+
+  void collect_values() {
+    std::size_t next = 0;
+    for_each_upper_entry([this, &next](int, int, const double value) { values_[next++] = value; });
+  }
+
+  const Epetra_CrsMatrix &matrix_;
+  MPI_Comm communicator_;
+  int rank_ = 0;
+  int n_local_rows_ = 0;
+  std::vector<int> counts_, offsets_;
+  DMUMPS_STRUC_C mumps_{};
+  std::vector<MUMPS_INT> rows_, columns_;
+  std::vector<double> values_;
+  bool is_analysed_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<DirectSolver> make_direct_solver(const parameters::Solver::LinearSolver kind, const bool symmetric,
+                                                 const Epetra_CrsMatrix &matrix, MPI_Comm communicator) {
+  using Kind = parameters::Solver::LinearSolver;
+  if (kind == Kind::klu)
+    return std::make_unique<AmesosSolver>("Amesos_Klu", matrix);
+  if (kind == Kind::mumps_symmetric || (kind == Kind::automatic && symmetric))
+    return std::make_unique<SymmetricMumpsSolver>(matrix, communicator);
+  return std::make_unique<AmesosSolver>("Amesos_Mumps", matrix);
+}
+
+} // namespace billet

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/newton.h"
+
+#include <Epetra_Vector.h>
+#include <NOX_Abstract_Group.H>
+#include <NOX_Abstract_PrePostOperator.H>
+#include <NOX_Epetra_Vector.H>
+#include <NOX_LineSearch_Generic.H>
+#include <NOX_LineSearch_UserDefinedFactory.H>
+#include <NOX_Solver_Factory.H>
+#include <NOX_Solver_Generic.H>
+#include <NOX_StatusTest_Generic.H>
+#include <NOX_Utils.H>
+#include <Teuchos_ParameterList.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+namespace {
+
+using Teuchos::RCP;
+using Teuchos::rcp;
+using ReturnType = NOX::Abstract::Group::ReturnType;
+
+const Epetra_Vector &epetra(const NOX::Abstract::Vector &vector) {
+  return dynamic_cast<const NOX::Epetra::Vector &>(vector).getEpetraVector();
+}
+
+/// The problem as NOX sees it: a point x with what has been computed there.
+class Group final : public NOX::Abstract::Group {
+public:
+  Group(NonlinearProblem &problem, const Epetra_Vector &x)
+      : problem_(&problem), x_(rcp(new NOX::Epetra::Vector(x, NOX::DeepCopy))),
+        f_(rcp(new NOX::Epetra::Vector(x, NOX::ShapeCopy))),
+        newton_(rcp(new NOX::Epetra::Vector(x, NOX::ShapeCopy))) {}
+
+  Group(const Group &other, const NOX::CopyType type)
+      : NOX::Abstract::Group(), problem_(other.problem_), x_(rcp(new NOX::Epetra::Vector(*other.x_, type))),
+        f_(rcp(new NOX::Epetra::Vector(*other.f_, type))),
+        newton_(rcp(new NOX::Epetra::Vector(*other.newton_, type))) {
+    if (type == NOX::DeepCopy)
+      copy_flags(other);
+  }
+
+  NOX::Abstract::Group &operator=(const NOX::Abstract::Group &source) override {
+    const auto &other = dynamic_cast<const Group &>(source);
+    *x_ = *other.x_;
+    *f_ = *other.f_;
+    *newton_ = *other.newton_;
+    copy_flags(other);
+    return *this;
+  }
+
+  void setX(const NOX::Abstract::Vector &y) override {
+    *x_ = y;
+    has_f_ = has_tangent_ = has_newton_ = false;
+  }
+  void computeX(const NOX::Abstract::Group &from, const NOX::Abstract::Vector &direction, double step) override {
+    x_->update(1., from.getX(), step, direction, 0.);
+    has_f_ = has_tangent_ = has_newton_ = false;
+  }
+
+  ReturnType computeF() override {
+    if (!has_f_) {
+      has_f_ = problem_->compute_residual(x_->getEpetraVector(), f_->getEpetraVector());
+      scale_ = problem_->force_scale();
+    }
+    return has_f_ ? NOX::Abstract::Group::Ok : NOX::Abstract::Group::Failed;
+  }
+  ReturnType computeJacobian() override {
+    if (!has_tangent_)
+      has_tangent_ = problem_->compute_tangent(x_->getEpetraVector());
+    return has_tangent_ ? NOX::Abstract::Group::Ok : NOX::Abstract::Group::Failed;
+  }
+  ReturnType computeNewton(Teuchos::ParameterList &) override {
+    if (!has_newton_) {
+      has_newton_ = has_f_ && has_tangent_ && problem_->solve_tangent(f_->getEpetraVector(), newton_->getEpetraVector());
+      newton_->scale(-1.);
+    }
+    return has_newton_ ? NOX::Abstract::Group::Ok : NOX::Abstract::Group::Failed;
+  }
+
+  bool isF() const override { return has_f_; }
+  bool isJacobian() const override { return has_tangent_; }
+  bool isNewton() const override { return has_newton_; }
+  const NOX::Abstract::Vector &getX() const override { return *x_; }
+  const NOX::Abstract::Vector &getF() const override { return *f_; }
+  double getNormF() const override { return f_->norm(); }
+  const NOX::Abstract::Vector &getGradient() const override { return *newton_; } // not used by line-search Newton
+  const NOX::Abstract::Vector &getNewton() const override { return *newton_; }
+  RCP<const NOX::Abstract::Vector> getXPtr() const override { return x_; }
+  RCP<const NOX::Abstract::Vector> getFPtr() const override { return f_; }
+  RCP<const NOX::Abstract::Vector> getGradientPtr() const override { return newton_; }
+  RCP<const NOX::Abstract::Vector> getNewtonPtr() const override { return newton_; }
+  RCP<NOX::Abstract::Group> clone(NOX::CopyType type) const override { return rcp(new Group(*this, type)); }
+
+  double scale() const { return scale_; }
+
+private:
+  void copy_flags(const Group &other) {
+    has_f_ = other.has_f_;
+    has_tangent_ = other.has_tangent_;
+    has_newton_ = other.has_newton_;
+    scale_ = other.scale_;
+  }
+
+  NonlinearProblem *problem_;
+  RCP<NOX::Epetra::Vector> x_, f_, newton_;
+  double scale_ = 0.;
+  bool has_f_ = false, has_tangent_ = false, has_newton_ = false;
+};
+
+double dot(const NOX::Abstract::Vector &a, const NOX::Abstract::Vector &b) { return a.innerProduct(b); }
+
+/// Shortens a correction that leads to an inadmissible state, and, on request, one along which the residual does more
+/// work at its end than at its start: then the zero of R·d is approached by regula falsi (Crisfield, Non-linear Finite
+/// Element Analysis of Solids and Structures, vol. 1, ch. 9).
+class LineSearch final : public NOX::LineSearch::Generic {
+public:
+  explicit LineSearch(const bool by_energy) : by_energy_(by_energy) {}
+
+  bool compute(NOX::Abstract::Group &group, double &step, const NOX::Abstract::Vector &direction,
+               const NOX::Solver::Generic &solver) override {
+    const NOX::Abstract::Group &old = solver.getPreviousSolutionGroup();
+    step = 1.;
+    if (!evaluate(group, step, direction, old)) {
+      for (unsigned int cut = 0; cut < most_cuts_; ++cut) {
+        step *= 0.5;
+        if (evaluate(group, step, direction, old))
+          return true;
+      }
+      step = 0.;
+      return false;
+    }
+    if (!by_energy_)
+      return true;
+
+    const double start = dot(direction, old.getF());
+    double end = dot(direction, group.getF());
+    if (!(std::abs(end) > std::abs(start)) || start == 0.)
+      return true;
+    double best_step = step, best = std::abs(end);
+    double low = 0., low_value = start, high = step, high_value = end;
+    for (unsigned int trial = 0; trial < most_trials_ && std::abs(end) > enough_ * std::abs(start); ++trial) {
+      const bool brackets = low_value * high_value < 0.;
+      step = brackets ? low - low_value * (high - low) / (high_value - low_value) : 0.5 * high;
+      step = std::clamp(step, low + 0.1 * (high - low), high - 0.1 * (high - low));
+      if (!evaluate(group, step, direction, old))
+        break;
+      end = dot(direction, group.getF());
+      if (std::abs(end) < best) {
+        best = std::abs(end);
+        best_step = step;
+      }
+      if (end * low_value > 0.) {
+        low = step;
+        low_value = end;
+      } else {
+        high = step;
+        high_value = end;
+      }
+    }
+    if (step != best_step) {
+      step = best_step;
+      return evaluate(group, step, direction, old);
+    }
+    return true;
+  }
+
+private:
+  static bool evaluate(NOX::Abstract::Group &group, const double step, const NOX::Abstract::Vector &direction,
+                       const NOX::Abstract::Group &old) {
+    group.computeX(old, direction, step);
+    return group.computeF() == NOX::Abstract::Group::Ok;
+  }
+
+  static constexpr unsigned int most_cuts_ = 5, most_trials_ = 4;
+  static constexpr double enough_ = 0.8;
+  bool by_energy_;
+};
+
+class LineSearchFactory final : public NOX::LineSearch::UserDefinedFactory {
+public:
+  explicit LineSearchFactory(const bool by_energy) : by_energy_(by_energy) {}
+  RCP<NOX::LineSearch::Generic> buildLineSearch(const RCP<NOX::GlobalData> &, Teuchos::ParameterList &) const override {
+    return rcp(new LineSearch(by_energy_));
+  }
+
+private:
+  bool by_energy_;
+};
+
+/// Force and energy tolerance, and the limit on iterations; keeps the record of the iterations.
+class Convergence final : public NOX::StatusTest::Generic {
+public:
+  Convergence(const NonlinearProblem &problem, const parameters::Solver &settings, const Epetra_Vector &x_n,
+              NewtonReport &report)
+      : problem_(problem), settings_(settings), x_n_(x_n), report_(report) {}
+
+  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic &solver, NOX::StatusTest::CheckType) override {
+    const auto &group = dynamic_cast<const Group &>(solver.getSolutionGroup());
+    const unsigned int n = static_cast<unsigned int>(solver.getNumIterations());
+    const double norm = group.getNormF();
+    const double scale = group.scale();
+    report_.force = scale > 0. ? norm / scale : 0.;
+    double residual_work = 0.;
+    if (n > 0) {
+      const auto &before = dynamic_cast<const Group &>(solver.getPreviousSolutionGroup());
+      Epetra_Vector correction(epetra(group.getX()));
+      correction.Update(-1., epetra(before.getX()), 1.);
+      epetra(group.getF()).Dot(correction, &residual_work);
+      double length = 0., full_length = 0.;
+      correction.Norm2(&length);
+      epetra(before.getNewton()).Norm2(&full_length);
+      const double before_scale = before.scale();
+      report_.iterations.push_back({before_scale > 0. ? before.getNormF() / before_scale : 0.,
+                                    std::abs(dot(before.getF(), before.getNewton())),
+                                    full_length > 0. ? length / full_length : 1.});
+    }
+    Epetra_Vector increment(epetra(group.getX()));
+    increment.Update(-1., x_n_, 1.);
+    double increment_norm = 0.;
+    increment.Norm2(&increment_norm);
+
+    status_ = NOX::StatusTest::Unconverged;
+    if (!std::isfinite(norm)) {
+      report_.failure = "the residual is not a number";
+      status_ = NOX::StatusTest::Failed;
+    } else if (norm <= settings_.force_tolerance * scale + problem_.round_off_force() &&
+               (n == 0 || std::abs(residual_work) <= settings_.energy_tolerance * scale * increment_norm +
+                                                         problem_.round_off_force() * increment_norm))
+      status_ = NOX::StatusTest::Converged;
+    else if (n >= settings_.most_iterations) {
+      report_.failure = "no convergence in " + std::to_string(n) + " iterations";
+      status_ = NOX::StatusTest::Failed;
+    }
+    return status_;
+  }
+  NOX::StatusTest::StatusType getStatus() const override { return status_; }
+  std::ostream &print(std::ostream &stream, int) const override { return stream; }
+
+private:
+  const NonlinearProblem &problem_;
+  const parameters::Solver &settings_;
+  const Epetra_Vector &x_n_;
+  NewtonReport &report_;
+  NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
+};
+
+RCP<Teuchos::ParameterList> make_options(const parameters::Solver &settings) {
+  auto options = rcp(new Teuchos::ParameterList);
+  options->set("Nonlinear Solver", "Line Search Based");
+  options->sublist("Printing").set("Output Information", static_cast<int>(NOX::Utils::Error) * 0);
+  options->sublist("Direction").set("Method", "Newton");
+  options->sublist("Direction").sublist("Newton").set("Rescue Bad Newton Solve", false);
+  auto &line_search = options->sublist("Line Search");
+  line_search.set("Method", "User Defined");
+  RCP<NOX::LineSearch::UserDefinedFactory> factory =
+      rcp(new LineSearchFactory(settings.line_search == parameters::Solver::LineSearch::energy));
+  line_search.set("User Defined Line Search Factory", factory);
+  return options;
+}
+
+} // namespace
+
+NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Epetra_Vector &x_n,
+                          Epetra_Vector &x) {
+  NewtonReport report;
+  const RCP<Group> group = rcp(new Group(problem, x));
+  if (group->computeF() != NOX::Abstract::Group::Ok) {
+    report.failure = "the step's first guess is not admissible (det F <= 0 or not a number)";
+    return report;
+  }
+  const RCP<Convergence> convergence = rcp(new Convergence(problem, settings, x_n, report));
+  try {
+    const auto solver = NOX::Solver::buildSolver(group, convergence, make_options(settings));
+    auto status = solver->getStatus();
+    while (status == NOX::StatusTest::Unconverged || status == NOX::StatusTest::Unevaluated)
+      status = solver->step();
+    report.converged = status == NOX::StatusTest::Converged;
+    x = epetra(solver->getSolutionGroup().getX());
+  } catch (const char *nox_error) { // NOX throws C strings
+    report.failure = nox_error;
+  }
+  if (!report.converged && report.failure.empty())
+    report.failure = "the correction leads to inadmissible states (det F <= 0 or not a number), or the matrix is singular";
+  return report;
+}
+
+} // namespace billet

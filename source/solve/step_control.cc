@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/step_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+namespace {
+// Part of a step by which round-off may misplace its end.
+constexpr double slack = 1e-8;
+} // namespace
+
+StepControl::StepControl(const parameters::TimeStepping &parameters, const double interval)
+    : parameters_(parameters), interval_(interval), step_(parameters.initial_step) {}
+
+double StepControl::target() const {
+  if (interval_ == 0.)
+    return parameters_.end_time;
+  return std::min(parameters_.end_time, (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_);
+}
+
+double StepControl::next_time() const {
+  const double remaining = target() - time_;
+  if (parameters_.control == parameters::TimeStepping::Control::fixed && interval_ == 0.) {
+    // The n-th step ends at n times the step, so that a thousand of them add no round-off.
+    const double end = (n_steps_ + 1) * step_;
+    return end >= parameters_.end_time - slack * step_ ? parameters_.end_time : end;
+  }
+  if (remaining <= step_ * (1. + slack))
+    return target();
+  // Two halves rather than a full step and a sliver.
+  return time_ + (remaining < 1.5 * step_ ? 0.5 * remaining : step_);
+}
+
+double StepControl::next_step() const { return next_time() - time_; }
+
+void StepControl::accept(const unsigned int n_iterations) {
+  const double taken = next_step();
+  time_ = next_time();
+  ++n_steps_;
+  if (parameters_.control == parameters::TimeStepping::Control::fixed)
+    return;
+  if (n_iterations <= parameters_.few_iterations)
+    step_ = std::min(parameters_.largest_step, std::max(step_, taken) * parameters_.growth_factor);
+  else if (n_iterations >= parameters_.many_iterations)
+    step_ = std::max(parameters_.smallest_step, taken * parameters_.shrink_factor);
+}
+
+bool StepControl::reject() {
+  ++n_cuts_;
+  const double cut = next_step() * parameters_.cut_factor;
+  if (parameters_.control == parameters::TimeStepping::Control::fixed || cut < parameters_.smallest_step)
+    return false;
+  step_ = cut;
+  return true;
+}
+
+} // namespace billet
