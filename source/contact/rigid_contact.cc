@@ -224,8 +224,7 @@ void RigidContact::add_forces(Vector &residual) const {
   }
 }
 
-void RigidContact::add_tangent(const Constraints &constraints,
-                               dealii::TrilinosWrappers::SparseMatrix &matrix) const {
+void RigidContact::add_tangent(const TangentSystem &system) const {
   const bool exact = tangent_ == ContactTangent::exact;
   dealii::FullMatrix<double> facet_matrix(12, 12);
   std::vector<DofIndex> dofs(12);
@@ -246,7 +245,7 @@ void RigidContact::add_tangent(const Constraints &constraints,
               facet_matrix(3 * a + i, 3 * b + j) -= node.traction[i] * areas.derivatives[a][b][j];
       }
     }
-    constraints.distribute_local_to_global(facet_matrix, dofs, matrix);
+    system.add(facet_matrix, dofs);
   }
 }
 

@@ -4,12 +4,21 @@
 #include "billet/compatibility.h"
 #include "billet/errors.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
 
 namespace billet {
+
+void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vector<DofIndex> &dofs) const {
+  if (lift == nullptr)
+    constraints.distribute_local_to_global(local, dofs, matrix);
+  else
+    constraints.distribute_local_to_global(local, dealii::Vector<double>(dofs.size()), dofs, matrix, *lift);
+}
 
 Supports::Supports(const Scene &scene, const Discretization &discretization) : discretization_(discretization) {
   struct NodeHolds {
@@ -45,7 +54,7 @@ Supports::Supports(const Scene &scene, const Discretization &discretization) : d
     std::sort(entry.second.holds.begin(), entry.second.holds.end());
     eliminate(entry.second.holds, entry.second.dofs, entry.second.position);
   }
-  homogeneous_ = make(false, 0.);
+  homogeneous_ = make([](const Line &) { return 0.; });
 }
 
 void Supports::eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
@@ -103,18 +112,13 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
   }
 }
 
-Constraints Supports::make(const bool with_values, const double t) const {
+template <class Value> Constraints Supports::make(const Value &value_of_line) const {
   Constraints constraints;
   compatibility::reinit(constraints, discretization_.owned_dofs(), discretization_.relevant_dofs());
   for (const auto &line : lines_) {
     constraints.add_line(line.dof);
     constraints.add_entries(line.dof, line.others);
-    if (with_values) {
-      double value = 0.;
-      for (const auto &term : line.terms)
-        value += term.weight * term.hold->value->value(t, line.position);
-      constraints.set_inhomogeneity(line.dof, value);
-    }
+    constraints.set_inhomogeneity(line.dof, value_of_line(line));
   }
   constraints.close();
   return constraints;
@@ -137,7 +141,27 @@ Constraints Supports::at_time(const double t) const {
       }
     }
   });
-  return make(true, t);
+  return make([t](const Line &line) { return line.value(t); });
+}
+
+Constraints Supports::change(const double t_n, const double t, bool &moves) const {
+  // Time by time: an expression is parsed anew when the time changes.
+  std::vector<double> values;
+  for (const auto &line : lines_)
+    values.push_back(-line.value(t_n));
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    values[i] += lines_[i].value(t);
+  const bool moves_here = std::any_of(values.begin(), values.end(), [](const double value) { return value != 0.; });
+  moves = dealii::Utilities::MPI::max(moves_here ? 1 : 0, discretization_.communicator()) == 1;
+  auto next = values.begin();
+  return make([&next](const Line &) { return *next++; });
+}
+
+double Supports::Line::value(const double t) const {
+  double value = 0.;
+  for (const auto &term : terms)
+    value += term.weight * term.hold->value->value(t, position);
+  return value;
 }
 
 DofIndex Supports::n_constrained() const {

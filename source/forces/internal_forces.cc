@@ -43,7 +43,7 @@ bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces
   return true;
 }
 
-bool InternalForces::assemble_tangent(const Vector &displacements, const Constraints &constraints, Matrix &matrix) {
+bool InternalForces::assemble_tangent(const Vector &displacements, const TangentSystem &system) {
   ElementVectors force{};
   ElementMatrix tangent{};
   dealii::FullMatrix<double> cell_matrix(n_element_dofs, n_element_dofs);
@@ -55,7 +55,7 @@ bool InternalForces::assemble_tangent(const Vector &displacements, const Constra
         return false;
       std::copy(tangent.begin(), tangent.end(), &cell_matrix(0, 0));
       dofs.assign(elements[e].dofs.begin(), elements[e].dofs.end());
-      constraints.distribute_local_to_global(cell_matrix, dofs, matrix);
+      system.add(cell_matrix, dofs);
     }
   }
   return true;

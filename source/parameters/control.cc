@@ -120,12 +120,13 @@ void Solver::declare(ParameterHandler &prm) {
                     "Newton ends when the residual is below this part of the forces in the scene.");
   prm.declare_entry("Energy tolerance", "1e-10", Patterns::Double(),
                     "... and the work of the residual in the last correction is below this part of the forces' work in the step.");
-  prm.declare_entry("Most iterations", "20", Patterns::Integer(0), "A step that needs more has failed.");
+  prm.declare_entry("Most iterations", "60", Patterns::Integer(0), "A step that needs more has failed; it is given up earlier if at its pace it would.");
   prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
                     "energy: shorten a correction while the residual's work along it grows; in any case a correction that turns an element "
                     "inside out is shortened.");
-  prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("none|extrapolation"),
-                    "Where a step's iterations start: the last state, or the last increment continued.");
+  prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
+                    "Where a step's iterations start. extrapolation: the last increment continued; tangent, and after a cut or at the "
+                    "start: the last state, or a linear step from it where supports move.");
   prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
                     "Direct solvers. automatic: MUMPS, its symmetric form where the matrix is symmetric; KLU runs on one rank at a time and is slow.");
 }
@@ -138,7 +139,7 @@ void Solver::parse(Reader &reader) {
   energy_tolerance = reader.positive("Energy tolerance");
   most_iterations = reader.count("Most iterations", 1);
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
-  predictor = reader.text("Predictor") == "none" ? Predictor::none : Predictor::extrapolation;
+  predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
   linear_solver = chosen(linear_solver_names, reader.text("Linear solver"));
 }
 

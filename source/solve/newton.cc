@@ -12,6 +12,7 @@
 #include <NOX_StatusTest_Generic.H>
 #include <NOX_Utils.H>
 #include <Teuchos_ParameterList.hpp>
+#include <Teuchos_oblackholestream.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -235,6 +236,10 @@ public:
     else if (n >= settings_.most_iterations) {
       report_.failure = "no convergence in " + std::to_string(n) + " iterations";
       status_ = NOX::StatusTest::Failed;
+    } else if (is_hopeless(n)) {
+      report_.failure = "given up after " + std::to_string(n) + " iterations, since at their pace " +
+                        std::to_string(settings_.most_iterations) + " will not do";
+      status_ = NOX::StatusTest::Failed;
     }
     return status_;
   }
@@ -242,6 +247,17 @@ public:
   std::ostream &print(std::ostream &stream, int) const override { return stream; }
 
 private:
+  /// Whether, at the mean pace of the last iterations, the residual would miss its tolerance in those that are left.
+  bool is_hopeless(const unsigned int n) const {
+    constexpr unsigned int window = 10;
+    if (n < 2 * window)
+      return false;
+    const double before = report_.iterations[n - window].force;
+    const double to_go = std::log(report_.force / settings_.force_tolerance);
+    const double pace = std::log(before / report_.force) / window; // per iteration
+    return to_go > 0. && pace * (settings_.most_iterations - n) < to_go;
+  }
+
   const NonlinearProblem &problem_;
   const parameters::Solver &settings_;
   const Epetra_Vector &x_n_;
@@ -252,7 +268,11 @@ private:
 RCP<Teuchos::ParameterList> make_options(const parameters::Solver &settings) {
   auto options = rcp(new Teuchos::ParameterList);
   options->set("Nonlinear Solver", "Line Search Based");
-  options->sublist("Printing").set("Output Information", static_cast<int>(NOX::Utils::Error) * 0);
+  // NOX speaks through the report alone.
+  const RCP<std::ostream> silence = rcp(new Teuchos::oblackholestream);
+  options->sublist("Printing").set("Output Information", 0);
+  options->sublist("Printing").set("Output Stream", silence);
+  options->sublist("Printing").set("Error Stream", silence);
   options->sublist("Direction").set("Method", "Newton");
   options->sublist("Direction").sublist("Newton").set("Rescue Bad Newton Solve", false);
   auto &line_search = options->sublist("Line Search");

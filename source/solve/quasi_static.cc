@@ -116,14 +116,18 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
 
 bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
   set_trial(x);
-  matrix_ = 0.;
-  if (!all_ranks(internal_.assemble_tangent(trial_ghosted_, supports_.homogeneous(), matrix_)))
+  return assemble_tangent({supports_.homogeneous(), matrix_});
+}
+
+bool QuasiStatic::assemble_tangent(const TangentSystem &system) {
+  system.matrix = 0.;
+  if (!all_ranks(internal_.assemble_tangent(trial_ghosted_, system)))
     return false;
   for (auto &contact : contacts_) {
     contact.update(trial_ghosted_);
-    contact.add_tangent(supports_.homogeneous(), matrix_);
+    contact.add_tangent(system);
   }
-  matrix_.compress(dealii::VectorOperation::add);
+  system.matrix.compress(dealii::VectorOperation::add);
   return direct_->factorize();
 }
 
@@ -138,22 +142,50 @@ bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx
 }
 
 bool QuasiStatic::predict(const double t_n, const double t, const double previous_step) {
+  const Constraints held = supports_.at_time(t);
   trial_ = u_n_;
-  const bool continues = scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation &&
-                         previous_step > 0. && has_increment_;
-  if (continues)
+  if (scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation && previous_step > 0.) {
     trial_.add((t - t_n) / previous_step, last_increment_);
-  supports_.at_time(t).distribute(trial_);
-  return true;
+    held.distribute(trial_);
+    return true;
+  }
+  bool moves = false;
+  const Constraints change = supports_.change(t_n, t, moves);
+  if (!moves)
+    return true;
+  // K Δu = −R with the change of the prescribed displacements lifted to the right-hand side: the supports' motion spreads through the
+  // bodies, where putting it on the boundary nodes alone would crush the elements beside them.
+  Vector rhs = discretization_.make_owned_vector();
+  if (!compute_residual(as_epetra(u_n_), as_epetra(rhs)))
+    return false;
+  Vector lift = discretization_.make_additive_vector();
+  if (!assemble_tangent({change, matrix_, &lift}))
+    return false;
+  lift.compress(dealii::VectorOperation::add);
+  Vector lifted = discretization_.make_owned_vector();
+  lifted = lift;
+  rhs.sadd(-1., lifted);
+  Vector correction = discretization_.make_owned_vector();
+  if (!direct_->solve(as_epetra(rhs), as_epetra(correction)))
+    return false;
+  change.distribute(correction);
+  trial_ = u_n_;
+  trial_ += correction;
+  held.distribute(trial_);
+  return std::isfinite(trial_.l2_norm());
 }
 
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   const double t_n = state_.time;
   for (auto &contact : contacts_)
     contact.start_step(t_n, t);
-  predict(t_n, t, previous_step);
+  NewtonReport report;
+  if (!predict(t_n, t, previous_step)) {
+    report.failure = direct_->failure().empty() ? "the first guess is not admissible" : direct_->failure();
+    return report;
+  }
   Vector x = trial_;
-  NewtonReport report = solve_newton(*this, scene_.parameters().solver, as_epetra(u_n_), as_epetra(x));
+  report = solve_newton(*this, scene_.parameters().solver, as_epetra(u_n_), as_epetra(x));
   if (report.converged) {
     // The line search may have looked further since: the histories have to be those of the accepted state.
     Epetra_Vector residual(as_epetra(x));
@@ -166,7 +198,6 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
 void QuasiStatic::commit(const double t) {
   last_increment_ = trial_;
   last_increment_ -= u_n_;
-  has_increment_ = true;
   u_n_ = trial_;
   internal_.commit();
 

@@ -47,8 +47,8 @@ public:
   /// Adds −F_c [force] to `residual` (additive vector), after update().
   void add_forces(Vector &residual) const;
 
-  /// Adds −∂F_c/∂u [force/length] to `matrix`, after update().
-  void add_tangent(const Constraints &constraints, dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+  /// Adds −∂F_c/∂u [force/length], after update().
+  void add_tangent(const TangentSystem &system) const;
 
   /// The state of the last update() becomes the start of the next step.
   void commit();

@@ -5,10 +5,22 @@
 #include "billet/discretization/discretization.h"
 
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 namespace billet {
 
 using Constraints = dealii::AffineConstraints<double>;
+
+/// Where a tangent is assembled to. If `lift` is given, the constraints' values are put to the right-hand side of the
+/// linear system.
+struct TangentSystem {
+  const Constraints &constraints;
+  dealii::TrilinosWrappers::SparseMatrix &matrix;
+  Vector *lift = nullptr; ///< additive
+
+  void add(const dealii::FullMatrix<double> &local, const std::vector<DofIndex> &dofs) const;
+};
 
 /// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements. The planes
 /// n · u = value that meet at a node may have any normals; at most three of them are independent.
@@ -21,6 +33,10 @@ public:
 
   /// The same with the values at time t. Throws InputError where planes at one node contradict each other.
   Constraints at_time(double t) const;
+
+  /// The same with the change of the values from t_n to t, for linear steps. `moves`, alike on all ranks, tells whether
+  /// any of them changes.
+  Constraints change(double t_n, double t, bool &moves) const;
 
   /// Number of prescribed nodal components on all ranks.
   DofIndex n_constrained() const;
@@ -36,6 +52,8 @@ private:
     std::vector<std::pair<DofIndex, double>> others;
     std::vector<Term> terms;
     dealii::Point<3> position;
+    /// Σ weight value(t)
+    double value(double t) const;
   };
   /// Σ weight value(t) must vanish.
   struct Redundancy {
@@ -44,7 +62,7 @@ private:
   };
   void eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
                  const dealii::Point<3> &position);
-  Constraints make(bool with_values, double t) const;
+  template <class Value> Constraints make(const Value &value_of_line) const;
 
   const Discretization &discretization_;
   std::vector<Line> lines_;

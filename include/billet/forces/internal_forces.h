@@ -22,8 +22,8 @@ public:
   /// Adds the forces [force] to `forces` (additive vector). False if an element on this rank is not admissible.
   bool assemble_forces(const Vector &displacements, Vector &forces);
 
-  /// Adds the tangent [force/length] to `matrix`, constraints eliminated. False as above.
-  bool assemble_tangent(const Vector &displacements, const Constraints &constraints, Matrix &matrix);
+  /// Adds the tangent [force/length]. False as above.
+  bool assemble_tangent(const Vector &displacements, const TangentSystem &system);
 
   /// The state of the last assembly becomes the start of the next step.
   void commit();

@@ -38,7 +38,7 @@ enum class ContactTangent { exact, consistent, continuum, symmetrised_upper, sym
 /// Subsection Solver.
 struct Solver {
   enum class LineSearch { none, energy };
-  enum class Predictor { none, extrapolation };
+  enum class Predictor { tangent, extrapolation };
   enum class LinearSolver { automatic, mumps_symmetric, mumps, klu };
 
   ContactTangent contact_tangent;

@@ -58,7 +58,9 @@ private:
   void build_matrix();
   /// First guess of the step: the last increment continued, or one linear step from the last state into which the
   /// motion of the supports is put.
+  /// Returns false where that step has no solution.
   bool predict(double t_n, double t, double previous_step);
+  bool assemble_tangent(const TangentSystem &system);
   bool all_ranks(bool success) const;
   void set_trial(const Epetra_Vector &x);
   void commit(double t);
@@ -78,7 +80,6 @@ private:
   Vector raw_internal_, raw_contact_; ///< additive
   Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
   double force_scale_ = 0., round_off_force_ = 0.;
-  bool has_increment_ = false;
   SolutionState state_;
 };
 
