@@ -31,7 +31,8 @@ void prepare_folder(const parameters::Scene &parameters) {
   std::ofstream copy(folder / "scene.prm");
   copy << parameters.text;
   if (!copy.flush())
-    throw InputError(parameters.output.folder.origin + ": nothing can be written to '" + folder.string() + "'");
+    throw InputError(parameters.output.folder.origin + ": nothing can be written to '" + folder.string() +
+                     "'");
 }
 
 /// Writes fields at the start, as often as the scene asks for, and at the end.
@@ -42,10 +43,12 @@ public:
 
   void after_step(const unsigned int step, const QuasiStatic &problem) {
     const double time = problem.state().time;
-    const bool by_interval = output_.interval > 0. && time >= (n_intervals_ + 1) * output_.interval * (1. - 1e-8);
+    const bool by_interval =
+        output_.interval > 0. && time >= (n_intervals_ + 1) * output_.interval * (1. - 1e-8);
     if (by_interval)
       ++n_intervals_;
-    const bool by_steps = output_.interval == 0. && output_.every_steps > 0 && step % output_.every_steps == 0;
+    const bool by_steps =
+        output_.interval == 0. && output_.every_steps > 0 && step % output_.every_steps == 0;
     if (by_interval || by_steps || time >= end_)
       write(problem);
   }
@@ -75,9 +78,11 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
   else
     message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step
-            << ": try a softer penalty, another 'Contact tangent', more 'Most iterations', or look at the last picture for "
+            << ": try a softer penalty, another 'Contact tangent', more 'Most iterations', or look at the "
+               "last picture for "
                "an unstable or torn mesh";
-  message << ". What was computed until time " << from << " is in '" << parameters.output.folder.value << "'.";
+  message << ". What was computed until time " << from << " is in '" << parameters.output.folder.value
+          << "'.";
   return message.str();
 }
 

@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Runs a scene from start to end. Collective. Throws InputError before anything is written, SolutionFailure after
-/// everything that was computed is on disk.
+/// Runs a scene from start to end. Collective. Throws InputError before anything is written, SolutionFailure
+/// after everything that was computed is on disk.
 void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
 
 } // namespace billet

@@ -24,8 +24,8 @@ ContactLoad &ContactLoad::operator+=(const ContactLoad &other) {
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
                            const ContactTangent tangent)
-    : pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]), communicator_(discretization.communicator()),
-      tangent_(tangent) {
+    : pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
+      communicator_(discretization.communicator()), tangent_(tangent) {
   collect_facets(discretization);
   set_penalties(scene, discretization);
   start_step(0., 0.);
@@ -90,7 +90,8 @@ void RigidContact::set_penalties(const Scene &scene, const Discretization &discr
   for (auto &node : nodes_) {
     const double h = std::sqrt(ghosted(node.dofs[0]) / ghosted(node.dofs[1]));
     node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, h),
-                      pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, h), pair_.friction_coefficient};
+                      pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, h),
+                      pair_.friction_coefficient};
   }
 }
 
@@ -108,7 +109,8 @@ void RigidContact::update(const Vector &displacements) {
     node.normal = placement_.rotation * projection.normal;
     node.gap = projection.gap;
     node.slip_increment = node.dissipation = node.tangential_energy = 0.;
-    // A node that starts exactly on the tool counts as touching: its stiffness may be all that holds the body.
+    // A node that starts exactly on the tool counts as touching: its stiffness may be all that holds the
+    // body.
     const bool touches = node.gap < 0. || (node.gap == 0. && node.gap_n <= 0.);
     if (!touches) {
       node.status = ContactStatus::open;
@@ -134,15 +136,16 @@ void RigidContact::update(const Vector &displacements) {
   }
 }
 
-void RigidContact::apply_friction(Node &node, const FrictionHistory &history_n, FrictionHistory &history) const {
+void RigidContact::apply_friction(Node &node, const FrictionHistory &history_n,
+                                  FrictionHistory &history) const {
   history.frame = history_n.is_active
-                      ? history_n.frame.transported(placement_.rotation * dealii::transpose(placement_n_.rotation),
-                                                    node.normal)
+                      ? history_n.frame.transported(
+                            placement_.rotation * dealii::transpose(placement_n_.rotation), node.normal)
                       : Frame::from_normal(node.normal);
   const Frame &Z = history.frame;
 
-  // Relative displacement over the step, against the tool's material point that was at the node (eq. (33), with the
-  // tool's motion).
+  // Relative displacement over the step, against the tool's material point that was at the node (eq. (33),
+  // with the tool's motion).
   const Tensor<1, 3> displacement = node.position - placement_.to_space(history_n.tool_position);
   const std::array<double, 2> increment{displacement * Z.q, displacement * Z.r};
 
@@ -156,7 +159,8 @@ void RigidContact::apply_friction(Node &node, const FrictionHistory &history_n, 
     const double relative_slope = node.gap_n / (node.gap * (node.gap_n - node.gap)); // (∂φ/∂g)/φ
     slope = {increment[0] * relative_slope, increment[1] * relative_slope};
   }
-  const FrameTraction t = compute_traction(stiffness, tangent_, node.gap, history_n.tangential, increment, slope);
+  const FrameTraction t =
+      compute_traction(stiffness, tangent_, node.gap, history_n.tangential, increment, slope);
 
   node.status = t.status;
   node.pressure = t.pressure;
@@ -249,6 +253,22 @@ void RigidContact::add_tangent(const TangentSystem &system) const {
   }
 }
 
+void RigidContact::add_tool_push(const double t, Vector &forces) const {
+  const Placement after = tool_.placement(t);
+  for (const auto &facet : facets_) {
+    const FacetAreas areas = compute_areas(facet, false);
+    for (unsigned int a = 0; a < 4; ++a) {
+      const Node &node = nodes_[facet.nodes[a]];
+      if (areas.areas[a] == 0.)
+        continue;
+      const Tensor<1, 3> motion = after.to_space(placement_.to_tool(node.position)) - node.position;
+      const Tensor<1, 3> force = areas.areas[a] * (node.tangent * motion);
+      const std::array<double, 3> values{force[0], force[1], force[2]};
+      forces.add(3, node.dofs.data(), values.data());
+    }
+  }
+}
+
 void RigidContact::commit() {
   for (auto &node : nodes_)
     node.gap_n = node.gap;
@@ -273,8 +293,9 @@ ContactLoad RigidContact::compute_load() const {
       local.deepest = std::max(local.deepest, -node.gap);
     }
   }
-  const std::array<double, 9> sums{local.force[0],  local.force[1], local.force[2],      local.moment[0],  local.moment[1],
-                             local.moment[2], local.area,     local.stored_energy, local.dissipation};
+  const std::array<double, 9> sums{local.force[0],  local.force[1],      local.force[2],
+                                   local.moment[0], local.moment[1],     local.moment[2],
+                                   local.area,      local.stored_energy, local.dissipation};
   std::array<double, 9> totals{};
   dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()), communicator_,
                               dealii::ArrayView<double>(totals.data(), totals.size()));
@@ -294,8 +315,8 @@ std::vector<RigidContact::NodeReport> RigidContact::report() const {
   std::vector<NodeReport> reports;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
-    reports.push_back({node.dofs, node.status, node.pressure, node.gap, friction_.empty() ? 0. : friction_[i].slip, 0.,
-                       node.traction});
+    reports.push_back({node.dofs, node.status, node.pressure, node.gap,
+                       friction_.empty() ? 0. : friction_[i].slip, 0., node.traction});
   }
   for (const auto &facet : facets_) {
     const FacetAreas areas = compute_areas(facet, false);

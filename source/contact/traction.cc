@@ -13,12 +13,14 @@ FrameTraction compute_frictionless_traction(const double normal_stiffness, const
   return traction;
 }
 
-FrameTraction compute_traction(const ContactStiffness &stiffness, const ContactTangent tangent, const double gap,
-                               const std::array<double, 2> &tangential_n, const std::array<double, 2> &increment,
+FrameTraction compute_traction(const ContactStiffness &stiffness, const ContactTangent tangent,
+                               const double gap, const std::array<double, 2> &tangential_n,
+                               const std::array<double, 2> &increment,
                                const std::array<double, 2> &increment_slope) {
   FrameTraction traction = compute_frictionless_traction(stiffness.normal, gap);
   const double k_t = stiffness.tangential;
-  const std::array<double, 2> trial{tangential_n[0] - k_t * increment[0], tangential_n[1] - k_t * increment[1]};
+  const std::array<double, 2> trial{tangential_n[0] - k_t * increment[0],
+                                    tangential_n[1] - k_t * increment[1]};
   const double trial_norm = std::hypot(trial[0], trial[1]);
   const double limit = stiffness.friction_coefficient * traction.pressure;
   auto &K = traction.tangent;

@@ -18,7 +18,8 @@ void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::T
   scene.build_mesh(MeshDetail::full, mesh);
   if (mesh.n_active_cells() < n_parts)
     throw InputError(scene.parameters().file_name + ": found " + std::to_string(mesh.n_active_cells()) +
-                     " elements for " + std::to_string(n_parts) + " ranks, allowed is at least one for each rank");
+                     " elements for " + std::to_string(n_parts) +
+                     " ranks, allowed is at least one for each rank");
   dealii::GridTools::partition_triangulation(n_parts, mesh, dealii::SparsityTools::Partitioner::metis);
 }
 
@@ -50,8 +51,8 @@ Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
   }
   radius_ = diagonal.norm();
 
-  const auto description = dealii::TriangulationDescription::Utilities::
-      create_description_from_triangulation_in_groups<3, 3>(
+  const auto description =
+      dealii::TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<3, 3>(
           [&whole](dealii::Triangulation<3> &mesh) { mesh.copy_triangulation(whole); },
           [&whole](dealii::Triangulation<3> &mesh, const MPI_Comm &, const unsigned int) {
             auto from = whole.begin_active();

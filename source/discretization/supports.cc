@@ -20,7 +20,8 @@ void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vect
     constraints.distribute_local_to_global(local, dealii::Vector<double>(dofs.size()), dofs, matrix, *lift);
 }
 
-Supports::Supports(const Scene &scene, const Discretization &discretization) : discretization_(discretization) {
+Supports::Supports(const Scene &scene, const Discretization &discretization)
+    : discretization_(discretization) {
   struct NodeHolds {
     std::vector<const Hold *> holds;
     std::array<DofIndex, 3> dofs;
@@ -151,7 +152,8 @@ Constraints Supports::change(const double t_n, const double t, bool &moves) cons
     values.push_back(-line.value(t_n));
   for (std::size_t i = 0; i < lines_.size(); ++i)
     values[i] += lines_[i].value(t);
-  const bool moves_here = std::any_of(values.begin(), values.end(), [](const double value) { return value != 0.; });
+  const bool moves_here =
+      std::any_of(values.begin(), values.end(), [](const double value) { return value != 0.; });
   moves = dealii::Utilities::MPI::max(moves_here ? 1 : 0, discretization_.communicator()) == 1;
   auto next = values.begin();
   return make([&next](const Line &) { return *next++; });

@@ -74,12 +74,14 @@ InternalForces::Energies InternalForces::compute_energies(const Vector &displace
       sums[1] += summary.plastic_work;
     }
   std::array<double, 2> totals{};
-  dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()), discretization_.communicator(),
+  dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()),
+                              discretization_.communicator(),
                               dealii::ArrayView<double>(totals.data(), totals.size()));
   return {totals[0], totals[1]};
 }
 
-std::vector<ElementSummary> InternalForces::summarize(const std::size_t body, const Vector &displacements) const {
+std::vector<ElementSummary> InternalForces::summarize(const std::size_t body,
+                                                      const Vector &displacements) const {
   std::vector<ElementSummary> result;
   const auto &elements = discretization_.elements(body);
   for (std::size_t e = 0; e < elements.size(); ++e)

@@ -31,7 +31,8 @@ SymmetricTensor<2, 3> compute_kirchhoff_stress(const PrincipalElasticState &tria
                                                const PrincipalResponse &response) {
   SymmetricTensor<2, 3> tau;
   for (unsigned int a = 0; a < 3; ++a)
-    tau += response.stress[a] * dealii::symmetrize(dealii::outer_product(trial.directions[a], trial.directions[a]));
+    tau += response.stress[a] *
+           dealii::symmetrize(dealii::outer_product(trial.directions[a], trial.directions[a]));
   return tau;
 }
 

@@ -33,8 +33,8 @@ public:
     std::array<dealii::SymmetricTensor<2, 3>, n_element_points> tau;
     std::array<SpatialModuli, n_element_points> moduli;
     for (unsigned int q = 0; q < n_element_points; ++q)
-      if (!law_.update(kinematics.F_bar[q], history_at(history_n_, element)[q], history_at(history_, element)[q],
-                       tau[q], matrix != nullptr ? &moduli[q] : nullptr))
+      if (!law_.update(kinematics.F_bar[q], history_at(history_n_, element)[q],
+                       history_at(history_, element)[q], tau[q], matrix != nullptr ? &moduli[q] : nullptr))
         return false;
     force.fill(0.);
     add_internal_force(elements_[element], kinematics, tau, force);

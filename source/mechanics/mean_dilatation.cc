@@ -34,7 +34,8 @@ std::array<NodalGradients, n_element_points> make_shape_gradients() {
 const std::array<NodalGradients, n_element_points> shape_gradients = make_shape_gradients();
 
 /// ∂N_a/∂y from ∂N_a/∂ξ, where `jacobian` = ∂y/∂ξ.
-void transform_gradients(const NodalGradients &from, const Tensor<2, 3> &inverse_jacobian, NodalGradients &to) {
+void transform_gradients(const NodalGradients &from, const Tensor<2, 3> &inverse_jacobian,
+                         NodalGradients &to) {
   for (unsigned int a = 0; a < n_element_nodes; ++a)
     for (unsigned int i = 0; i < 3; ++i)
       to[a][i] = from[a][0] * inverse_jacobian[0][i] + from[a][1] * inverse_jacobian[1][i] +
@@ -84,7 +85,8 @@ bool compute_kinematics(const ReferenceElement &element, const ElementVectors &d
     kinematics.current_volume += kinematics.current_volumes[q];
     for (unsigned int a = 0; a < n_element_nodes; ++a)
       for (unsigned int i = 0; i < 3; ++i)
-        kinematics.mean_divergence[3 * a + i] += kinematics.current_volumes[q] * kinematics.gradients[q][a][i];
+        kinematics.mean_divergence[3 * a + i] +=
+            kinematics.current_volumes[q] * kinematics.gradients[q][a][i];
   }
   for (double &b : kinematics.mean_divergence)
     b /= kinematics.current_volume;
@@ -95,7 +97,8 @@ bool compute_kinematics(const ReferenceElement &element, const ElementVectors &d
 }
 
 void add_internal_force(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
-                        const std::array<SymmetricTensor<2, 3>, n_element_points> &tau, ElementVectors &force) {
+                        const std::array<SymmetricTensor<2, 3>, n_element_points> &tau,
+                        ElementVectors &force) {
   double volumetric = 0.; // Π
   for (unsigned int q = 0; q < n_element_points; ++q) {
     const double w = element.volumes[q];
@@ -113,7 +116,8 @@ void add_internal_force(const ReferenceElement &element, const MeanDilatationKin
 
 void compute_internal_tangent(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
                               const std::array<SymmetricTensor<2, 3>, n_element_points> &tau,
-                              const std::array<SpatialModuli, n_element_points> &moduli, ElementMatrix &matrix) {
+                              const std::array<SpatialModuli, n_element_points> &moduli,
+                              ElementMatrix &matrix) {
   // Only the upper triangle is computed, then mirrored.
   matrix.fill(0.);
   double volumetric = 0.; // Π
@@ -164,8 +168,8 @@ void compute_internal_tangent(const ReferenceElement &element, const MeanDilatat
       const double div_factor = dilate * divergence[r];
       for (unsigned int c = r; c < n_element_dofs; ++c)
         row[c] += B[0][r] * cB[0][c] + B[1][r] * cB[1][c] + B[2][r] * cB[2][c] + B[3][r] * cB[3][c] +
-                  B[4][r] * cB[4][c] + B[5][r] * cB[5][c] + theta_factor * theta[c] + tau_factor * tau_grad[c] +
-                  div_factor * divergence[c];
+                  B[4][r] * cB[4][c] + B[5][r] * cB[5][c] + theta_factor * theta[c] +
+                  tau_factor * tau_grad[c] + div_factor * divergence[c];
       for (unsigned int b = a; b < n_element_nodes; ++b) {
         const auto &g_a = gradients[a];
         const auto &g_b = gradients[b];
@@ -174,7 +178,8 @@ void compute_internal_tangent(const ReferenceElement &element, const MeanDilatat
           if (3 * b + j >= r)
             row[3 * b + j] += swap * g_a[j] * g_b[i];
         if (3 * b + i >= r)
-          row[3 * b + i] += g_a[0] * tau_grad[3 * b] + g_a[1] * tau_grad[3 * b + 1] + g_a[2] * tau_grad[3 * b + 2];
+          row[3 * b + i] +=
+              g_a[0] * tau_grad[3 * b] + g_a[1] * tau_grad[3 * b + 1] + g_a[2] * tau_grad[3 * b + 2];
       }
     }
   }

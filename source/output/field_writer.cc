@@ -25,13 +25,14 @@ struct CellFields {
   std::vector<dealii::Vector<double>> values;
 };
 
-CellFields collect_cell_fields(const Scene &scene, const Discretization &discretization, const QuasiStatic &problem) {
+CellFields collect_cell_fields(const Scene &scene, const Discretization &discretization,
+                               const QuasiStatic &problem) {
   const bool stress = scene.parameters().output.stress;
   const bool strain = scene.parameters().output.plastic_strain && scene.capabilities().plasticity;
   CellFields fields;
   if (stress)
-    fields.names = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz", "von_mises_stress",
-                    "pressure"};
+    fields.names = {"stress_xx", "stress_yy", "stress_zz",        "stress_xy",
+                    "stress_xz", "stress_yz", "von_mises_stress", "pressure"};
   if (strain)
     fields.names.emplace_back("equivalent_plastic_strain");
   fields.names.emplace_back("body");
@@ -62,8 +63,10 @@ CellFields collect_cell_fields(const Scene &scene, const Discretization &discret
   return fields;
 }
 
-/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap NaN and status −1.
-std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const QuasiStatic &problem) {
+/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap NaN
+/// and status −1.
+std::array<Vector, 3> collect_contact_fields(const Discretization &discretization,
+                                             const QuasiStatic &problem) {
   std::array<Vector, 3> owned;
   for (auto &vector : owned)
     vector = discretization.make_owned_vector();
@@ -141,7 +144,8 @@ void FieldWriter::write(const QuasiStatic &problem) {
   const dealii::MappingQEulerian<3, Vector> mapping(1, discretization_.dof_handler(), state.displacements);
   dealii::DataOut<3> data_out;
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const std::vector<Interpretation> as_vector(3, dealii::DataComponentInterpretation::component_is_part_of_vector);
+  const std::vector<Interpretation> as_vector(
+      3, dealii::DataComponentInterpretation::component_is_part_of_vector);
   const std::vector<Interpretation> as_scalars(3, dealii::DataComponentInterpretation::component_is_scalar);
   data_out.add_data_vector(discretization_.dof_handler(), state.displacements,
                            std::vector<std::string>(3, "displacement"), as_vector);
@@ -203,12 +207,14 @@ void FieldWriter::write_tools(const SolutionState &state, const std::string &nam
   }
   std::ofstream out(folder_ + "/" + name);
   out << std::setprecision(9);
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+         "byte_order=\"LittleEndian\">\n<PolyData>\n"
       << "<Piece NumberOfPoints=\"" << points.size() << "\" NumberOfPolys=\"" << facets.size() << "\">\n"
       << "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
   for (const auto &point : points)
     out << point << "\n";
-  out << "</DataArray></Points>\n<Polys>\n<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n";
+  out << "</DataArray></Points>\n<Polys>\n<DataArray type=\"Int32\" Name=\"connectivity\" "
+         "format=\"ascii\">\n";
   for (const auto &facet : facets) {
     for (const auto point : facet)
       out << point << " ";
@@ -218,7 +224,8 @@ void FieldWriter::write_tools(const SolutionState &state, const std::string &nam
   std::size_t offset = 0;
   for (const auto &facet : facets)
     out << (offset += facet.size()) << " ";
-  out << "\n</DataArray>\n</Polys>\n<CellData Scalars=\"tool\">\n<DataArray type=\"Int32\" Name=\"tool\" format=\"ascii\">\n";
+  out << "\n</DataArray>\n</Polys>\n<CellData Scalars=\"tool\">\n<DataArray type=\"Int32\" Name=\"tool\" "
+         "format=\"ascii\">\n";
   for (const auto tool : tool_of_facet)
     out << tool << " ";
   out << "\n</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
@@ -235,11 +242,11 @@ void FieldWriter::write_index() const {
       << "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const auto &snapshot : snapshots_) {
     if (with_fields)
-      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"0\" name=\"bodies\" file=\"" << snapshot.fields
-          << "\"/>\n";
+      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"0\" name=\"bodies\" file=\""
+          << snapshot.fields << "\"/>\n";
     if (!scene_.tools().empty())
-      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"1\" name=\"tools\" file=\"" << snapshot.tools
-          << "\"/>\n";
+      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"1\" name=\"tools\" file=\""
+          << snapshot.tools << "\"/>\n";
   }
   out << "</Collection>\n</VTKFile>\n";
   out.close();

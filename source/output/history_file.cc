@@ -11,16 +11,17 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder) : stream
   stream_ << "step,time,step_length,iterations,residual,total_iterations,total_cuts";
   for (const auto &tool : scene.tools())
     for (const char *quantity :
-         {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "contact_area", "deepest_penetration",
-          "travel_x", "travel_y", "travel_z", "turn"})
+         {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "contact_area",
+          "deepest_penetration", "travel_x", "travel_y", "travel_z", "turn"})
       stream_ << "," << tool.name() << "." << quantity;
   stream_ << ",elastic_energy,plastic_work,contact_energy,friction_dissipation,external_work,energy_drift\n";
   stream_ << std::setprecision(15);
 }
 
 void HistoryFile::write(const StepReport &report, const SolutionState &state) {
-  stream_ << report.step << "," << state.time << "," << report.length << "," << report.newton.iterations.size() << ","
-          << report.newton.force << "," << report.total_iterations << "," << report.total_cuts;
+  stream_ << report.step << "," << state.time << "," << report.length << ","
+          << report.newton.iterations.size() << "," << report.newton.force << "," << report.total_iterations
+          << "," << report.total_cuts;
   for (std::size_t i = 0; i < state.tool_loads.size(); ++i) {
     const ContactLoad &load = state.tool_loads[i];
     const Placement &placement = state.placements[i];
@@ -34,8 +35,8 @@ void HistoryFile::write(const StepReport &report, const SolutionState &state) {
     stream_ << "," << placement.rotation_angle;
   }
   const EnergyLedger &energies = state.energies;
-  stream_ << "," << energies.elastic << "," << energies.plastic << "," << energies.contact << "," << energies.friction
-          << "," << energies.external << "," << energies.drift() << std::endl;
+  stream_ << "," << energies.elastic << "," << energies.plastic << "," << energies.contact << ","
+          << energies.friction << "," << energies.external << "," << energies.drift() << std::endl;
 }
 
 } // namespace billet

@@ -32,7 +32,8 @@ double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void Progress::start(const Discretization &discretization, const QuasiStatic &problem, const std::size_t n_dofs) {
+void Progress::start(const Discretization &discretization, const QuasiStatic &problem,
+                     const std::size_t n_dofs) {
   if (verbosity_ == Verbosity::quiet)
     return;
   const auto histories = problem.history_sizes();
@@ -56,9 +57,10 @@ void Progress::accept(const StepReport &report, const SolutionState &state) {
       stream_ << std::setw(14) << ("|F| " + tool.name()).substr(0, 13);
     stream_ << "   plastic work\n";
   }
-  stream_ << std::setw(6) << report.step << std::setw(12) << std::setprecision(6) << state.time << std::setw(12)
-          << std::setprecision(4) << report.length << std::setw(5) << report.newton.iterations.size() << std::setw(11)
-          << std::setprecision(2) << report.newton.force << std::setprecision(7);
+  stream_ << std::setw(6) << report.step << std::setw(12) << std::setprecision(6) << state.time
+          << std::setw(12) << std::setprecision(4) << report.length << std::setw(5)
+          << report.newton.iterations.size() << std::setw(11) << std::setprecision(2) << report.newton.force
+          << std::setprecision(7);
   for (const auto &load : state.tool_loads)
     stream_ << std::setw(14) << load.force.norm();
   stream_ << std::setw(15) << state.energies.plastic << "\n";
@@ -80,9 +82,9 @@ void Progress::reject(const StepReport &report, const double from, const double 
 void Progress::show_iterations(const NewtonReport &newton) {
   unsigned int n = 0;
   for (const auto &iteration : newton.iterations)
-    stream_ << "         iteration " << std::setw(2) << ++n << "  force " << std::scientific << std::setprecision(3)
-            << iteration.force << "  energy " << iteration.energy << std::defaultfloat << "  step length "
-            << std::setprecision(3) << iteration.step_length << "\n";
+    stream_ << "         iteration " << std::setw(2) << ++n << "  force " << std::scientific
+            << std::setprecision(3) << iteration.force << "  energy " << iteration.energy << std::defaultfloat
+            << "  step length " << std::setprecision(3) << iteration.step_length << "\n";
 }
 
 void Progress::show_bar(const double time) {
@@ -92,8 +94,8 @@ void Progress::show_bar(const double time) {
   constexpr int width = 40;
   const int filled = static_cast<int>(part * width);
   stream_ << "[" << std::string(static_cast<std::size_t>(filled), '=')
-          << std::string(static_cast<std::size_t>(width - filled), ' ') << "] " << static_cast<int>(100. * part)
-          << " %  " << format_duration(elapsed());
+          << std::string(static_cast<std::size_t>(width - filled), ' ') << "] "
+          << static_cast<int>(100. * part) << " %  " << format_duration(elapsed());
   if (part > 0. && part < 1.)
     stream_ << ", about " << format_duration(elapsed() * (1. - part) / part) << " to go";
   has_bar_ = true;

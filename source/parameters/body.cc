@@ -14,33 +14,46 @@ using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
 void Mesh::declare(ParameterHandler &prm) {
-  prm.declare_entry("Source", "primitive", Patterns::Selection("primitive|extruded primitive|file"),
-                    "A three-dimensional function of deal.II's GridGenerator, a two-dimensional one extruded along z, "
-                    "or a mesh file.");
-  prm.declare_entry("Primitive", "hyper_rectangle", Patterns::Anything(),
-                    "Name of the GridGenerator function, such as hyper_rectangle, subdivided_hyper_rectangle, cylinder; "
-                    "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell.");
+  prm.declare_entry(
+      "Source", "primitive", Patterns::Selection("primitive|extruded primitive|file"),
+      "A three-dimensional function of deal.II's GridGenerator, a two-dimensional one extruded along z, "
+      "or a mesh file.");
+  prm.declare_entry(
+      "Primitive", "hyper_rectangle", Patterns::Anything(),
+      "Name of the GridGenerator function, such as hyper_rectangle, subdivided_hyper_rectangle, cylinder; "
+      "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell.");
   prm.declare_entry("Arguments", "0, 0, 0 : 1, 1, 1", Patterns::Anything(),
-                    "Arguments of that function, separated by ':' (points and lists inside by ','). All arguments without a "
+                    "Arguments of that function, separated by ':' (points and lists inside by ','). All "
+                    "arguments without a "
                     "default have to be given.");
-  prm.declare_entry("Refinements", "0", Patterns::Integer(0),
-                    "Uniform refinements of the primitive (of the section, where it is extruded) or of the mesh read.");
-  prm.declare_entry("Section area", "0", Patterns::Double(),
-                    "Extruded primitives: scale the section about its origin until its area is this, so that a polygon "
-                    "stands for a circle without losing volume. 0: as generated. [length^2]");
-  prm.declare_entry("Height", "1", Patterns::Double(), "Extruded primitives: extent along z, from z = 0. [length]");
+  prm.declare_entry(
+      "Refinements", "0", Patterns::Integer(0),
+      "Uniform refinements of the primitive (of the section, where it is extruded) or of the mesh read.");
+  prm.declare_entry(
+      "Section area", "0", Patterns::Double(),
+      "Extruded primitives: scale the section about its origin until its area is this, so that a polygon "
+      "stands for a circle without losing volume. 0: as generated. [length^2]");
+  prm.declare_entry("Height", "1", Patterns::Double(),
+                    "Extruded primitives: extent along z, from z = 0. [length]");
   prm.declare_entry("Layers", "1", Patterns::Integer(0), "Extruded primitives: layers of elements along z.");
-  prm.declare_entry("File", "", Patterns::Anything(),
-                    "Mesh file (Gmsh .msh, .vtk, UCD .inp or .ucd, deal.II's .vtu) of hexahedra, relative to the scene "
-                    "file. Boundary ids are the file's.");
-  prm.declare_entry("Scale", "1", Patterns::Double(), "Multiplies all positions of the mesh, before it is turned and moved.");
-  prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(), "Axis through the origin about which the mesh is turned.");
-  prm.declare_entry("Rotation angle", "0", Patterns::Double(), "Angle by which the mesh is turned. [degrees]");
-  prm.declare_entry("Translation", "0, 0, 0", Patterns::Anything(), "Moves the mesh after it was turned. [length]");
-  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
-                    "Renames boundary faces: 'id : condition ; id : condition ...', each condition a muParser expression "
-                    "of the face's centre x, y, z in the final position, such as '7 : abs(z - 15) < 1e-6'. The last condition "
-                    "that holds wins; faces without one keep their id.");
+  prm.declare_entry(
+      "File", "", Patterns::Anything(),
+      "Mesh file (Gmsh .msh, .vtk, UCD .inp or .ucd, deal.II's .vtu) of hexahedra, relative to the scene "
+      "file. Boundary ids are the file's.");
+  prm.declare_entry("Scale", "1", Patterns::Double(),
+                    "Multiplies all positions of the mesh, before it is turned and moved.");
+  prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(),
+                    "Axis through the origin about which the mesh is turned.");
+  prm.declare_entry("Rotation angle", "0", Patterns::Double(),
+                    "Angle by which the mesh is turned. [degrees]");
+  prm.declare_entry("Translation", "0, 0, 0", Patterns::Anything(),
+                    "Moves the mesh after it was turned. [length]");
+  prm.declare_entry(
+      "Boundary ids", "", Patterns::Anything(),
+      "Renames boundary faces: 'id : condition ; id : condition ...', each condition a muParser expression "
+      "of the face's centre x, y, z in the final position, such as '7 : abs(z - 15) < 1e-6'. The last "
+      "condition "
+      "that holds wins; faces without one keep their id.");
 }
 
 void Mesh::parse(Reader &reader) {
@@ -62,8 +75,9 @@ void Mesh::parse(Reader &reader) {
     const auto colon = part.find(':');
     if (colon == std::string::npos || part.find_first_not_of("0123456789 ") < colon || colon == 0)
       reader.reject("Boundary ids", "'id : condition', separated by semicolons");
-    boundary_ids.value.emplace_back(dealii::Utilities::string_to_int(dealii::Utilities::trim(part.substr(0, colon))),
-                                    dealii::Utilities::trim(part.substr(colon + 1)));
+    boundary_ids.value.emplace_back(
+        dealii::Utilities::string_to_int(dealii::Utilities::trim(part.substr(0, colon))),
+        dealii::Utilities::trim(part.substr(colon + 1)));
   }
   const bool is_extruded = source == Source::extruded;
   for (const std::string key : {"Section area", "Height", "Layers"})
@@ -84,22 +98,26 @@ void Mesh::parse(Reader &reader) {
 }
 
 void Material::declare(ParameterHandler &prm) {
-  prm.declare_entry("Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
-                    "Hencky's elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
+  prm.declare_entry(
+      "Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
+      "Hencky's elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
   prm.declare_entry("Young modulus", "0", Patterns::Double(), "E > 0. [stress]");
   prm.declare_entry("Poisson ratio", "0.3", Patterns::Double(), "-1 < nu < 0.5.");
   prm.declare_entry("Hardening", "linear", Patterns::Selection("linear|Voce|power law|table"),
-                    "Yield stress over equivalent plastic strain e: linear: Sy + H e; Voce: Sy + (Ss - Sy)(1 - exp(-d e)) + H e; "
+                    "Yield stress over equivalent plastic strain e: linear: Sy + H e; Voce: Sy + (Ss - Sy)(1 "
+                    "- exp(-d e)) + H e; "
                     "power law: K (e0 + e)^n; table: straight lines through points.");
   prm.declare_entry("Yield stress", "0", Patterns::Double(), "Sy > 0; linear and Voce hardening. [stress]");
-  prm.declare_entry("Hardening modulus", "0", Patterns::Double(), "H >= 0; linear and Voce hardening. [stress]");
+  prm.declare_entry("Hardening modulus", "0", Patterns::Double(),
+                    "H >= 0; linear and Voce hardening. [stress]");
   prm.declare_entry("Saturation stress", "0", Patterns::Double(), "Ss >= Sy; Voce hardening. [stress]");
   prm.declare_entry("Saturation rate", "0", Patterns::Double(), "d > 0; Voce hardening.");
   prm.declare_entry("Strength coefficient", "0", Patterns::Double(), "K > 0; power law. [stress]");
   prm.declare_entry("Prestrain", "0", Patterns::Double(), "e0 > 0; power law.");
   prm.declare_entry("Hardening exponent", "0", Patterns::Double(), "0 <= n <= 1; power law.");
   prm.declare_entry("Table", "", Patterns::Anything(),
-                    "'strain : stress, strain : stress, ...': plastic strains from 0, strictly increasing; yield stresses > 0, "
+                    "'strain : stress, strain : stress, ...': plastic strains from 0, strictly increasing; "
+                    "yield stresses > 0, "
                     "not decreasing; constant beyond the last point. [- : stress]");
 }
 
@@ -111,8 +129,8 @@ void Material::parse(Reader &reader) {
     reader.reject("Poisson ratio", "a number > -1 and < 0.5");
 
   const std::string chosen = reader.text("Hardening");
-  hardening = chosen == "linear" ? Hardening::linear
-              : chosen == "Voce" ? Hardening::voce
+  hardening = chosen == "linear"  ? Hardening::linear
+              : chosen == "Voce"  ? Hardening::voce
               : chosen == "table" ? Hardening::table
                                   : Hardening::power_law;
   // What the chosen law does not use may not be set: a forgotten switch is the usual reason.
@@ -132,8 +150,9 @@ void Material::parse(Reader &reader) {
       used = {"Hardening", "Table"};
       break;
     }
-  for (const std::string key : {"Hardening", "Yield stress", "Hardening modulus", "Saturation stress",
-                                "Saturation rate", "Strength coefficient", "Prestrain", "Hardening exponent", "Table"})
+  for (const std::string key :
+       {"Hardening", "Yield stress", "Hardening modulus", "Saturation stress", "Saturation rate",
+        "Strength coefficient", "Prestrain", "Hardening exponent", "Table"})
     if (reader.is_set(key) && std::find(used.begin(), used.end(), key) == used.end())
       reader.reject(key, law == Law::elastic ? "no value: the law is elastic"
                                              : "no value: '" + chosen + "' hardening does not use it");
@@ -177,7 +196,8 @@ void Material::parse(Reader &reader) {
       if (!(table_stresses.back() > 0.))
         reader.reject("Table", "yield stresses > 0");
       if (n > 1 && !(table_strains[n - 1] > table_strains[n - 2]))
-        reader.reject("Table", "a monotonic curve: plastic strain " + pair[0] + " does not increase on the one before");
+        reader.reject("Table", "a monotonic curve: plastic strain " + pair[0] +
+                                   " does not increase on the one before");
       if (n > 1 && !(table_stresses[n - 1] >= table_stresses[n - 2]))
         reader.reject("Table", "a monotonic curve: stress " + pair[1] + " falls below the one before");
     }
@@ -188,11 +208,14 @@ void Material::parse(Reader &reader) {
 }
 
 void Support::declare(ParameterHandler &prm) {
-  prm.declare_entry("Boundary ids", "", Patterns::Anything(), "Boundary ids whose nodes are held, separated by commas.");
-  prm.declare_entry("Components", "x, y, z", Patterns::Anything(), "Which displacement components are prescribed.");
-  prm.declare_entry("Displacement", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position "
-                    "x, y, z, the time t and the names of amplitudes. Components that are not held are ignored. [length]");
+  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
+                    "Boundary ids whose nodes are held, separated by commas.");
+  prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
+                    "Which displacement components are prescribed.");
+  prm.declare_entry(
+      "Displacement", "0 ; 0 ; 0", Patterns::Anything(),
+      "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position "
+      "x, y, z, the time t and the names of amplitudes. Components that are not held are ignored. [length]");
 }
 
 void Support::parse(Reader &reader) {
@@ -209,12 +232,14 @@ void Support::parse(Reader &reader) {
   const auto expressions = reader.parts("Displacement");
   if (expressions.size() != 3)
     reader.reject("Displacement", "three expressions, separated by semicolons");
-  displacement = reader.located("Displacement", std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
+  displacement = reader.located("Displacement",
+                                std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
 }
 
 void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names) {
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
-                    "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or with a normal and "
+                    "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or "
+                    "with a normal and "
                     "the distance along it, '1, 1, 0 = 3.5'. [length]");
   prm.enter_subsection("Mesh");
   Mesh::declare(prm);
@@ -246,7 +271,8 @@ SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
     if (left == "x" || left == "y" || left == "z")
       plane.normal[static_cast<unsigned int>(left[0] - 'x')] = 1.;
     else {
-      const auto components = dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(left, ','));
+      const auto components =
+          dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(left, ','));
       if (components.size() != 3)
         throw std::invalid_argument("components");
       for (unsigned int i = 0; i < 3; ++i)

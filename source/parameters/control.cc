@@ -10,11 +10,13 @@ using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
 void Amplitude::declare(ParameterHandler &prm) {
-  prm.declare_entry("Times", "0, 1", Patterns::Anything(), "Strictly increasing; constant before the first and after the last. [time]");
+  prm.declare_entry("Times", "0, 1", Patterns::Anything(),
+                    "Strictly increasing; constant before the first and after the last. [time]");
   prm.declare_entry("Values", "0, 1", Patterns::Anything(), "As many as there are times. [any]");
-  prm.declare_entry("Interpolation", "linear", Patterns::Selection("linear|smooth"),
-                    "Between the times: straight lines, or quintic steps with vanishing first and second derivative at "
-                    "each time.");
+  prm.declare_entry(
+      "Interpolation", "linear", Patterns::Selection("linear|smooth"),
+      "Between the times: straight lines, or quintic steps with vanishing first and second derivative at "
+      "each time.");
 }
 
 void Amplitude::parse(Reader &reader) {
@@ -32,17 +34,23 @@ void Amplitude::parse(Reader &reader) {
 
 void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(), "The scene runs from time 0 to here. [time]");
-  prm.declare_entry("Step control", "automatic", Patterns::Selection("automatic|fixed"),
-                    "automatic: the step follows the iterations that the last one needed, and a failed step is cut and "
-                    "tried again; fixed: equal steps, a failed one ends the run.");
-  prm.declare_entry("Initial step", "0.01", Patterns::Double(), "First step; every step where they are fixed. [time]");
-  prm.declare_entry("Smallest step", "1e-6", Patterns::Double(), "The run ends when a step would have to be cut below this. [time]");
+  prm.declare_entry(
+      "Step control", "automatic", Patterns::Selection("automatic|fixed"),
+      "automatic: the step follows the iterations that the last one needed, and a failed step is cut and "
+      "tried again; fixed: equal steps, a failed one ends the run.");
+  prm.declare_entry("Initial step", "0.01", Patterns::Double(),
+                    "First step; every step where they are fixed. [time]");
+  prm.declare_entry("Smallest step", "1e-6", Patterns::Double(),
+                    "The run ends when a step would have to be cut below this. [time]");
   prm.declare_entry("Largest step", "0.1", Patterns::Double(), "[time]");
-  prm.declare_entry("Few iterations", "5", Patterns::Integer(0), "The step grows after at most so many iterations.");
-  prm.declare_entry("Many iterations", "9", Patterns::Integer(0), "The step shrinks after at least so many iterations.");
+  prm.declare_entry("Few iterations", "5", Patterns::Integer(0),
+                    "The step grows after at most so many iterations.");
+  prm.declare_entry("Many iterations", "9", Patterns::Integer(0),
+                    "The step shrinks after at least so many iterations.");
   prm.declare_entry("Growth factor", "1.5", Patterns::Double(), "At least 1.");
   prm.declare_entry("Shrink factor", "0.7", Patterns::Double(), "Between 0 and 1.");
-  prm.declare_entry("Cut factor", "0.5", Patterns::Double(), "A failed step is tried again at this part of it; between 0 and 1.");
+  prm.declare_entry("Cut factor", "0.5", Patterns::Double(),
+                    "A failed step is tried again at this part of it; between 0 and 1.");
 }
 
 void TimeStepping::parse(Reader &reader) {
@@ -52,8 +60,8 @@ void TimeStepping::parse(Reader &reader) {
   if (initial_step > end_time)
     reader.reject("Initial step", "a number not above the end time");
   if (control == Control::fixed)
-    for (const std::string key : {"Smallest step", "Largest step", "Few iterations", "Many iterations", "Growth factor",
-                                  "Shrink factor", "Cut factor"})
+    for (const std::string key : {"Smallest step", "Largest step", "Few iterations", "Many iterations",
+                                  "Growth factor", "Shrink factor", "Cut factor"})
       if (reader.is_set(key))
         reader.reject(key, "no value: steps are fixed");
   smallest_step = reader.positive("Smallest step");
@@ -113,22 +121,31 @@ const std::vector<std::pair<std::string, Solver::LinearSolver>> linear_solver_na
 
 void Solver::declare(ParameterHandler &prm) {
   prm.declare_entry("Contact tangent", "exact", Patterns::Selection(selection(tangent_names)),
-                    "exact: the full derivative of the contact forces, change of area included; consistent, continuum: Bittencourt & "
-                    "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower triangle or the mean of "
+                    "exact: the full derivative of the contact forces, change of area included; consistent, "
+                    "continuum: Bittencourt & "
+                    "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower "
+                    "triangle or the mean of "
                     "the consistent one in the contact frame, meant for mu <= 0.1.");
   prm.declare_entry("Force tolerance", "1e-6", Patterns::Double(),
                     "Newton ends when the residual is below this part of the forces in the scene.");
   prm.declare_entry("Energy tolerance", "1e-10", Patterns::Double(),
-                    "... and the work of the residual in the last correction is below this part of the forces' work in the step.");
-  prm.declare_entry("Most iterations", "60", Patterns::Integer(0), "A step that needs more has failed; it is given up earlier if at its pace it would.");
+                    "... and the work of the residual in the last correction is below this part of the "
+                    "forces' work in the step.");
+  prm.declare_entry("Most iterations", "60", Patterns::Integer(0),
+                    "A step that needs more has failed; it is given up earlier if at its pace it would.");
   prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
-                    "energy: shorten a correction while the residual's work along it grows; in any case a correction that turns an element "
+                    "energy: shorten a correction while the residual's work along it grows; in any case a "
+                    "correction that turns an element "
                     "inside out is shortened.");
   prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
-                    "Where a step's iterations start. extrapolation: the last increment continued; tangent, and after a cut or at the "
-                    "start: the last state, or a linear step from it where supports move.");
+                    "Where a step's iterations start. extrapolation: the last increment continued; tangent: "
+                    "a linear step into which the "
+                    "motion of tools and supports is put, as is done anyway at the start, after a cut, and "
+                    "where tools or supports change "
+                    "their pace.");
   prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
-                    "Direct solvers. automatic: MUMPS, its symmetric form where the matrix is symmetric; KLU runs on one rank at a time and is slow.");
+                    "Direct solvers. automatic: MUMPS, its symmetric form where the matrix is symmetric; KLU "
+                    "runs on one rank at a time and is slow.");
 }
 
 void Solver::parse(Reader &reader) {
@@ -144,16 +161,25 @@ void Solver::parse(Reader &reader) {
 }
 
 void Output::declare(ParameterHandler &prm) {
-  prm.declare_entry("Folder", "results", Patterns::Anything(), "Made if it is not there; relative to where the program is started.");
-  prm.declare_entry("Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
-                    "Fields for ParaView: VTU and PVD; HDF5 and XDMF, one file a time on any number of ranks; or none.");
-  prm.declare_entry("Every steps", "1", Patterns::Integer(0), "Fields are written every so many steps, at the start and at the end. 0: "
-                                                             "only there, or by the interval.");
-  prm.declare_entry("Interval", "0", Patterns::Double(), "If not 0, steps end at multiples of this time, and fields are written there instead. [time]");
-  prm.declare_entry("Stress", "true", Patterns::Bool(), "Write Cauchy stress, von Mises stress and pressure.");
-  prm.declare_entry("Plastic strain", "true", Patterns::Bool(), "Write the equivalent plastic strain, if a body is plastic.");
-  prm.declare_entry("Contact", "true", Patterns::Bool(), "Write contact pressure, traction, gap, slip and status, if there is contact.");
-  prm.declare_entry("Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"), "What the console shows.");
+  prm.declare_entry("Folder", "results", Patterns::Anything(),
+                    "Made if it is not there; relative to where the program is started.");
+  prm.declare_entry(
+      "Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
+      "Fields for ParaView: VTU and PVD; HDF5 and XDMF, one file a time on any number of ranks; or none.");
+  prm.declare_entry("Every steps", "1", Patterns::Integer(0),
+                    "Fields are written every so many steps, at the start and at the end. 0: "
+                    "only there, or by the interval.");
+  prm.declare_entry(
+      "Interval", "0", Patterns::Double(),
+      "If not 0, steps end at multiples of this time, and fields are written there instead. [time]");
+  prm.declare_entry("Stress", "true", Patterns::Bool(),
+                    "Write Cauchy stress, von Mises stress and pressure.");
+  prm.declare_entry("Plastic strain", "true", Patterns::Bool(),
+                    "Write the equivalent plastic strain, if a body is plastic.");
+  prm.declare_entry("Contact", "true", Patterns::Bool(),
+                    "Write contact pressure, traction, gap, slip and status, if there is contact.");
+  prm.declare_entry("Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"),
+                    "What the console shows.");
 }
 
 void Output::parse(Reader &reader) {

@@ -31,9 +31,11 @@ void declare_named(ParameterHandler &prm, const std::string &list, const std::ve
 void declare_all(ParameterHandler &prm,
                  const std::function<std::vector<std::string>(const SceneFile::Path &)> &names_below) {
   prm.declare_entry("Title", "", dealii::Patterns::Anything(), "Shown in the console and in --check.");
-  declare_named(prm, "Amplitudes", names_below({"Amplitudes"}), [&](const std::string &) { Amplitude::declare(prm); });
-  declare_named(prm, "Bodies", names_below({"Bodies"}),
-                [&](const std::string &name) { Body::declare(prm, names_below({"Bodies", name, "Supports"})); });
+  declare_named(prm, "Amplitudes", names_below({"Amplitudes"}),
+                [&](const std::string &) { Amplitude::declare(prm); });
+  declare_named(prm, "Bodies", names_below({"Bodies"}), [&](const std::string &name) {
+    Body::declare(prm, names_below({"Bodies", name, "Supports"}));
+  });
   declare_named(prm, "Tools", names_below({"Tools"}), [&](const std::string &) { Tool::declare(prm); });
   declare_named(prm, "Contact pairs", names_below({"Contact pairs"}),
                 [&](const std::string &) { ContactPair::declare(prm); });
@@ -68,15 +70,20 @@ template <class T> std::size_t index_of(const std::vector<T> &list, const Locate
       return i;
     known += (i == 0 ? "" : ", ") + list[i].name;
   }
-  throw InputError(name.origin + ": found '" + name.value + "', allowed is one of: " + (known.empty() ? "(none is defined)" : known));
+  throw InputError(name.origin + ": found '" + name.value +
+                   "', allowed is one of: " + (known.empty() ? "(none is defined)" : known));
 }
 
 void check_amplitude_name(const std::string &name, const std::string &file_name) {
-  const auto is_word = [](const char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  if (!std::all_of(name.begin(), name.end(), is_word) || std::isdigit(static_cast<unsigned char>(name[0])) != 0 ||
-      name == "x" || name == "y" || name == "z" || name == "t" || name == "pi")
+  const auto is_word = [](const char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  if (!std::all_of(name.begin(), name.end(), is_word) ||
+      std::isdigit(static_cast<unsigned char>(name[0])) != 0 || name == "x" || name == "y" || name == "z" ||
+      name == "t" || name == "pi")
     throw InputError(file_name + ": amplitude '" + name +
-                     "': found a name that expressions cannot use, allowed are letters, digits and '_', not first a digit, and not x, y, z, t, pi");
+                     "': found a name that expressions cannot use, allowed are letters, digits and '_', not "
+                     "first a digit, and not x, y, z, t, pi");
 }
 
 } // namespace
@@ -118,11 +125,11 @@ Scene Scene::read(const std::string &file_name) {
 void print_all_parameters(std::ostream &stream) {
   ParameterHandler prm;
   declare_all(prm, [](const SceneFile::Path &path) -> std::vector<std::string> {
-    return {path.back() == "Amplitudes"      ? "(name of an amplitude)"
-            : path.back() == "Bodies"        ? "(name of a body)"
-            : path.back() == "Supports"      ? "(name of a support)"
-            : path.back() == "Tools"         ? "(name of a tool)"
-                                             : "(name of a contact pair)"};
+    return {path.back() == "Amplitudes" ? "(name of an amplitude)"
+            : path.back() == "Bodies"   ? "(name of a body)"
+            : path.back() == "Supports" ? "(name of a support)"
+            : path.back() == "Tools"    ? "(name of a tool)"
+                                        : "(name of a contact pair)"};
   });
   prm.print_parameters(stream, ParameterHandler::Text | ParameterHandler::KeepDeclarationOrder);
 }

@@ -91,7 +91,8 @@ SceneFile SceneFile::scan(std::istream &text, const std::string &name) {
   Path path;
   file.scan_file(text, name, path, 0);
   if (!path.empty())
-    throw InputError(file.where(path) + ": subsection '" + join(path) + "' is opened but never closed: an 'end' is missing");
+    throw InputError(file.where(path) + ": subsection '" + join(path) +
+                     "' is opened but never closed: an 'end' is missing");
   return file;
 }
 
@@ -130,7 +131,8 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       const auto equals = statement.find('=');
       if (equals == std::string::npos)
         throw InputError(where + ": found 'set " + statement + "'; allowed is 'set parameter = value'");
-      Entry entry{path, single_spaced(trim(statement.substr(0, equals))), trim(statement.substr(equals + 1)), where};
+      Entry entry{path, single_spaced(trim(statement.substr(0, equals))), trim(statement.substr(equals + 1)),
+                  where};
       if (const Entry *first = find(path, entry.key))
         throw InputError(where + ": '" + entry.key + "' is set twice; the first time at " + first->where);
       entries_.push_back(entry);
@@ -199,7 +201,8 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
     if (!prm.subsection_path_exists(subsection.path)) {
       const Path above(subsection.path.begin(), subsection.path.end() - 1);
       throw InputError(subsection.where + ": unknown subsection '" + join(subsection.path) + "'; known " +
-                       (above.empty() ? "at the top level" : "in '" + join(above) + "'") + ": " + known(above));
+                       (above.empty() ? "at the top level" : "in '" + join(above) + "'") + ": " +
+                       known(above));
     }
 
   for (const auto &entry : entries_) {

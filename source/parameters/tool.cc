@@ -14,15 +14,17 @@ void Motion::declare(ParameterHandler &prm) {
   prm.declare_entry("Rotation angle", "0", Patterns::Anything(),
                     "Expression of t and the names of amplitudes; right-handed about the axis. [radians]");
   prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(), "Direction of the axis.");
-  prm.declare_entry("Centre", "0, 0, 0", Patterns::Anything(),
-                    "A point on the axis before the motion; moments on the tool refer to where it has moved. [length]");
+  prm.declare_entry(
+      "Centre", "0, 0, 0", Patterns::Anything(),
+      "A point on the axis before the motion; moments on the tool refer to where it has moved. [length]");
 }
 
 void Motion::parse(Reader &reader) {
   const auto expressions = reader.parts("Translation");
   if (expressions.size() != 3)
     reader.reject("Translation", "three expressions, separated by semicolons");
-  translation = reader.located("Translation", std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
+  translation = reader.located("Translation",
+                               std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
   rotation_angle = reader.located("Rotation angle", reader.text("Rotation angle"));
   rotation_axis = reader.direction("Rotation axis");
   centre = reader.vector("Centre");
@@ -55,7 +57,8 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Tool", "", Patterns::Anything(), "Name of the tool.");
   prm.declare_entry("Friction coefficient", "0", Patterns::Double(), "Coulomb's mu >= 0. 0: no friction.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection("factor|absolute"),
-                    "factor: penalties are multiples of E/h, Young's modulus over the facet's size; absolute: they are pressures "
+                    "factor: penalties are multiples of E/h, Young's modulus over the facet's size; "
+                    "absolute: they are pressures "
                     "per penetration.");
   prm.declare_entry("Normal penalty", "10", Patterns::Double(),
                     "k_n > 0: pressure = k_n times penetration. [1 or stress/length, see Penalty unit]");
@@ -85,7 +88,8 @@ void ContactPair::parse(Reader &reader) {
       reader.reject("Tangential penalty", "no value: the pair has no friction");
     tangential_penalty = values[0];
   }
-  allowed_penetration = reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
+  allowed_penetration =
+      reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
 }
 
 } // namespace billet::parameters

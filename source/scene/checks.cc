@@ -19,7 +19,8 @@ namespace billet {
 using dealii::Tensor;
 using dealii::Triangulation;
 
-bool holds_face(const Hold &hold, const Triangulation<3>::active_face_iterator &face, const double tolerance) {
+bool holds_face(const Hold &hold, const Triangulation<3>::active_face_iterator &face,
+                const double tolerance) {
   if (!hold.on_plane)
     return std::find(hold.boundary_ids.begin(), hold.boundary_ids.end(), face->boundary_id()) !=
            hold.boundary_ids.end();
@@ -51,12 +52,13 @@ void check_ids(const Located<std::vector<unsigned int>> &asked, const std::set<u
       std::string allowed;
       for (const unsigned int p : present)
         allowed += (allowed.empty() ? "" : ", ") + std::to_string(p);
-      throw InputError(asked.origin + ": found boundary id " + std::to_string(id) + ", allowed are those of body '" +
-                       body + "': " + allowed);
+      throw InputError(asked.origin + ": found boundary id " + std::to_string(id) +
+                       ", allowed are those of body '" + body + "': " + allowed);
     }
 }
 
-/// Sum of r rᵀ over constraint rows r = (n, (x − c) × n / L) on the six rigid motions (translation, rotation · L).
+/// Sum of r rᵀ over constraint rows r = (n, (x − c) × n / L) on the six rigid motions (translation, rotation
+/// · L).
 struct RigidMotionGram {
   std::array<std::array<double, 6>, 6> values{};
   void add(const Tensor<1, 3> &n, const Tensor<1, 3> &arm) {
@@ -78,8 +80,8 @@ struct RigidMotionGram {
     std::vector<std::array<double, 6>> result;
     dealii::Vector<double> eigenvalues(6);
     dealii::FullMatrix<double> vectors(6, 6);
-    matrix.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), 0.,
-                                         eigenvalues, vectors);
+    matrix.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(),
+                                         std::numeric_limits<double>::max(), 0., eigenvalues, vectors);
     for (unsigned int k = 0; k < eigenvalues.size(); ++k)
       if (eigenvalues[k] <= 1e-10 * trace || trace == 0.) {
         result.emplace_back();
@@ -94,7 +96,8 @@ struct RigidMotionGram {
 
 void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail detail) const {
   std::vector<std::set<unsigned int>> present(bodies_.size());
-  for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) { present[body].insert(face->boundary_id()); });
+  for_each_boundary_face(
+      mesh, [&](const std::size_t body, const auto &face) { present[body].insert(face->boundary_id()); });
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     // An outline may not show every face that a condition on the full mesh will catch.
     if (detail == MeshDetail::outline)
@@ -131,8 +134,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
             supported.add(bodies_[b].holds[h].normal, (face->vertex(v) - centre) / size);
         }
       for (const auto &pair : pairs_)
-        if (pair.body == b && std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(), face->boundary_id()) !=
-                                  pair.boundary_ids.end()) {
+        if (pair.body == b && std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(),
+                                        face->boundary_id()) != pair.boundary_ids.end()) {
           const Placement start = tools_[pair.tool].placement(0.);
           for (const unsigned int v : face->vertex_indices()) {
             const Tensor<1, 3> n =
@@ -159,12 +162,13 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const auto free = supported_or_touching.free_motions();
     if (!free.empty()) {
       const auto &motion = free.front();
-      throw InputError(parameters_.bodies[b].origin + ": the body is without support: " + std::to_string(free.size()) +
-                       " of its 6 rigid motions are held neither by supports, nor by symmetry planes, nor by contact; one of them has "
-                       "translation " +
-                       print(Tensor<1, 3>({motion[0], motion[1], motion[2]})) + " and rotation " +
-                       print(Tensor<1, 3>({motion[3], motion[4], motion[5]})) +
-                       ". Allowed in a static scene: none");
+      throw InputError(
+          parameters_.bodies[b].origin + ": the body is without support: " + std::to_string(free.size()) +
+          " of its 6 rigid motions are held neither by supports, nor by symmetry planes, nor by contact; one "
+          "of them has "
+          "translation " +
+          print(Tensor<1, 3>({motion[0], motion[1], motion[2]})) + " and rotation " +
+          print(Tensor<1, 3>({motion[3], motion[4], motion[5]})) + ". Allowed in a static scene: none");
     }
   }
 }
@@ -177,8 +181,8 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
     double deepest = 0., size_there = 1.;
     Tensor<1, 3> where;
     for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
-      if (body != pair.body || std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(), face->boundary_id()) ==
-                                   pair.boundary_ids.end())
+      if (body != pair.body || std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(),
+                                         face->boundary_id()) == pair.boundary_ids.end())
         return;
       const double h = std::sqrt(face->measure());
       for (const unsigned int v : face->vertex_indices()) {
@@ -193,10 +197,11 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
     const auto &allowed = parameters_.pairs[p].allowed_penetration;
     if (-deepest > allowed.value * size_there) {
       std::ostringstream message;
-      message << parameters_.pairs[p].origin << ": body '" << bodies_[pair.body].name << "' starts " << -deepest
-              << " deep (" << -deepest / size_there << " facet sizes) inside tool '" << tool.name() << "', deepest at "
-              << print(where) << "; allowed are " << allowed.value
-              << " facet sizes ('Allowed initial penetration'). Does the tool's normal point towards the body?";
+      message
+          << parameters_.pairs[p].origin << ": body '" << bodies_[pair.body].name << "' starts " << -deepest
+          << " deep (" << -deepest / size_there << " facet sizes) inside tool '" << tool.name()
+          << "', deepest at " << print(where) << "; allowed are " << allowed.value
+          << " facet sizes ('Allowed initial penetration'). Does the tool's normal point towards the body?";
       throw InputError(message.str());
     }
   }

@@ -37,12 +37,14 @@ std::string essence(const std::exception &error) {
 
 template <int dim> void generate_primitive(const parameters::Mesh &parameters, Triangulation<dim> &mesh) {
   try {
-    dealii::GridGenerator::generate_from_name_and_arguments(mesh, parameters.primitive.value, parameters.arguments);
+    dealii::GridGenerator::generate_from_name_and_arguments(mesh, parameters.primitive.value,
+                                                            parameters.arguments);
   } catch (const std::exception &error) {
-    throw InputError(parameters.primitive.origin + ": found '" + parameters.primitive.value + "' with arguments '" +
-                     parameters.arguments + "', allowed is the name of a " + std::to_string(dim) +
-                     "-dimensional function of deal.II's GridGenerator with all its arguments without default. " +
-                     essence(error));
+    throw InputError(
+        parameters.primitive.origin + ": found '" + parameters.primitive.value + "' with arguments '" +
+        parameters.arguments + "', allowed is the name of a " + std::to_string(dim) +
+        "-dimensional function of deal.II's GridGenerator with all its arguments without default. " +
+        essence(error));
   }
 }
 
@@ -54,7 +56,8 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
   dealii::GridGenerator::flatten_triangulation(refined, section);
   section.reset_all_manifolds();
   if (parameters.section_area.value > 0.)
-    dealii::GridTools::scale(std::sqrt(parameters.section_area.value / dealii::GridTools::volume(section)), section);
+    dealii::GridTools::scale(std::sqrt(parameters.section_area.value / dealii::GridTools::volume(section)),
+                             section);
   const unsigned int n_layers = detail == MeshDetail::full ? parameters.n_layers : 1;
   dealii::GridGenerator::extrude_triangulation(section, n_layers + 1, parameters.height, mesh);
 }
@@ -87,7 +90,8 @@ void flatten(Triangulation<3> &mesh) {
 
 void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
   for (const auto &[id, condition] : parameters.boundary_ids.value) {
-    const Expression holds(condition, Expression::Variables::time_and_position, {}, parameters.boundary_ids.origin);
+    const Expression holds(condition, Expression::Variables::time_and_position, {},
+                           parameters.boundary_ids.origin);
     for (const auto &face : mesh.active_face_iterators())
       if (face->at_boundary() && holds.value(0., face->center()) != 0.)
         face->set_boundary_id(id);

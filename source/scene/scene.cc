@@ -11,15 +11,16 @@ namespace billet {
 namespace {
 
 MaterialLaw make_material(const parameters::Material &material) {
-  MaterialLaw law{ElasticModuli::from_young_poisson(material.young_modulus, material.poisson_ratio), std::monostate()};
+  MaterialLaw law{ElasticModuli::from_young_poisson(material.young_modulus, material.poisson_ratio),
+                  std::monostate()};
   if (material.law == parameters::Material::Law::elastoplastic)
     switch (material.hardening) {
     case parameters::Material::Hardening::linear:
       law.hardening = LinearHardening{material.yield_stress, material.hardening_modulus};
       break;
     case parameters::Material::Hardening::voce:
-      law.hardening = VoceHardening{material.yield_stress, material.saturation_stress, material.saturation_rate,
-                                    material.hardening_modulus};
+      law.hardening = VoceHardening{material.yield_stress, material.saturation_stress,
+                                    material.saturation_rate, material.hardening_modulus};
       break;
     case parameters::Material::Hardening::power_law:
       law.hardening = PowerLawHardening{material.strength, material.prestrain, material.exponent};
@@ -51,9 +52,9 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
         hold.name = "support " + support.name;
         hold.boundary_ids = support.boundary_ids.value;
         hold.normal[i] = 1.;
-        body.expressions.push_back(std::make_unique<Expression>(
-            support.displacement.value[i], Expression::Variables::time_and_position, amplitudes,
-            support.displacement.origin));
+        body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
+                                                                Expression::Variables::time_and_position,
+                                                                amplitudes, support.displacement.origin));
         if (support.displacement.value[i] != "0")
           hold.value = body.expressions.back().get();
         body.holds.push_back(hold);
@@ -69,9 +70,10 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &tool : parameters.tools)
     tools_.emplace_back(tool, parameters.amplitudes);
   for (const auto &pair : parameters.pairs)
-    pairs_.push_back({pair.name, parameters.body_index(pair), pair.boundary_ids.value, parameters.tool_index(pair),
-                      pair.friction_coefficient, pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor,
-                      pair.normal_penalty, pair.tangential_penalty});
+    pairs_.push_back({pair.name, parameters.body_index(pair), pair.boundary_ids.value,
+                      parameters.tool_index(pair), pair.friction_coefficient,
+                      pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor, pair.normal_penalty,
+                      pair.tangential_penalty});
 
   const auto tangent = parameters.solver.contact_tangent;
   capabilities_.contact = !pairs_.empty();
@@ -90,7 +92,8 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   if (capabilities_.unsymmetric_matrix &&
       parameters.solver.linear_solver == parameters::Solver::LinearSolver::mumps_symmetric)
     throw InputError(parameters.file_name +
-                     ": 'Linear solver' in 'Solver': found 'MUMPS symmetric', but this scene's contact tangent is unsymmetric; "
+                     ": 'Linear solver' in 'Solver': found 'MUMPS symmetric', but this scene's contact "
+                     "tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, or a symmetrised 'Contact tangent'");
 }
 
@@ -129,9 +132,10 @@ void Scene::describe(std::ostream &stream) const {
   for (const auto &tool : tools_)
     stream << "Tool           " << tool.name() << ": rigid plane\n";
   for (const auto &pair : pairs_)
-    stream << "Contact pair   " << pair.name << ": " << bodies_[pair.body].name << " on " << tools_[pair.tool].name()
-           << ", mu = " << pair.friction_coefficient << ", penalties " << pair.normal_penalty << ", "
-           << pair.tangential_penalty << (pair.penalty_is_factor ? " E/h" : " (absolute)") << "\n";
+    stream << "Contact pair   " << pair.name << ": " << bodies_[pair.body].name << " on "
+           << tools_[pair.tool].name() << ", mu = " << pair.friction_coefficient << ", penalties "
+           << pair.normal_penalty << ", " << pair.tangential_penalty
+           << (pair.penalty_is_factor ? " E/h" : " (absolute)") << "\n";
   const auto &stepping = parameters_.time_stepping;
   stream << "Time           0 to " << stepping.end_time
          << (stepping.control == parameters::TimeStepping::Control::automatic ? ", automatic steps from "
@@ -142,8 +146,8 @@ void Scene::describe(std::ostream &stream) const {
   stream << "Contact        " << yes_no(capabilities_.contact) << "\n";
   stream << "Friction       " << yes_no(capabilities_.friction) << "\n";
   stream << "Moving support " << yes_no(capabilities_.moving_supports) << "\n";
-  stream << "Matrix         " << (capabilities_.unsymmetric_matrix ? "unsymmetric" : "symmetric (half is factorised)")
-         << "\n";
+  stream << "Matrix         "
+         << (capabilities_.unsymmetric_matrix ? "unsymmetric" : "symmetric (half is factorised)") << "\n";
   stream << "Output         " << parameters_.output.folder.value << "\n";
 }
 

@@ -9,7 +9,8 @@
 namespace billet {
 
 Tool::Tool(const parameters::Tool &parameters, const std::vector<parameters::Amplitude> &amplitudes)
-    : name_(parameters.name), surface_(std::make_unique<Plane>(parameters.plane_point, parameters.plane_normal)),
+    : name_(parameters.name),
+      surface_(std::make_unique<Plane>(parameters.plane_point, parameters.plane_normal)),
       angle_(parameters.motion.rotation_angle.value, Expression::Variables::time, amplitudes,
              parameters.motion.rotation_angle.origin),
       axis_(parameters.motion.rotation_axis), centre_(parameters.motion.centre) {

@@ -22,7 +22,8 @@ class AmesosSolver final : public DirectSolver {
 public:
   AmesosSolver(const std::string &amesos_name, const Epetra_CrsMatrix &matrix) : name_(amesos_name) {
     // Amesos takes non-const pointers, but changes neither the matrix nor the right-hand side.
-    problem_.SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    problem_.SetOperator(
+        const_cast<Epetra_CrsMatrix *>(&matrix)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
     Amesos factory;
     solver_.reset(factory.Create(amesos_name, problem_));
     if (solver_ == nullptr)
@@ -114,12 +115,12 @@ public:
   bool solve(const Epetra_Vector &b, Epetra_Vector &x) override {
     // The right-hand side is gathered on the first rank, which owns the first rows.
     std::vector<double> whole(rank_ == 0 ? static_cast<std::size_t>(matrix_.NumGlobalRows()) : 0);
-    MPI_Gatherv(b.Values(), n_local_rows_, MPI_DOUBLE, whole.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, 0,
-                communicator_);
+    MPI_Gatherv(b.Values(), n_local_rows_, MPI_DOUBLE, whole.data(), counts_.data(), offsets_.data(),
+                MPI_DOUBLE, 0, communicator_);
     mumps_.rhs = whole.data();
     const bool success = call(job_solve);
-    MPI_Scatterv(whole.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, x.Values(), n_local_rows_, MPI_DOUBLE, 0,
-                 communicator_);
+    MPI_Scatterv(whole.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, x.Values(), n_local_rows_,
+                 MPI_DOUBLE, 0, communicator_);
     return success;
   }
 
@@ -196,8 +197,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<DirectSolver> make_direct_solver(const parameters::Solver::LinearSolver kind, const bool symmetric,
-                                                 const Epetra_CrsMatrix &matrix, MPI_Comm communicator) {
+std::unique_ptr<DirectSolver> make_direct_solver(const parameters::Solver::LinearSolver kind,
+                                                 const bool symmetric, const Epetra_CrsMatrix &matrix,
+                                                 MPI_Comm communicator) {
   using Kind = parameters::Solver::LinearSolver;
   if (kind == Kind::klu)
     return std::make_unique<AmesosSolver>("Amesos_Klu", matrix);

@@ -58,7 +58,8 @@ public:
     *x_ = y;
     has_f_ = has_tangent_ = has_newton_ = false;
   }
-  void computeX(const NOX::Abstract::Group &from, const NOX::Abstract::Vector &direction, double step) override {
+  void computeX(const NOX::Abstract::Group &from, const NOX::Abstract::Vector &direction,
+                double step) override {
     x_->update(1., from.getX(), step, direction, 0.);
     has_f_ = has_tangent_ = has_newton_ = false;
   }
@@ -77,7 +78,8 @@ public:
   }
   ReturnType computeNewton(Teuchos::ParameterList &) override {
     if (!has_newton_) {
-      has_newton_ = has_f_ && has_tangent_ && problem_->solve_tangent(f_->getEpetraVector(), newton_->getEpetraVector());
+      has_newton_ = has_f_ && has_tangent_ &&
+                    problem_->solve_tangent(f_->getEpetraVector(), newton_->getEpetraVector());
       newton_->scale(-1.);
     }
     return has_newton_ ? NOX::Abstract::Group::Ok : NOX::Abstract::Group::Failed;
@@ -89,7 +91,9 @@ public:
   const NOX::Abstract::Vector &getX() const override { return *x_; }
   const NOX::Abstract::Vector &getF() const override { return *f_; }
   double getNormF() const override { return f_->norm(); }
-  const NOX::Abstract::Vector &getGradient() const override { return *newton_; } // not used by line-search Newton
+  const NOX::Abstract::Vector &getGradient() const override {
+    return *newton_;
+  } // not used by line-search Newton
   const NOX::Abstract::Vector &getNewton() const override { return *newton_; }
   RCP<const NOX::Abstract::Vector> getXPtr() const override { return x_; }
   RCP<const NOX::Abstract::Vector> getFPtr() const override { return f_; }
@@ -115,9 +119,9 @@ private:
 
 double dot(const NOX::Abstract::Vector &a, const NOX::Abstract::Vector &b) { return a.innerProduct(b); }
 
-/// Shortens a correction that leads to an inadmissible state, and, on request, one along which the residual does more
-/// work at its end than at its start: then the zero of R·d is approached by regula falsi (Crisfield, Non-linear Finite
-/// Element Analysis of Solids and Structures, vol. 1, ch. 9).
+/// Shortens a correction that leads to an inadmissible state, and, on request, one along which the residual
+/// does more work at its end than at its start: then the zero of R·d is approached by regula falsi
+/// (Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 9).
 class LineSearch final : public NOX::LineSearch::Generic {
 public:
   explicit LineSearch(const bool by_energy) : by_energy_(by_energy) {}
@@ -185,7 +189,8 @@ private:
 class LineSearchFactory final : public NOX::LineSearch::UserDefinedFactory {
 public:
   explicit LineSearchFactory(const bool by_energy) : by_energy_(by_energy) {}
-  RCP<NOX::LineSearch::Generic> buildLineSearch(const RCP<NOX::GlobalData> &, Teuchos::ParameterList &) const override {
+  RCP<NOX::LineSearch::Generic> buildLineSearch(const RCP<NOX::GlobalData> &,
+                                                Teuchos::ParameterList &) const override {
     return rcp(new LineSearch(by_energy_));
   }
 
@@ -200,7 +205,8 @@ public:
               NewtonReport &report)
       : problem_(problem), settings_(settings), x_n_(x_n), report_(report) {}
 
-  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic &solver, NOX::StatusTest::CheckType) override {
+  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic &solver,
+                                          NOX::StatusTest::CheckType) override {
     const auto &group = dynamic_cast<const Group &>(solver.getSolutionGroup());
     const unsigned int n = static_cast<unsigned int>(solver.getNumIterations());
     const double norm = group.getNormF();
@@ -247,7 +253,8 @@ public:
   std::ostream &print(std::ostream &stream, int) const override { return stream; }
 
 private:
-  /// Whether, at the mean pace of the last iterations, the residual would miss its tolerance in those that are left.
+  /// Whether, at the mean pace of the last iterations, the residual would miss its tolerance in those that
+  /// are left.
   bool is_hopeless(const unsigned int n) const {
     constexpr unsigned int window = 10;
     if (n < 2 * window)
@@ -285,8 +292,8 @@ RCP<Teuchos::ParameterList> make_options(const parameters::Solver &settings) {
 
 } // namespace
 
-NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Epetra_Vector &x_n,
-                          Epetra_Vector &x) {
+NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings,
+                          const Epetra_Vector &x_n, Epetra_Vector &x) {
   NewtonReport report;
   const RCP<Group> group = rcp(new Group(problem, x));
   if (group->computeF() != NOX::Abstract::Group::Ok) {
@@ -305,7 +312,8 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
     report.failure = nox_error;
   }
   if (!report.converged && report.failure.empty())
-    report.failure = "the correction leads to inadmissible states (det F <= 0 or not a number), or the matrix is singular";
+    report.failure =
+        "the correction leads to inadmissible states (det F <= 0 or not a number), or the matrix is singular";
   return report;
 }
 

@@ -23,8 +23,9 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     contacts_.emplace_back(scene, p, discretization, scene.parameters().solver.contact_tangent);
   build_matrix();
-  direct_ = make_direct_solver(scene.parameters().solver.linear_solver, !scene.capabilities().unsymmetric_matrix,
-                               matrix_.trilinos_matrix(), discretization.communicator());
+  direct_ =
+      make_direct_solver(scene.parameters().solver.linear_solver, !scene.capabilities().unsymmetric_matrix,
+                         matrix_.trilinos_matrix(), discretization.communicator());
 
   trial_ = u_n_ = last_increment_ = support_forces_ = support_forces_n_ = discretization.make_owned_vector();
   trial_ghosted_ = state_.displacements = discretization.make_ghosted_vector();
@@ -141,51 +142,93 @@ bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx
   return std::isfinite(correction.l2_norm());
 }
 
-bool QuasiStatic::predict(const double t_n, const double t, const double previous_step) {
-  const Constraints held = supports_.at_time(t);
-  trial_ = u_n_;
-  if (scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation && previous_step > 0.) {
-    trial_.add((t - t_n) / previous_step, last_increment_);
-    held.distribute(trial_);
-    return true;
+bool QuasiStatic::continue_increment(const double t, const double previous_step) {
+  const double ratio = (t - state_.time) / previous_step;
+  // Where tools or supports do not go on as they went, the last increment says little.
+  constexpr double largest_jump = 0.1;
+  const double t_n = state_.time;
+  for (const auto &tool : scene_.tools()) {
+    const Placement before = tool.placement(t_n - previous_step), now = tool.placement(t_n),
+                    after = tool.placement(t);
+    // Six points of the tool about the scene.
+    double jump = 0., motion = 0.;
+    for (unsigned int i = 0; i < 6; ++i) {
+      dealii::Tensor<1, 3> here = discretization_.centre();
+      here[i / 2] += (i % 2 == 0 ? 1. : -1.) * discretization_.radius();
+      const auto point = now.to_tool(here);
+      const auto step = after.to_space(point) - here;
+      jump += (step - ratio * (here - before.to_space(point))).norm();
+      motion += step.norm();
+    }
+    if (jump > largest_jump * motion)
+      return false;
   }
-  bool moves = false;
-  const Constraints change = supports_.change(t_n, t, moves);
-  if (!moves)
-    return true;
-  // K Δu = −R with the change of the prescribed displacements lifted to the right-hand side: the supports' motion spreads through the
-  // bodies, where putting it on the boundary nodes alone would crush the elements beside them.
-  Vector rhs = discretization_.make_owned_vector();
+  trial_ = u_n_;
+  trial_.add(ratio, last_increment_);
+  Vector jump = trial_, motion = trial_;
+  supports_.at_time(t).distribute(trial_);
+  jump -= trial_;
+  motion -= u_n_;
+  return jump.l2_norm() <= largest_jump * motion.l2_norm();
+}
+
+bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
+  // K Δu = −∂R/∂t Δt at the last state. The change of the prescribed displacements is lifted to the
+  // right-hand side, so that it spreads through the bodies, where putting it on the boundary nodes alone
+  // would crush the elements beside them.
+  const double t_n = state_.time;
+  bool supports_move = false;
+  const Constraints change = supports_.change(t_n, t, supports_move);
+  for (auto &contact : contacts_)
+    contact.start_step(t_n, t_n);
+  Vector correction = discretization_.make_owned_vector(), rhs = correction;
   if (!compute_residual(as_epetra(u_n_), as_epetra(rhs)))
     return false;
-  Vector lift = discretization_.make_additive_vector();
+  rhs *= -1.;
+  Vector pushes = discretization_.make_additive_vector(), lift = pushes;
+  for (const auto &contact : contacts_)
+    contact.add_tool_push(t, pushes);
+  pushes.compress(dealii::VectorOperation::add);
+  Vector push = correction;
+  push = pushes;
+  condense(push);
+  rhs += push;
   if (!assemble_tangent({change, matrix_, &lift}))
     return false;
   lift.compress(dealii::VectorOperation::add);
-  Vector lifted = discretization_.make_owned_vector();
-  lifted = lift;
-  rhs.sadd(-1., lifted);
-  Vector correction = discretization_.make_owned_vector();
+  push = lift;
+  rhs += push;
   if (!direct_->solve(as_epetra(rhs), as_epetra(correction)))
     return false;
+  iteration = {1., std::abs(rhs * correction), 1.};
   change.distribute(correction);
   trial_ = u_n_;
   trial_ += correction;
-  held.distribute(trial_);
+  supports_.at_time(t).distribute(trial_);
   return std::isfinite(trial_.l2_norm());
 }
 
-NewtonReport QuasiStatic::step(const double t, const double previous_step) {
-  const double t_n = state_.time;
+void QuasiStatic::start_step(const double t) {
   for (auto &contact : contacts_)
-    contact.start_step(t_n, t);
+    contact.start_step(state_.time, t);
+}
+
+NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   NewtonReport report;
-  if (!predict(t_n, t, previous_step)) {
+  const bool may_continue =
+      scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation &&
+      previous_step > 0. && continue_increment(t, previous_step);
+  NewtonIteration linear_step{};
+  const bool has_guess = may_continue || follow_tangent(t, linear_step);
+  start_step(t);
+  if (!has_guess) {
     report.failure = direct_->failure().empty() ? "the first guess is not admissible" : direct_->failure();
     return report;
   }
   Vector x = trial_;
   report = solve_newton(*this, scene_.parameters().solver, as_epetra(u_n_), as_epetra(x));
+  if (!may_continue)
+    report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
   if (report.converged) {
     // The line search may have looked further since: the histories have to be those of the accepted state.
     Epetra_Vector residual(as_epetra(x));

@@ -17,7 +17,8 @@ StepControl::StepControl(const parameters::TimeStepping &parameters, const doubl
 double StepControl::target() const {
   if (interval_ == 0.)
     return parameters_.end_time;
-  return std::min(parameters_.end_time, (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_);
+  return std::min(parameters_.end_time,
+                  (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_);
 }
 
 double StepControl::next_time() const {

@@ -23,18 +23,20 @@ struct ContactLoad {
   ContactLoad &operator+=(const ContactLoad &other);
 };
 
-/// Contact of boundary faces of a deformable body with a rigid tool: nodal quadrature on current areas, the pressure by
-/// penalty, friction by return map in the contact frame of each slave node.
+/// Contact of boundary faces of a deformable body with a rigid tool: nodal quadrature on current areas, the
+/// pressure by penalty, friction by return map in the contact frame of each slave node.
 ///
-/// Each facet's share of a node's area is ∫ N_a <−ν·n> dξdη over the current facet, ν its outward area vector and n
-/// the tool's normal: the facet's area seen along the tool's normal, weighted by the shape function. On a flat contact this is one
-/// quarter of a parallelogram, as in the paper; on a general quadrilateral it is what makes a uniform pressure a uniform
-/// stress, and a facet that does not face the tool (the side of a billet, before it folds onto the die) has no share.
+/// Each facet's share of a node's area is ∫ N_a <−ν·n> dξdη over the current facet, ν its outward area vector
+/// and n the tool's normal: the facet's area seen along the tool's normal, weighted by the shape function. On
+/// a flat contact this is one quarter of a parallelogram, as in the paper; on a general quadrilateral it is
+/// what makes a uniform pressure a uniform stress, and a facet that does not face the tool (the side of a
+/// billet, before it folds onto the die) has no share.
 ///
 /// Node states are kept, and computed alike, on every rank that owns a facet at the node.
 class RigidContact {
 public:
-  RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization, ContactTangent tangent);
+  RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization,
+               ContactTangent tangent);
 
   std::size_t tool() const { return pair_.tool; }
 
@@ -49,6 +51,10 @@ public:
 
   /// Adds −∂F_c/∂u [force/length], after update().
   void add_tangent(const TangentSystem &system) const;
+
+  /// Adds the force by which the tool, once it moves on to where it is at time t, would push the nodes that
+  /// touch it now if they stayed behind, to first order. After update().
+  void add_tool_push(double t, Vector &forces) const;
 
   /// The state of the last update() becomes the start of the next step.
   void commit();
@@ -83,7 +89,7 @@ private:
     dealii::Tensor<1, 3> traction;
     dealii::Tensor<2, 3> tangent;
     double slip_increment = 0.;
-    double dissipation = 0.;      // per area, in this step
+    double dissipation = 0.;       // per area, in this step
     double tangential_energy = 0.; // per area
     // at the start of the step
     double gap_n = 0.;

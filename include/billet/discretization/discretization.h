@@ -25,8 +25,8 @@ struct Element {
   std::array<DofIndex, n_element_dofs> dofs; ///< node by node
 };
 
-/// The mesh of all bodies, partitioned by METIS so that each rank holds its own cells and one layer around them, and
-/// the displacement's degrees of freedom on it. Cell material ids are body indices.
+/// The mesh of all bodies, partitioned by METIS so that each rank holds its own cells and one layer around
+/// them, and the displacement's degrees of freedom on it. Cell material ids are body indices.
 class Discretization {
 public:
   /// Builds the mesh on the first rank and sends it out. Throws InputError.
@@ -45,7 +45,8 @@ public:
   const dealii::Tensor<1, 3> &centre() const { return centre_; }
   double radius() const { return radius_; }
 
-  /// A vector of owned entries; one of relevant entries to read from; one to add to from any rank that shares a dof.
+  /// A vector of owned entries; one of relevant entries to read from; one to add to from any rank that shares
+  /// a dof.
   Vector make_owned_vector() const { return Vector(owned_, communicator_); }
   Vector make_ghosted_vector() const { return Vector(owned_, relevant_, communicator_); }
   Vector make_additive_vector() const {

@@ -12,8 +12,8 @@ namespace billet {
 
 using Constraints = dealii::AffineConstraints<double>;
 
-/// Where a tangent is assembled to. If `lift` is given, the constraints' values are put to the right-hand side of the
-/// linear system.
+/// Where a tangent is assembled to. If `lift` is given, the constraints' values are put to the right-hand
+/// side of the linear system.
 struct TangentSystem {
   const Constraints &constraints;
   dealii::TrilinosWrappers::SparseMatrix &matrix;
@@ -22,20 +22,21 @@ struct TangentSystem {
   void add(const dealii::FullMatrix<double> &local, const std::vector<DofIndex> &dofs) const;
 };
 
-/// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements. The planes
-/// n · u = value that meet at a node may have any normals; at most three of them are independent.
+/// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements. The
+/// planes n · u = value that meet at a node may have any normals; at most three of them are independent.
 class Supports {
 public:
   Supports(const Scene &scene, const Discretization &discretization);
 
-  /// Constraints with right-hand sides 0: for assembly and for Newton's corrections. Their pattern never changes.
+  /// Constraints with right-hand sides 0: for assembly and for Newton's corrections. Their pattern never
+  /// changes.
   const Constraints &homogeneous() const { return homogeneous_; }
 
   /// The same with the values at time t. Throws InputError where planes at one node contradict each other.
   Constraints at_time(double t) const;
 
-  /// The same with the change of the values from t_n to t, for linear steps. `moves`, alike on all ranks, tells whether
-  /// any of them changes.
+  /// The same with the change of the values from t_n to t, for linear steps. `moves`, alike on all ranks,
+  /// tells whether any of them changes.
   Constraints change(double t_n, double t, bool &moves) const;
 
   /// Number of prescribed nodal components on all ranks.

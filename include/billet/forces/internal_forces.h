@@ -19,7 +19,8 @@ public:
   /// Throws InputError, on all ranks, if an element is inverted in the undeformed mesh.
   InternalForces(const Scene &scene, const Discretization &discretization);
 
-  /// Adds the forces [force] to `forces` (additive vector). False if an element on this rank is not admissible.
+  /// Adds the forces [force] to `forces` (additive vector). False if an element on this rank is not
+  /// admissible.
   bool assemble_forces(const Vector &displacements, Vector &forces);
 
   /// Adds the tangent [force/length]. False as above.

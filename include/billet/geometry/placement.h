@@ -2,8 +2,8 @@
 #ifndef BILLET_GEOMETRY_PLACEMENT_H
 #define BILLET_GEOMETRY_PLACEMENT_H
 
-#include <deal.II/base/tensor.h>
 #include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
 
 namespace billet {
 

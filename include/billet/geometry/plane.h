@@ -10,9 +10,12 @@ namespace billet {
 class Plane final : public RigidSurface {
 public:
   /// `normal` has unit length and points out of the tool.
-  Plane(const dealii::Tensor<1, 3> &point, const dealii::Tensor<1, 3> &normal) : point_(point), normal_(normal) {}
+  Plane(const dealii::Tensor<1, 3> &point, const dealii::Tensor<1, 3> &normal)
+      : point_(point), normal_(normal) {}
 
-  Projection project(const dealii::Tensor<1, 3> &x) const override { return {normal_, (x - point_) * normal_}; }
+  Projection project(const dealii::Tensor<1, 3> &x) const override {
+    return {normal_, (x - point_) * normal_};
+  }
 
   SurfacePicture picture(const dealii::Tensor<1, 3> &centre, double radius) const override;
 

@@ -47,7 +47,8 @@ public:
   static double equivalent_plastic_strain(const History &) { return 0.; }
 
 private:
-  bool respond(const dealii::Tensor<2, 3> &F, PrincipalElasticState &state, PrincipalResponse &response) const {
+  bool respond(const dealii::Tensor<2, 3> &F, PrincipalElasticState &state,
+               PrincipalResponse &response) const {
     if (!compute_principal_state(dealii::symmetrize(F * dealii::transpose(F)), state))
       return false;
     for (unsigned int a = 0; a < 3; ++a)

@@ -25,10 +25,10 @@ using SpatialModuli = std::array<std::array<double, 6>, 6>;
 
 /// Elastic left Cauchy-Green tensor in its principal frame.
 struct PrincipalElasticState {
-  std::array<double, 3> stretches_squared;          ///< eigenvalues b_A
-  std::array<dealii::Tensor<1, 3>, 3> directions;   ///< orthonormal eigenvectors n_A
-  std::array<double, 3> deviatoric_log_strains;     ///< dev of ε_A = ½ ln b_A
-  double volumetric_log_strain;                     ///< Σ ε_A = ln J_e
+  std::array<double, 3> stretches_squared;        ///< eigenvalues b_A
+  std::array<dealii::Tensor<1, 3>, 3> directions; ///< orthonormal eigenvectors n_A
+  std::array<double, 3> deviatoric_log_strains;   ///< dev of ε_A = ½ ln b_A
+  double volumetric_log_strain;                   ///< Σ ε_A = ln J_e
 };
 
 /// Solves the eigenproblem of `b`. False where b is not positive definite or not finite: the state is not
@@ -54,7 +54,8 @@ dealii::SymmetricTensor<2, 3> compute_kirchhoff_stress(const PrincipalElasticSta
 ///   c = Σ_AB (∂τ_A/∂ε_B − 2 τ_A δ_AB) m_A ⊗ m_B + Σ_{A<B} 4 g_AB s_AB ⊗ s_AB,
 ///   m_A = n_A ⊗ n_A,  s_AB = sym(n_A ⊗ n_B),  g_AB = (τ_A b_B − τ_B b_A) / (b_A − b_B)
 /// (Simo & Hughes, eq. 9.2.38). Because τ_A − τ_B = Gβ ln(b_A/b_B) holds exactly for this class of laws,
-/// g_AB = Gβ ln(1 + x)/x − τ_B with x = b_A/b_B − 1: no cancellation, and equal stretches are no special case.
+/// g_AB = Gβ ln(1 + x)/x − τ_B with x = b_A/b_B − 1: no cancellation, and equal stretches are no special
+/// case.
 void compute_spatial_moduli(const PrincipalElasticState &trial, const PrincipalResponse &response,
                             const ElasticModuli &elastic, SpatialModuli &moduli);
 

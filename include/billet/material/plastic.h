@@ -11,9 +11,11 @@
 namespace billet {
 
 /// Solves q − 3G Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0. Newton,
-/// kept inside a shrinking bracket: hardening laws with kinks or steep starts cannot throw it off. Ends at round-off.
+/// kept inside a shrinking bracket: hardening laws with kinks or steep starts cannot throw it off. Ends at
+/// round-off.
 template <class Hardening>
-double solve_consistency(const Hardening &hardening, const double q, const double three_g, const double alpha_n) {
+double solve_consistency(const Hardening &hardening, const double q, const double three_g,
+                         const double alpha_n) {
   double low = 0., high = q / three_g;
   double delta = 0.;
   const double tolerance = 4. * std::numeric_limits<double>::epsilon() * q;
@@ -33,9 +35,9 @@ double solve_consistency(const Hardening &hardening, const double q, const doubl
 }
 
 /// Multiplicative J2 plasticity with Hencky elasticity: F = F_e F_p, Kirchhoff stress linear in the elastic
-/// logarithmic strain, yield |τ| = σ_y(α) in the sense of von Mises in *Kirchhoff* stress, associated flow by the
-/// exponential map. The return map is radial in logarithmic principal space and exact (Simo & Hughes 1998, box 9.1;
-/// Eterovic & Bathe 1990).
+/// logarithmic strain, yield |τ| = σ_y(α) in the sense of von Mises in *Kirchhoff* stress, associated flow by
+/// the exponential map. The return map is radial in logarithmic principal space and exact (Simo & Hughes
+/// 1998, box 9.1; Eterovic & Bathe 1990).
 template <class Hardening> class HenckyPlasticity {
 public:
   struct History {
@@ -47,10 +49,10 @@ public:
   HenckyPlasticity(const ElasticModuli &elastic, Hardening hardening)
       : elastic_(elastic), hardening_(std::move(hardening)) {}
 
-  /// From the deformation gradient F at the end of a step and the history at its start: Kirchhoff stress `tau`
-  /// [stress], the history at its end, and, if `moduli` is given, the consistent tangent. `history_n` and
-  /// `history` may not be the same object. False where F is not admissible (not finite, singular): the step has
-  /// to be cut.
+  /// From the deformation gradient F at the end of a step and the history at its start: Kirchhoff stress
+  /// `tau` [stress], the history at its end, and, if `moduli` is given, the consistent tangent. `history_n`
+  /// and `history` may not be the same object. False where F is not admissible (not finite, singular): the
+  /// step has to be cut.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli) const {
     PrincipalElasticState trial;
@@ -68,11 +70,12 @@ public:
       // b_e = Σ exp(2 ε_e) m_A after the return; C_p⁻¹ = F⁻¹ b_e F⁻ᵀ.
       dealii::SymmetricTensor<2, 3> b_e;
       for (unsigned int a = 0; a < 3; ++a)
-        b_e += std::exp(2. * (trial.volumetric_log_strain / 3. + response.beta * trial.deviatoric_log_strains[a])) *
+        b_e += std::exp(2. * (trial.volumetric_log_strain / 3. +
+                              response.beta * trial.deviatoric_log_strains[a])) *
                dealii::symmetrize(dealii::outer_product(trial.directions[a], trial.directions[a]));
       const dealii::Tensor<2, 3> F_inverse = dealii::invert(F);
-      history.inverse_plastic_metric =
-          dealii::symmetrize(F_inverse * static_cast<dealii::Tensor<2, 3>>(b_e) * dealii::transpose(F_inverse));
+      history.inverse_plastic_metric = dealii::symmetrize(F_inverse * static_cast<dealii::Tensor<2, 3>>(b_e) *
+                                                          dealii::transpose(F_inverse));
     }
     return true;
   }
@@ -87,8 +90,12 @@ public:
                : 0.;
   }
 
-  double plastic_work(const History &history) const { return hardening_.work(history.equivalent_plastic_strain); }
-  static double equivalent_plastic_strain(const History &history) { return history.equivalent_plastic_strain; }
+  double plastic_work(const History &history) const {
+    return hardening_.work(history.equivalent_plastic_strain);
+  }
+  static double equivalent_plastic_strain(const History &history) {
+    return history.equivalent_plastic_strain;
+  }
 
 private:
   bool respond(const dealii::Tensor<2, 3> &F, const History &history_n, PrincipalElasticState &trial,
@@ -116,8 +123,8 @@ private:
         response.flow_direction[a] = trial.deviatoric_log_strains[a] / dev_norm;
     }
     for (unsigned int a = 0; a < 3; ++a)
-      response.stress[a] =
-          elastic_.bulk * trial.volumetric_log_strain + two_g * response.beta * trial.deviatoric_log_strains[a];
+      response.stress[a] = elastic_.bulk * trial.volumetric_log_strain +
+                           two_g * response.beta * trial.deviatoric_log_strains[a];
     return true;
   }
 

@@ -14,7 +14,8 @@ namespace billet {
 /// What a body is made of. The law is chosen by the alternative it holds; std::monostate means elastic.
 struct MaterialLaw {
   ElasticModuli elastic;
-  std::variant<std::monostate, LinearHardening, VoceHardening, PowerLawHardening, TabulatedHardening> hardening;
+  std::variant<std::monostate, LinearHardening, VoceHardening, PowerLawHardening, TabulatedHardening>
+      hardening;
 };
 
 /// Averages and integrals over one element, for output.
@@ -25,15 +26,16 @@ struct ElementSummary {
   double plastic_work = 0.;                    ///< integral [energy]
 };
 
-/// All elements of one body on one rank: the same law, history in one array. The law is fixed when the block is
-/// made; nothing is decided per element. History advances in two beats: evaluate() computes the end of the step from
-/// the history at its start, as often as it is called; commit() makes the last evaluation the new start.
+/// All elements of one body on one rank: the same law, history in one array. The law is fixed when the block
+/// is made; nothing is decided per element. History advances in two beats: evaluate() computes the end of the
+/// step from the history at its start, as often as it is called; commit() makes the last evaluation the new
+/// start.
 class ElementBlock {
 public:
   virtual ~ElementBlock() = default;
 
-  /// Nodal positions of the undeformed elements [length]. False, with the index of the first offender, if one is
-  /// degenerate or inverted.
+  /// Nodal positions of the undeformed elements [length]. False, with the index of the first offender, if one
+  /// is degenerate or inverted.
   virtual bool initialize(const std::vector<ElementVectors> &positions, std::size_t &offender) = 0;
 
   virtual std::size_t size() const = 0;

@@ -11,9 +11,9 @@
 
 namespace billet {
 
-/// Pictures of the state for ParaView: the deformed bodies with the fields that the scene asks for, as VTU or HDF5, and
-/// the tools where they are, as VTP. An index file ties them together over time and is rewritten each time, so that a run that stops
-/// leaves all that it had computed.
+/// Pictures of the state for ParaView: the deformed bodies with the fields that the scene asks for, as VTU or
+/// HDF5, and the tools where they are, as VTP. An index file ties them together over time and is rewritten
+/// each time, so that a run that stops leaves all that it had computed.
 class FieldWriter {
 public:
   FieldWriter(const Scene &scene, const Discretization &discretization, std::string folder);

@@ -33,7 +33,14 @@ struct TimeStepping {
 };
 
 /// How the contact forces are linearised; see contact/rigid_contact.h.
-enum class ContactTangent { exact, consistent, continuum, symmetrised_upper, symmetrised_lower, symmetrised_mean };
+enum class ContactTangent {
+  exact,
+  consistent,
+  continuum,
+  symmetrised_upper,
+  symmetrised_lower,
+  symmetrised_mean
+};
 
 /// Subsection Solver.
 struct Solver {

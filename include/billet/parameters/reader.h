@@ -18,8 +18,8 @@ template <class T> struct Located {
   std::string origin;
 };
 
-/// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws InputError
-/// with file, line, parameter, what was found and what is allowed.
+/// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
+/// InputError with file, line, parameter, what was found and what is allowed.
 class Reader {
 public:
   Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}

@@ -12,9 +12,9 @@ class ParameterHandler;
 
 namespace billet {
 
-/// A scene file as its author wrote it: which subsections it opens, which entries it sets, and on which line of which
-/// file. ParameterHandler holds the values; this class knows the names that the user chose for bodies, tools and
-/// pairs before anything is declared, and lets every message name file and line.
+/// A scene file as its author wrote it: which subsections it opens, which entries it sets, and on which line
+/// of which file. ParameterHandler holds the values; this class knows the names that the user chose for
+/// bodies, tools and pairs before anything is declared, and lets every message name file and line.
 class SceneFile {
 public:
   using Path = std::vector<std::string>;
@@ -30,8 +30,9 @@ public:
     std::string where;
   };
 
-  /// Reads `file_name` and what it includes. Understands ParameterHandler's text format: `set`, `subsection`, `end`,
-  /// `include` (relative to the including file), `#` comments and `\` at a line's end. Throws InputError.
+  /// Reads `file_name` and what it includes. Understands ParameterHandler's text format: `set`, `subsection`,
+  /// `end`, `include` (relative to the including file), `#` comments and `\` at a line's end. Throws
+  /// InputError.
   static SceneFile read(const std::string &file_name);
 
   /// The same for text at hand; `name` stands for the file in messages.
@@ -40,8 +41,8 @@ public:
   /// Names of the subsections right below `path`, in the order of their appearance.
   std::vector<std::string> names_below(const Path &path) const;
 
-  /// Hands every entry to `prm`. Throws InputError with file and line on an unknown subsection or parameter, one that
-  /// is set twice, or a value of the wrong type.
+  /// Hands every entry to `prm`. Throws InputError with file and line on an unknown subsection or parameter,
+  /// one that is set twice, or a value of the wrong type.
   void set_all(dealii::ParameterHandler &prm) const;
 
   /// Where an entry was set, "file:line"; "file (default)" if it was not.

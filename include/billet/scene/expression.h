@@ -17,7 +17,8 @@ namespace billet {
 /// Value of an amplitude at time t.
 double evaluate_amplitude(const parameters::Amplitude &amplitude, double t);
 
-/// A muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the position x, y, z.
+/// A muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the position x,
+/// y, z.
 class Expression {
 public:
   enum class Variables { time, time_and_position };

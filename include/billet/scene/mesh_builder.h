@@ -22,7 +22,8 @@ std::size_t count_full_elements(const parameters::Mesh &parameters, const dealii
 
 /// All bodies side by side in one unrefined mesh, without shared nodes: cell material ids are the indices of
 /// `meshes`, boundary ids are kept.
-void merge_bodies(const std::vector<const dealii::Triangulation<3> *> &meshes, dealii::Triangulation<3> &merged);
+void merge_bodies(const std::vector<const dealii::Triangulation<3> *> &meshes,
+                  dealii::Triangulation<3> &merged);
 
 } // namespace billet
 

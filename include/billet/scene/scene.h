@@ -73,8 +73,8 @@ public:
   const std::vector<ContactPair> &pairs() const { return pairs_; }
   const Capabilities &capabilities() const { return capabilities_; }
 
-  /// Builds the meshes of all bodies in one; see merge_bodies(). Then checks what needs a mesh: boundary ids, nodes on
-  /// symmetry planes, supports, initial penetration. Throws InputError. Serial.
+  /// Builds the meshes of all bodies in one; see merge_bodies(). Then checks what needs a mesh: boundary ids,
+  /// nodes on symmetry planes, supports, initial penetration. Throws InputError. Serial.
   void build_mesh(MeshDetail detail, dealii::Triangulation<3> &mesh) const;
 
   /// What will be modelled, for --check; from the outlines of the meshes.
@@ -92,8 +92,10 @@ private:
   Capabilities capabilities_;
 };
 
-/// Whether the boundary face is part of the hold's boundaries or has all nodes in its plane. `tolerance` [length].
-bool holds_face(const Hold &hold, const dealii::Triangulation<3>::active_face_iterator &face, double tolerance);
+/// Whether the boundary face is part of the hold's boundaries or has all nodes in its plane. `tolerance`
+/// [length].
+bool holds_face(const Hold &hold, const dealii::Triangulation<3>::active_face_iterator &face,
+                double tolerance);
 
 } // namespace billet
 

@@ -32,7 +32,8 @@ protected:
   std::string failure_;
 };
 
-/// `matrix` must outlive the solver; its pattern may not change. `symmetric`: only its upper triangle is used.
+/// `matrix` must outlive the solver; its pattern may not change. `symmetric`: only its upper triangle is
+/// used.
 std::unique_ptr<DirectSolver> make_direct_solver(parameters::Solver::LinearSolver kind, bool symmetric,
                                                  const Epetra_CrsMatrix &matrix, MPI_Comm communicator);
 

@@ -11,8 +11,8 @@ class Epetra_Vector;
 
 namespace billet {
 
-/// R(x) = 0 with its tangent K = ∂R/∂x. All members are called, and answer, alike on all ranks; false means that the
-/// state is not admissible and the step has to be cut.
+/// R(x) = 0 with its tangent K = ∂R/∂x. All members are called, and answer, alike on all ranks; false means
+/// that the state is not admissible and the step has to be cut.
 class NonlinearProblem {
 public:
   virtual ~NonlinearProblem() = default;
@@ -40,10 +40,10 @@ struct NewtonReport {
   std::string failure; ///< why it did not converge
 };
 
-/// Newton's method by NOX. Starts from, and overwrites, `x`; `increment_norm` is |x − x_n| of the step, to make the
-/// energy tolerance relative, and is kept up by the caller's x_n.
-NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Epetra_Vector &x_n,
-                          Epetra_Vector &x);
+/// Newton's method by NOX. Starts from, and overwrites, `x`; `increment_norm` is |x − x_n| of the step, to
+/// make the energy tolerance relative, and is kept up by the caller's x_n.
+NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings,
+                          const Epetra_Vector &x_n, Epetra_Vector &x);
 
 } // namespace billet
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// In a contact-dominated step with friction slipping, the energy |R·Δu| of the last iterations squares:
+// E_{k+1}/E_k ≈ (E_k/E_{k−1})², so the logarithms of successive ratios stand 2 : 1.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+/// log(E_{k+1}/E_k) / log(E_k/E_{k−1}) of the last three energies; 0 where the fall has not begun by then.
+double order_of_convergence(const std::vector<NewtonIteration> &iterations) {
+  const std::size_t n = iterations.size();
+  if (n < 3 || iterations[n - 2].energy > 1e-4 * iterations[0].energy ||
+      std::abs(iterations[n - 1].step_length - 1.) > 1e-6)
+    return 0.;
+  return std::log(iterations[n - 1].energy / iterations[n - 2].energy) /
+         std::log(iterations[n - 2].energy / iterations[n - 3].energy);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
+  parameters.solver.force_tolerance = 1e-11;
+  testing::set_fixed_steps(parameters, 10);
+  SceneRun scene(parameters);
+  std::vector<double> orders;
+  unsigned int n_steps_slipping = 0;
+  scene.finish([&](const NewtonReport &report) {
+    const double order = order_of_convergence(report.iterations);
+    if (order > 0.)
+      orders.push_back(order);
+    unsigned int n_slipping = 0, n_sticking = 0;
+    for (const auto &node : scene.problem.contacts()[0].report()) {
+      n_slipping += node.status == ContactStatus::slip ? 1 : 0;
+      n_sticking += node.status == ContactStatus::stick ? 1 : 0;
+    }
+    n_steps_slipping += n_slipping > n_sticking ? 1 : 0;
+  });
+  std::sort(orders.begin(), orders.end());
+  check("most of the contact slips in every step", n_steps_slipping == 10);
+  check("at least four steps show their order", orders.size() >= 4);
+  check("median order of the energy's fall is 2 (at least 1.8)",
+        !orders.empty() && orders[orders.size() / 2] >= 1.8);
+  for (const double order : orders)
+    std::cerr << order << "\n";
+  return billet::testing::exit_code();
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A failed try leaves no trace: the run that is made to fail, by a step far too long, goes on with the same
+// bits as the one that never tried.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+bool same_bits(SceneRun &a, SceneRun &b) {
+  Vector x = a.discretization.make_owned_vector(), y = b.discretization.make_owned_vector();
+  x = a.problem.state().displacements;
+  y = b.problem.state().displacements;
+  for (const auto i : a.discretization.owned_dofs())
+    if (x(i) != y(i))
+      return false;
+  const EnergyLedger &e = a.problem.state().energies, &f = b.problem.state().energies;
+  return a.load().force == b.load().force && e.elastic == f.elastic && e.plastic == f.plastic &&
+         e.friction == f.friction && e.external == f.external;
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
+  testing::set_fixed_steps(parameters, 20);
+  parameters.solver.most_iterations = 8;
+  SceneRun untried(parameters), tried(parameters);
+  bool failed = true, same = true;
+  for (unsigned int step = 0; step < 8; ++step) {
+    // Past the tool's end, and through the billet: det F <= 0, or too many iterations.
+    failed = failed && !tried.problem.step(tried.control.time() + 1.45, step == 0 ? 0. : 0.05).converged;
+    untried.advance();
+    tried.advance();
+    same = same && same_bits(untried, tried);
+  }
+  check("the long steps fail", failed);
+  check("the short ones have the same bits as without them", same);
+  return billet::testing::exit_code();
+}

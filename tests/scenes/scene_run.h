@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_TESTS_SCENE_RUN_H
+#define BILLET_TESTS_SCENE_RUN_H
+
+#include "billet/errors.h"
+#include "billet/solve/quasi_static.h"
+#include "billet/solve/step_control.h"
+
+#include "../testing.h"
+
+#include <functional>
+
+namespace billet::testing {
+
+/// A scene that runs in memory, without output, its parameters changed at will before that.
+class SceneRun {
+public:
+  explicit SceneRun(const parameters::Scene &parameters)
+      : scene(parameters), discretization(scene, MPI_COMM_WORLD), problem(scene, discretization),
+        control(parameters.time_stepping, parameters.output.interval) {}
+
+  /// One accepted step, with cuts if need be. Throws where that is impossible.
+  NewtonReport advance() {
+    for (;;) {
+      const double from = control.time(), to = control.next_time();
+      const NewtonReport report = problem.step(to, previous_);
+      n_iterations += static_cast<unsigned int>(report.iterations.size());
+      if (report.converged) {
+        control.accept(static_cast<unsigned int>(report.iterations.size()));
+        previous_ = to - from;
+        return report;
+      }
+      if (!control.reject())
+        throw SolutionFailure("step from " + std::to_string(from) + " to " + std::to_string(to) +
+                              " failed: " + report.failure);
+    }
+  }
+
+  void finish(const std::function<void(const NewtonReport &)> &after_step = {}) {
+    while (!control.is_finished()) {
+      const NewtonReport report = advance();
+      if (after_step)
+        after_step(report);
+    }
+  }
+
+  const ContactLoad &load(const std::size_t tool = 0) const { return problem.state().tool_loads[tool]; }
+
+  Scene scene;
+  Discretization discretization;
+  QuasiStatic problem;
+  StepControl control;
+  unsigned int n_iterations = 0;
+
+private:
+  double previous_ = 0.;
+};
+
+inline parameters::Scene read_shipped_scene(const std::string &name) {
+  return parameters::Scene::read(std::string(SOURCE_DIR) + "/../../prm/" + name);
+}
+
+inline void set_fixed_steps(parameters::Scene &parameters, const unsigned int n) {
+  parameters.time_stepping.control = parameters::TimeStepping::Control::fixed;
+  parameters.time_stepping.initial_step = parameters.time_stepping.end_time / n;
+}
+
+inline bool is_first_rank() { return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0; }
+
+} // namespace billet::testing
+
+#endif

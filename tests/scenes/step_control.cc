@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The choice of steps alone, nothing is solved.
+#include "billet/solve/step_control.h"
+
+#include "../testing.h"
+
+using namespace billet;
+using billet::testing::check;
+
+namespace {
+
+parameters::TimeStepping make_parameters(const bool automatic) {
+  parameters::TimeStepping p;
+  p.end_time = 1.;
+  p.control =
+      automatic ? parameters::TimeStepping::Control::automatic : parameters::TimeStepping::Control::fixed;
+  p.initial_step = 0.1;
+  p.smallest_step = 0.01;
+  p.largest_step = 0.2;
+  p.few_iterations = 4;
+  p.many_iterations = 8;
+  p.growth_factor = 1.5;
+  p.shrink_factor = 0.5;
+  p.cut_factor = 0.25;
+  return p;
+}
+
+} // namespace
+
+int main() {
+  {
+    auto p = make_parameters(false);
+    p.initial_step = 1. / 700.;
+    StepControl control(p, 0.);
+    unsigned int n = 0;
+    for (; !control.is_finished(); ++n)
+      control.accept(1);
+    check("fixed steps: 700 of them, the last at the end", n == 700 && control.time() == 1.);
+    check("fixed steps are not cut", !StepControl(p, 0.).reject());
+  }
+  {
+    StepControl control(make_parameters(true), 0.);
+    control.accept(4);
+    check("few iterations: grows", std::abs(control.next_step() - 0.15), 1e-15);
+    control.accept(4);
+    check("not above the largest", std::abs(control.next_step() - 0.2), 1e-15);
+    control.accept(6);
+    check("neither few nor many: stays", std::abs(control.next_step() - 0.2), 1e-15);
+    control.accept(8);
+    check("many: shrinks", std::abs(control.next_step() - 0.1), 1e-15);
+    check("a failed step is cut", control.reject() && std::abs(control.next_step() - 0.025) < 1e-15);
+    check("but not below the smallest", !control.reject());
+    check("cuts are counted", control.n_cuts() == 2);
+    while (!control.is_finished())
+      control.accept(6);
+    check("ends exactly at the end", control.time() == 1.);
+  }
+  {
+    StepControl control(make_parameters(true), 0.3);
+    std::vector<double> times;
+    double least = 1.;
+    while (!control.is_finished()) {
+      const double step = control.next_step();
+      least = std::min(least, step);
+      control.accept(4);
+      times.push_back(control.time());
+    }
+    const auto hits = [&](const double t) { return std::find(times.begin(), times.end(), t) != times.end(); };
+    check("stops at multiples of the interval", hits(0.3) && hits(0.6) && hits(3 * 0.3) && hits(1.));
+    check("without slivers before them", least >= 0.05);
+  }
+  return billet::testing::exit_code();
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_TESTS_TESTING_H
+#define BILLET_TESTS_TESTING_H
+
+#include <deal.II/base/tensor.h>
+
+#include <deal.II/physics/transformations.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+#include <string>
+
+/// What the tests share. A test prints one line per case, `name: ok` or `name: FAILED: error e > tolerance
+/// t`, so that its .output holds names only, and ends with `return billet::testing::exit_code();`.
+namespace billet::testing {
+
+inline unsigned int &n_failures() {
+  static unsigned int n = 0;
+  return n;
+}
+
+inline int exit_code() { return n_failures() == 0 ? 0 : 1; }
+
+/// An error that is not a number fails.
+inline void check(const std::string &name, const double error, const double tolerance) {
+  std::cout << name << ": ";
+  if (error <= tolerance)
+    std::cout << "ok" << std::endl;
+  else {
+    std::cout << "FAILED: error " << error << " > " << tolerance << std::endl;
+    ++n_failures();
+  }
+}
+
+inline void check(const std::string &name, const bool holds) {
+  std::cout << name << ": " << (holds ? "ok" : "FAILED") << std::endl;
+  n_failures() += holds ? 0 : 1;
+}
+
+/// The largest of many errors; not a number as soon as one of them is.
+class WorstError {
+public:
+  void add(const double error) { value_ = std::isnan(error) ? error : std::max(error, value_); }
+  double value() const { return value_; }
+
+private:
+  double value_ = 0.;
+};
+
+/// Derivative of f at 0 by central differences of fourth order.
+template <class Function> auto central_difference(const Function &f, const double h) {
+  return (8. * (f(h) - f(-h)) - (f(2. * h) - f(-2. * h))) / (12. * h);
+}
+
+/// The same numbers on every machine, unlike the distributions of <random>.
+class Random {
+public:
+  double operator()(const double low, const double high) {
+    return low + (high - low) * static_cast<double>(engine_()) / 4294967296.;
+  }
+
+  dealii::Tensor<2, 3> tensor(const double size) {
+    dealii::Tensor<2, 3> result;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        result[i][j] = (*this)(-size, size);
+    return result;
+  }
+
+  dealii::Tensor<2, 3> rotation() {
+    dealii::Tensor<1, 3> axis;
+    do
+      for (unsigned int i = 0; i < 3; ++i)
+        axis[i] = (*this)(-1., 1.);
+    while (!(axis.norm() > 0.1 && axis.norm() < 1.));
+    return dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+        dealii::Tensor<1, 3>(axis / axis.norm()), (*this)(0., 2. * M_PI));
+  }
+
+private:
+  std::mt19937 engine_;
+};
+
+} // namespace billet::testing
+
+#endif
