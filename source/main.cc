@@ -77,6 +77,7 @@ void perform(const CommandLine &command, const bool is_first) {
     billet::run_simulation(parameters, MPI_COMM_WORLD);
   else
     billet::fail_together(MPI_COMM_WORLD, [&] {
+      billet::check_output_folder(parameters);
       const billet::Scene scene(parameters);
       dealii::Triangulation<3> outline;
       scene.build_mesh(billet::MeshDetail::outline, outline);

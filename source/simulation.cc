@@ -24,13 +24,9 @@ void prepare_folder(const parameters::Scene &parameters) {
   const std::filesystem::path folder = parameters.output.folder.value;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError(parameters.output.folder.origin + ": found '" + folder.string() +
-                     "', allowed is a folder that can be made and written to" +
-                     (error ? " (" + error.message() + ")" : ""));
   std::ofstream copy(folder / "scene.prm");
   copy << parameters.text;
-  if (!copy.flush())
+  if (error || !copy.flush())
     throw InputError(parameters.output.folder.origin + ": nothing can be written to '" + folder.string() +
                      "'");
 }
@@ -88,10 +84,23 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
 
 } // namespace
 
+void check_output_folder(const parameters::Scene &parameters) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path folder = fs::absolute(parameters.output.folder.value, error);
+  while (!fs::exists(folder, error) && folder.has_relative_path())
+    folder = folder.parent_path();
+  if (!fs::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(parameters.output.folder.origin + ": found '" + parameters.output.folder.value +
+                     "', allowed is a folder that can be made and written to; '" + folder.string() + "' is " +
+                     (fs::is_directory(folder, error) ? "not writable" : "not a folder"));
+}
+
 void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
 
   // Set up: everything that can be wrong with the scene shows here, before anything is written.
+  fail_together(communicator, [&] { check_output_folder(parameters); });
   const Scene scene(parameters);
   const Discretization discretization(scene, communicator);
   QuasiStatic problem(scene, discretization);

@@ -12,6 +12,9 @@ namespace billet {
 /// after everything that was computed is on disk.
 void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
 
+/// Throws InputError if the scene's output folder is not there and cannot be made, or cannot be written to.
+void check_output_folder(const parameters::Scene &parameters);
+
 } // namespace billet
 
 #endif

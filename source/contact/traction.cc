@@ -50,6 +50,7 @@ FrameTraction compute_traction(const ContactStiffness &stiffness, const ContactT
         K[i][j] += beta * ((i == m ? 1. : 0.) - direction[i] * direction[m]) * trial_tangent[m][j];
     const double coupling = stiffness.friction_coefficient * stiffness.normal * direction[i];
     switch (tangent) {
+    case ContactTangent::automatic: // resolved by the scene
     case ContactTangent::exact:
     case ContactTangent::consistent:
     case ContactTangent::continuum:

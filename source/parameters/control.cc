@@ -90,6 +90,7 @@ void TimeStepping::parse(Reader &reader) {
 namespace {
 
 const std::vector<std::pair<std::string, ContactTangent>> tangent_names = {
+    {"automatic", ContactTangent::automatic},
     {"exact", ContactTangent::exact},
     {"consistent", ContactTangent::consistent},
     {"continuum", ContactTangent::continuum},
@@ -120,12 +121,14 @@ const std::vector<std::pair<std::string, Solver::LinearSolver>> linear_solver_na
 } // namespace
 
 void Solver::declare(ParameterHandler &prm) {
-  prm.declare_entry("Contact tangent", "exact", Patterns::Selection(selection(tangent_names)),
-                    "exact: the full derivative of the contact forces, change of area included; consistent, "
-                    "continuum: Bittencourt & "
-                    "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower "
-                    "triangle or the mean of "
-                    "the consistent one in the contact frame, meant for mu <= 0.1.");
+  prm.declare_entry(
+      "Contact tangent", "automatic", Patterns::Selection(selection(tangent_names)),
+      "automatic: exact with friction, consistent without, so that the matrix is symmetric where it can be; "
+      "exact: the full derivative of the contact forces, change of area included; consistent, "
+      "continuum: Bittencourt & "
+      "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower "
+      "triangle or the mean of "
+      "the consistent one in the contact frame, meant for mu <= 0.1.");
   prm.declare_entry("Force tolerance", "1e-6", Patterns::Double(),
                     "Newton ends when the residual is below this part of the forces in the scene.");
   prm.declare_entry("Energy tolerance", "1e-10", Patterns::Double(),

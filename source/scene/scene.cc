@@ -75,7 +75,6 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
                       pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor, pair.normal_penalty,
                       pair.tangential_penalty});
 
-  const auto tangent = parameters.solver.contact_tangent;
   capabilities_.contact = !pairs_.empty();
   for (const auto &body : bodies_) {
     capabilities_.plasticity |= !std::holds_alternative<std::monostate>(body.material.hardening);
@@ -85,10 +84,13 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &pair : pairs_)
     capabilities_.friction |= pair.friction_coefficient > 0.;
   using Tangent = parameters::ContactTangent;
+  contact_tangent_ = parameters.solver.contact_tangent;
+  if (contact_tangent_ == Tangent::automatic)
+    contact_tangent_ = capabilities_.friction ? Tangent::exact : Tangent::consistent;
   capabilities_.unsymmetric_matrix =
-      capabilities_.contact &&
-      (tangent == Tangent::exact ||
-       (capabilities_.friction && (tangent == Tangent::consistent || tangent == Tangent::continuum)));
+      capabilities_.contact && (contact_tangent_ == Tangent::exact ||
+                                (capabilities_.friction && (contact_tangent_ == Tangent::consistent ||
+                                                            contact_tangent_ == Tangent::continuum)));
   if (capabilities_.unsymmetric_matrix &&
       parameters.solver.linear_solver == parameters::Solver::LinearSolver::mumps_symmetric)
     throw InputError(parameters.file_name +

@@ -21,7 +21,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
       internal_(scene, discretization) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
-    contacts_.emplace_back(scene, p, discretization, scene.parameters().solver.contact_tangent);
+    contacts_.emplace_back(scene, p, discretization, scene.contact_tangent());
   build_matrix();
   direct_ =
       make_direct_solver(scene.parameters().solver.linear_solver, !scene.capabilities().unsymmetric_matrix,

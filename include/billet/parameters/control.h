@@ -32,8 +32,9 @@ struct TimeStepping {
   void parse(Reader &reader);
 };
 
-/// How the contact forces are linearised; see contact/rigid_contact.h.
+/// How the contact forces are linearised; see contact/traction.h.
 enum class ContactTangent {
+  automatic, ///< exact where there is friction; consistent, and so symmetric, where there is none
   exact,
   consistent,
   continuum,

@@ -72,6 +72,8 @@ public:
   const std::vector<Tool> &tools() const { return tools_; }
   const std::vector<ContactPair> &pairs() const { return pairs_; }
   const Capabilities &capabilities() const { return capabilities_; }
+  /// The scene's choice, `automatic` resolved.
+  parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
   /// Builds the meshes of all bodies in one; see merge_bodies(). Then checks what needs a mesh: boundary ids,
   /// nodes on symmetry planes, supports, initial penetration. Throws InputError. Serial.
@@ -90,6 +92,7 @@ private:
   std::vector<Tool> tools_;
   std::vector<ContactPair> pairs_;
   Capabilities capabilities_;
+  parameters::ContactTangent contact_tangent_;
 };
 
 /// Whether the boundary face is part of the hold's boundaries or has all nodes in its plane. `tolerance`
