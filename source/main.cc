@@ -40,7 +40,7 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
       return {Task::print_parameters, ""};
     if (argument == "--check")
       command.task = Task::check;
-    else if (argument.front() == '-' || !command.scene.empty())
+    else if (argument.empty() || argument.front() == '-' || !command.scene.empty())
       throw billet::InputError("command line: found '" + argument + "', allowed is what follows.\n" + help);
     else
       command.scene = argument;

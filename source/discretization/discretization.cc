@@ -68,7 +68,7 @@ Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
   dof_handler_.reinit(tria_);
   dof_handler_.distribute_dofs(fe_);
   owned_ = dof_handler_.locally_owned_dofs();
-  dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant_);
+  relevant_ = dealii::DoFTools::extract_locally_relevant_dofs(dof_handler_);
 
   elements_.resize(scene.bodies().size());
   for (const auto &cell : dof_handler_.active_cell_iterators())

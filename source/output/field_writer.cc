@@ -71,6 +71,7 @@ std::array<Vector, 3> collect_contact_fields(const Discretization &discretizatio
   for (auto &vector : owned)
     vector = discretization.make_owned_vector();
   Vector area_sums = discretization.make_additive_vector();
+  // The dofs of a node follow each other, and have one owner.
   for (const auto i : discretization.owned_dofs()) {
     const auto component = (i - *discretization.owned_dofs().begin()) % 3;
     if (component == 1)

@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/history_file.h"
 
+#include <algorithm>
 #include <iomanip>
 
 namespace billet {
+
+namespace {
+
+/// A tool's name as part of a column's name.
+std::string column_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');
+  return name;
+}
+
+} // namespace
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder) : stream_(folder + "/history.csv") {
   if (!stream_)
@@ -13,7 +25,7 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder) : stream
     for (const char *quantity :
          {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "contact_area",
           "deepest_penetration", "travel_x", "travel_y", "travel_z", "turn"})
-      stream_ << "," << tool.name() << "." << quantity;
+      stream_ << "," << column_name(tool.name()) << "." << quantity;
   stream_ << ",elastic_energy,plastic_work,contact_energy,friction_dissipation,external_work,energy_drift\n";
   stream_ << std::setprecision(15);
 }

@@ -131,7 +131,7 @@ void print_all_parameters(std::ostream &stream) {
             : path.back() == "Tools"    ? "(name of a tool)"
                                         : "(name of a contact pair)"};
   });
-  prm.print_parameters(stream, ParameterHandler::Text | ParameterHandler::KeepDeclarationOrder);
+  prm.print_parameters(stream, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
 }
 
 } // namespace billet::parameters

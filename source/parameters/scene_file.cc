@@ -185,7 +185,7 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
   // What may stand below a path, taken from ParameterHandler's own print-out.
   const auto known = [&prm](const Path &path) {
     std::ostringstream printed;
-    prm.print_parameters(printed, ParameterHandler::ShortText);
+    prm.print_parameters(printed, ParameterHandler::ShortPRM);
     std::istringstream text(printed.str());
     const SceneFile all = SceneFile::scan(text, "");
     std::string list;

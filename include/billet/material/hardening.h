@@ -81,8 +81,8 @@ public:
 
 private:
   std::size_t segment(const double a) const {
-    const auto after = std::upper_bound(strains_.begin(), strains_.end(), a);
-    return after == strains_.begin() ? 0 : static_cast<std::size_t>(after - strains_.begin()) - 1;
+    const auto second = strains_.begin() + 1;
+    return static_cast<std::size_t>(std::upper_bound(second, strains_.end(), a) - second);
   }
   double slope_of(const std::size_t i) const {
     return i + 1 < strains_.size() ? (stresses_[i + 1] - stresses_[i]) / (strains_[i + 1] - strains_[i]) : 0.;
