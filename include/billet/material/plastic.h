@@ -101,8 +101,12 @@ private:
   bool respond(const dealii::Tensor<2, 3> &F, const History &history_n, PrincipalElasticState &trial,
                PrincipalResponse &response, double &delta_alpha) const {
     const dealii::Tensor<2, 3> C_p_inverse = history_n.inverse_plastic_metric;
-    if (!compute_principal_state(dealii::symmetrize(F * C_p_inverse * dealii::transpose(F)), trial))
+    const double J = dealii::determinant(F);
+    if (!(J > 0.) ||
+        !compute_principal_state(dealii::symmetrize(F * C_p_inverse * dealii::transpose(F)), trial))
       return false;
+    // det C_p = 1 exactly: with Σ ε_A instead, its round-off would add up over the steps into a pressure.
+    trial.volumetric_log_strain = std::log(J);
 
     const double two_g = 2. * elastic_.shear;
     double dev_norm = 0.;
