@@ -47,7 +47,5 @@ int main(int argc, char *argv[]) {
   check("at least four steps show their order", orders.size() >= 4);
   check("median order of the energy's fall is 2 (at least 1.8)",
         !orders.empty() && orders[orders.size() / 2] >= 1.8);
-  for (const double order : orders)
-    std::cerr << order << "\n";
   return billet::testing::exit_code();
 }

@@ -7,13 +7,12 @@
 namespace billet {
 
 /// Stored energy per reference volume, ½ κ (tr ε)² + G dev ε : dev ε [stress].
-inline double compute_elastic_energy(const ElasticModuli &elastic, const PrincipalElasticState &state,
-                                     const double beta = 1.) {
+inline double compute_elastic_energy(const ElasticModuli &elastic, const PrincipalElasticState &state) {
   double dev_squared = 0.;
   for (const double e : state.deviatoric_log_strains)
     dev_squared += e * e;
   return 0.5 * elastic.bulk * state.volumetric_log_strain * state.volumetric_log_strain +
-         elastic.shear * beta * beta * dev_squared;
+         elastic.shear * dev_squared;
 }
 
 /// Hencky's hyperelasticity: Kirchhoff stress linear in the logarithmic strain. No history.

@@ -85,9 +85,7 @@ public:
     PrincipalElasticState trial;
     PrincipalResponse response;
     double delta_alpha = 0.;
-    return respond(F, history, trial, response, delta_alpha)
-               ? compute_elastic_energy(elastic_, trial, response.beta)
-               : 0.;
+    return respond(F, history, trial, response, delta_alpha) ? compute_elastic_energy(elastic_, trial) : 0.;
   }
 
   double plastic_work(const History &history) const {
