@@ -5,8 +5,15 @@
 export OMPI_ALLOW_RUN_AS_ROOT="${OMPI_ALLOW_RUN_AS_ROOT-1}"
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="${OMPI_ALLOW_RUN_AS_ROOT_CONFIRM-1}"
 export OMPI_MCA_rmaps_base_oversubscribe="${OMPI_MCA_rmaps_base_oversubscribe-1}"
+export PRTE_MCA_mapby="${PRTE_MCA_mapby-:oversubscribe}" # Open MPI 6; it would warn of the name in 5
+if [[ $(mpirun --version 2>/dev/null) == *"(Open MPI) 5."* ]]; then
+  export PRTE_MCA_rmaps_default_mapping_policy="${PRTE_MCA_rmaps_default_mapping_policy-:oversubscribe}"
+fi
 # Containers often forbid the system call that copies between processes: an error message for each large MPI message.
 export OMPI_MCA_btl_vader_single_copy_mechanism="${OMPI_MCA_btl_vader_single_copy_mechanism-none}"
+export OMPI_MCA_smsc="${OMPI_MCA_smsc-^cma}" # its name since Open MPI 5
+# Open MPI 5 asks the kernel's routing table which ranks can meet, and complains about itself where there is IPv6.
+export OMPI_MCA_reachable="${OMPI_MCA_reachable-weighted}"
 export OMPI_MCA_btl_base_warn_component_unused="${OMPI_MCA_btl_base_warn_component_unused-0}"
 # All parallelism is in the ranks.
 export OMP_NUM_THREADS="${OMP_NUM_THREADS-1}"

@@ -17,7 +17,7 @@ constexpr unsigned int n_element_points = 8; ///< 2 × 2 × 2 Gauss points
 using ElementVectors = std::array<double, n_element_dofs>;
 
 /// Row-major 24 × 24 element matrix.
-using ElementMatrix = std::array<double, n_element_dofs * n_element_dofs>;
+using ElementMatrix = std::array<double, std::size_t{n_element_dofs} * n_element_dofs>;
 
 /// Geometry of the undeformed trilinear hexahedron at its Gauss points; computed once per element.
 struct ReferenceElement {

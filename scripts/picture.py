@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: pvpython picture.py SCENE.pvd PICTURE.png
+
+The last state of one eighth of a body, mirrored to all of it but one quarter, so that its inside is seen: equivalent
+plastic strain, element edges, the tools half transparent, and the body's outline at time 0.
+"""
+
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+from paraview.simple import (AppendDatasets, CellDatatoPointData, CleantoGrid, Clip, ColorBy, CreateView,
+                             ExtractSurface, FeatureEdges, GetColorTransferFunction, GetScalarBar, Reflect,
+                             SaveScreenshot, Show, XMLPartitionedUnstructuredGridReader, XMLPolyDataReader)
+
+FIELD, TITLE = "equivalent_plastic_strain", "Equivalent plastic strain"
+scene_file, picture_file = Path(sys.argv[1]), sys.argv[2]
+
+
+def files(part):
+    """The files of the bodies or the tools, by time."""
+    return [str(scene_file.parent / entry.get("file")) for entry in ElementTree.parse(scene_file).iter("DataSet")
+            if entry.get("name") == part]
+
+
+def mirrored(source, plane):
+    return Reflect(Input=source, Plane=plane, Center=0.0, CopyInput=1)
+
+
+def image(source, plane):
+    return Reflect(Input=source, Plane=plane, Center=0.0, CopyInput=0)
+
+
+def merged(source):
+    """With nodes at one place made one: elements and images have their own."""
+    return CleantoGrid(Input=source, ToleranceIsAbsolute=0, Tolerance=1e-6)
+
+
+def all_around(quarter):
+    return merged(mirrored(mirrored(quarter, "X"), "Y"))
+
+
+def three_quarters(quarter):
+    """All around but x > 0, y < 0."""
+    left = image(quarter, "X")
+    return merged(AppendDatasets(Input=[quarter, left, image(left, "Y")]))
+
+
+def body_at(file):
+    return three_quarters(mirrored(XMLPartitionedUnstructuredGridReader(FileName=[file]), "Z"))
+
+
+def tool_at(file):
+    """The part of the tools that the modelled quarter sees."""
+    tool = XMLPolyDataReader(FileName=[file])
+    for normal in ([1, 0, 0], [0, 1, 0]):
+        tool = Clip(Input=tool, ClipType="Plane", Invert=0)
+        tool.ClipType.Origin, tool.ClipType.Normal = [0, 0, 0], normal
+    return tool
+
+
+def show_plain(source, colour, opacity, width=1.0):
+    shown = Show(source, view)
+    shown.ColorArrayName = [None, ""]
+    shown.DiffuseColor = shown.AmbientColor = colour
+    shown.Opacity = opacity
+    shown.LineWidth = width
+    return shown
+
+
+view = CreateView("RenderView")
+view.ViewSize = [1200, 720]
+view.UseColorPaletteForBackground = 0
+view.Background = [1.0, 1.0, 1.0]
+view.OrientationAxesVisibility = 0
+
+# The body with its elements; its field smoothed from them to the nodes.
+body = CellDatatoPointData(Input=body_at(files("bodies")[-1]), CellDataArraytoprocess=[FIELD])
+shown = Show(body, view)
+shown.Representation = "Surface With Edges"
+shown.EdgeColor = [0.12, 0.12, 0.12]
+shown.LineWidth = 1.3
+ColorBy(shown, ("POINTS", FIELD))
+shown.Ambient, shown.Diffuse = 0.52, 0.56
+body.UpdatePipeline()
+colours = GetColorTransferFunction(FIELD)
+colours.ApplyPreset("Viridis (matplotlib)", True)
+colours.RescaleTransferFunction(*body.PointData[FIELD].GetRange())
+
+bar = GetScalarBar(colours, view)
+bar.Title, bar.ComponentTitle = TITLE, ""
+bar.Orientation, bar.WindowLocation, bar.Position = "Horizontal", "Any Location", [0.03, 0.03]
+bar.ScalarBarLength, bar.ScalarBarThickness = 0.28, 16
+bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
+bar.TitleFontSize, bar.LabelFontSize = 19, 17
+bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.1f", "%.1f"
+shown.SetScalarBarVisibility(view, True)
+
+# What it was at time 0.
+start = ExtractSurface(Input=body_at(files("bodies")[0]))
+show_plain(start, [0.5, 0.55, 0.6], 0.10)
+show_plain(FeatureEdges(Input=start, FeatureAngle=50), [0.5, 0.54, 0.6], 1.0, 1.6)
+
+start.UpdatePipeline()
+size = start.GetDataInformation().GetBounds()[5]
+
+# The tools, a hair's breadth off the body, which their penalty lets in a little.
+tool = tool_at(files("tools")[-1])
+for plate, side in ((three_quarters(tool), 1), (all_around(image(tool, "Z")), -1)):
+    border = FeatureEdges(Input=ExtractSurface(Input=plate), FeatureEdges=0, NonManifoldEdges=0)
+    for source, opacity in ((plate, 0.18), (border, 1.0)):
+        show_plain(source, [0.42, 0.48, 0.57], opacity, 1.6).Position = [0.0, 0.0, 0.007 * size * side]
+
+view.CameraFocalPoint = [0.0, 0.0, -0.16 * size]
+view.CameraPosition = [x * size for x in (3.3, -4.15, 2.35)]
+view.CameraViewUp = [0.0, 0.0, 1.0]
+view.CameraViewAngle = 27
+SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the benchmarks share: variants of a scene, runs of billet, errors of force curves, tables."""
+
+import argparse
+import csv
+import math
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("BILLET", str(ROOT / "build/release/bin/billet"))
+SCENE = ROOT / "prm/billet_upsetting.prm"
+TANGENTS = ("exact", "consistent", "continuum", "symmetrised upper", "symmetrised lower", "symmetrised mean")
+
+PENALTY = 3.5e5  # N/mm³, the scene's
+
+# Parameters that more than one benchmark changes.
+MESH = "Bodies/billet/Mesh/"
+PAIR = "Contact pairs/billet on die/"
+TANGENT = "Solver/Contact tangent"
+
+
+def mesh(refinements):
+    """60, 480, 3840, ... bricks for 1, 2, 3, ...: each brick is cut into eight."""
+    return {MESH + "Refinements": refinements, MESH + "Layers": 5 * 2 ** (refinements - 1)}
+
+
+def n_elements(refinements):
+    return 60 * 8 ** (refinements - 1)
+
+
+def fixed_steps(n):
+    return {"Time stepping/Step control": "fixed", "Time stepping/Initial step": repr(1.0 / n)}
+
+
+def variant(text, changes):
+    """The scene `text` with the entries {'Subsection/.../key': value} set anew, or added at the end."""
+    left = {key: str(value) for key, value in changes.items()}
+    path, lines = [], []
+    for line in text.splitlines():
+        statement = line.split("#")[0].strip()
+        if statement.startswith("subsection "):
+            path.append(statement.split(None, 1)[1].strip())
+        elif statement == "end":
+            path.pop()
+        elif statement.startswith("set "):
+            key = "/".join(path + [statement[4:].split("=")[0].strip()])
+            if key in left:
+                line = line.split("set ")[0] + "set " + key.split("/")[-1] + " = " + left.pop(key)
+        lines.append(line)
+    for key, value in left.items():
+        *path, name = key.split("/")
+        lines += ["subsection " + part for part in path] + [f"set {name} = {value}"] + ["end"] * len(path)
+    return "\n".join(lines) + "\n"
+
+
+def children_seconds():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+class Run:
+    """A finished run: `converged`, `failure` (why not, in short), `times` and `forces` (on the whole billet, in kN,
+    from time 0 on), `steps`, `iterations` (with those of cut steps), `cuts`, `seconds` (user and system, of all ranks)."""
+
+    def __init__(self, changes=None, ranks=1):
+        text = variant(SCENE.read_text(), {"Output/Format": "none", "Output/Verbosity": "quiet",
+                                           "Output/Folder": "results", **(changes or {})})
+        command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "scene.prm").write_text(text)
+            before = children_seconds()
+            done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+            self.seconds = children_seconds() - before
+            if done.returncode not in (0, 3):
+                sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
+            with open(Path(folder, "results/history.csv"), newline="") as file:
+                rows = list(csv.DictReader(file))
+        self.converged = done.returncode == 0
+        self.failure = ("" if self.converged else "inside out" if "inadmissible" in done.stderr else
+                        "no convergence" if re.search("no convergence|given up", done.stderr) else
+                        done.stderr.strip())
+        self.times = [0.0] + [float(row["time"]) for row in rows]
+        self.forces = [0.0] + [-4e-3 * float(row["die.force_z"]) for row in rows]
+        self.steps = len(rows)
+        self.iterations = int(rows[-1]["total_iterations"]) if rows else 0
+        self.cuts = int(rows[-1]["total_cuts"]) if rows else 0
+        said = ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in (changes or {}).items())
+        print(f"[{said}] {self.iterations} iterations, {self.seconds:.3g} s{'' if self.converged else ', failed'}",
+              file=sys.stderr, flush=True)
+
+    def force(self, time):
+        return interpolate(self.times, self.forces, time)
+
+
+def interpolate(times, values, time):
+    """The value at this time, straight lines between; NaN beyond the last."""
+    for t0, t1, v0, v1 in zip(times, times[1:], values, values[1:]):
+        if t0 <= time <= t1:
+            return v0 + (v1 - v0) * (time - t0) / (t1 - t0)
+    return math.nan
+
+
+def frictionless_force(time, penalty=math.inf):
+    """Closed form of the force on the whole billet in kN without friction, for a law that yields in Kirchhoff stress τ:
+    along the axis ln λ = −τ/E − ε_p with τ = σ_y + H ε_p; force = τ A_0 / λ; force over current area = penalty times
+    penetration, by which the billet is less upset."""
+    radius, half_length, travel = 10.0, 15.0, 9.6
+    E, nu, yield_stress, H = 200e3, 0.3, 700.0, 300.0
+    penetration = 0.0
+    for _ in range(50):  # a contraction
+        stretch = 1.0 - (travel * time - penetration) / half_length
+        plastic = (-math.log(stretch) - yield_stress / E) / (1.0 + H / E)
+        stress = yield_stress + H * plastic
+        force = stress * math.pi * radius**2 / stretch
+        area = math.pi * radius**2 * math.exp(2.0 * nu * stress / E + plastic)
+        penetration = force / area / penalty
+    return force / 1e3
+
+
+def curve_error(run, reference):
+    """Integral of |F - F*| over that of |F*| by the trapezoidal rule over the ends of the run's steps: what lies
+    between them was not computed, and the jump to first yield within the first step is nobody's fault."""
+    if not run.converged:
+        return math.nan
+    times, forces = run.times[1:], run.forces[1:]
+    exact = [reference.force(time) for time in times]
+
+    def integral(values):
+        return sum(0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], times, times[1:]))
+
+    return integral([abs(f - g) for f, g in zip(forces, exact)]) / integral([abs(g) for g in exact])
+
+
+def number(value, digits=3):
+    """In plain or scientific form, to so many significant digits; a dash for what is not there."""
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return "–"
+    if isinstance(value, float):
+        return f"{value:.{digits}g}" if value == 0 or abs(value) < 10 ** digits else f"{value:.0f}"
+    return str(value)
+
+
+def percent(value, digits=2):
+    return "–" if value is None or math.isnan(value) else number(100.0 * value, digits) + " %"
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head)] + rows
+    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
+
+
+def arguments(name):
+    """Command line of a benchmark; the same for all, so that `all` can pass it on."""
+    parser = argparse.ArgumentParser(prog=f"scripts/benchmarks {name}")
+    parser.add_argument("--quick", action="store_true", help="leave out what takes long, where something does")
+    parser.add_argument("--large", action="store_true", help="add a larger mesh, where there is one")
+    parser.add_argument("--ranks", type=int, default=1, help="processes to run billet on (1)")
+    return parser.parse_args()
+
+
+def publish(name, title, options, *parts):
+    """Prints the page and writes it to doc/results/NAME.md."""
+    flags = [f"--{key}" for key in ("quick", "large") if getattr(options, key)]
+    flags += [f"--ranks {options.ranks}"] if options.ranks > 1 else []
+    command = " ".join(["scripts/benchmarks", name] + flags)
+    ranks = "one rank" if options.ranks == 1 else f"{options.ranks} ranks"
+    page = "\n\n".join([f"# {title}", f"Written by `{command}`, on {ranks}."] + [part for part in parts if part]) + "\n"
+    print(page)
+    path = ROOT / "doc/results" / f"{name}.md"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(page)
