@@ -10,6 +10,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -29,6 +30,19 @@ void prepare_folder(const parameters::Scene &parameters) {
   if (error || !copy.flush())
     throw InputError(parameters.output.folder.origin + ": nothing can be written to '" + folder.string() +
                      "'");
+}
+
+/// Whether somebody may be watching. Open MPI's mpirun hands its ranks a terminal of its own, whatever its
+/// output goes to.
+bool console_is_terminal() {
+  if (isatty(STDOUT_FILENO) == 0)
+    return false;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
+    return true;
+  std::error_code error;
+  const auto target =
+      std::filesystem::read_symlink("/proc/" + std::to_string(getppid()) + "/fd/1", error).string();
+  return target.rfind("/dev/pts/", 0) == 0 || target.rfind("/dev/tty", 0) == 0;
 }
 
 /// Writes fields at the start, as often as the scene asks for, and at the end.
@@ -116,7 +130,7 @@ void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) 
   FieldWriter writer(scene, discretization, parameters.output.folder.value);
   Snapshots snapshots(parameters, writer);
   std::ostringstream silence;
-  Progress progress(scene, is_first ? std::cout : silence, is_first && isatty(STDOUT_FILENO) != 0);
+  Progress progress(scene, is_first ? std::cout : silence, is_first && console_is_terminal());
   progress.start(discretization, problem, discretization.dof_handler().n_dofs());
   snapshots.write(problem);
 

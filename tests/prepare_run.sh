@@ -3,7 +3,7 @@
 # shellcheck source=scripts/environment.sh
 . "$tests/../scripts/environment.sh"
 # Open MPI binds ranks to cores from the first one on: two tests at a time would share it and leave others idle.
-export OMPI_MCA_hwloc_base_binding_policy=none
+export OMPI_MCA_hwloc_base_binding_policy=none PRTE_MCA_bindto=none # up to Open MPI 5, from 6 on
 
 for word in "$@"; do
   [[ $word != */bin/* || -x $word ]] || { echo "$word is not built: build the target test_programs" && exit 1; }

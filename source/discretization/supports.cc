@@ -142,16 +142,24 @@ Constraints Supports::at_time(const double t) const {
       }
     }
   });
-  return make([t](const Line &line) { return line.value(t); });
+  std::vector<double> values;
+  fail_together(discretization_.communicator(), [&] {
+    for (const auto &line : lines_)
+      values.push_back(line.value(t));
+  });
+  auto next = values.begin();
+  return make([&next](const Line &) { return *next++; });
 }
 
 Constraints Supports::change(const double t_n, const double t, bool &moves) const {
   // Time by time: an expression is parsed anew when the time changes.
   std::vector<double> values;
-  for (const auto &line : lines_)
-    values.push_back(-line.value(t_n));
-  for (std::size_t i = 0; i < lines_.size(); ++i)
-    values[i] += lines_[i].value(t);
+  fail_together(discretization_.communicator(), [&] {
+    for (const auto &line : lines_)
+      values.push_back(-line.value(t_n));
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      values[i] += lines_[i].value(t);
+  });
   const bool moves_here =
       std::any_of(values.begin(), values.end(), [](const double value) { return value != 0.; });
   moves = dealii::Utilities::MPI::max(moves_here ? 1 : 0, discretization_.communicator()) == 1;

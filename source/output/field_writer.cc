@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
-#include <limits>
 #include <sstream>
 
 namespace billet {
@@ -63,7 +62,7 @@ CellFields collect_cell_fields(const Scene &scene, const Discretization &discret
   return fields;
 }
 
-/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap NaN
+/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap 0
 /// and status −1.
 std::array<Vector, 3> collect_contact_fields(const Discretization &discretization,
                                              const QuasiStatic &problem) {
@@ -72,21 +71,17 @@ std::array<Vector, 3> collect_contact_fields(const Discretization &discretizatio
     vector = discretization.make_owned_vector();
   Vector area_sums = discretization.make_additive_vector();
   // The dofs of a node follow each other, and have one owner.
-  for (const auto i : discretization.owned_dofs()) {
-    const auto component = (i - *discretization.owned_dofs().begin()) % 3;
-    if (component == 1)
-      owned[0](i) = std::numeric_limits<double>::quiet_NaN();
-    if (component == 0 || component == 2)
+  for (const auto i : discretization.owned_dofs())
+    if ((i - *discretization.owned_dofs().begin()) % 3 != 1)
       owned[1](i) = -1.;
-  }
   for (std::size_t p = 0; p < problem.contacts().size(); ++p)
     for (const auto &node : problem.contacts()[p].report()) {
       area_sums.add(1, &node.dofs[1], &node.area);
       if (!discretization.owned_dofs().is_element(node.dofs[0]))
         continue;
       // Of several pairs at a node the one with the smallest gap is shown.
-      const double shown = owned[0](node.dofs[1]);
-      if (!std::isnan(shown) && shown <= node.gap)
+      const bool is_shown = owned[1](node.dofs[0]) >= 0.;
+      if (is_shown && owned[0](node.dofs[1]) <= node.gap)
         continue;
       owned[0](node.dofs[0]) = node.pressure;
       owned[0](node.dofs[1]) = node.gap;
@@ -232,7 +227,7 @@ void FieldWriter::write_tools(const SolutionState &state, const std::string &nam
   out << "\n</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
   out.close();
   if (!out)
-    throw std::runtime_error(folder_ + "/" + name + " cannot be written");
+    throw SolutionFailure(folder_ + "/" + name + " cannot be written");
 }
 
 void FieldWriter::write_index() const {
@@ -252,7 +247,7 @@ void FieldWriter::write_index() const {
   out << "</Collection>\n</VTKFile>\n";
   out.close();
   if (!out)
-    throw std::runtime_error(name + " cannot be written");
+    throw SolutionFailure(name + " cannot be written");
 }
 
 } // namespace billet

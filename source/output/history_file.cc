@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/history_file.h"
 
+#include "billet/errors.h"
+
 #include <algorithm>
 #include <iomanip>
 
@@ -19,7 +21,8 @@ std::string column_name(std::string name) {
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder) : stream_(folder + "/history.csv") {
   if (!stream_)
-    throw std::runtime_error(folder + "/history.csv cannot be written");
+    throw InputError(scene.parameters().output.folder.origin + ": '" + folder +
+                     "/history.csv' cannot be written");
   stream_ << "step,time,step_length,iterations,residual,total_iterations,total_cuts";
   for (const auto &tool : scene.tools())
     for (const char *quantity :

@@ -6,7 +6,9 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <fstream>
+#include <stdexcept>
 
 namespace billet::parameters {
 
@@ -61,7 +63,7 @@ void Mesh::parse(Reader &reader) {
   source = chosen == "primitive" ? Source::primitive : chosen == "file" ? Source::file : Source::extruded;
   primitive = reader.located("Primitive", reader.text("Primitive"));
   arguments = reader.text("Arguments");
-  refinements = reader.count("Refinements");
+  refinements = reader.count("Refinements", 0, 10);
   section_area = reader.located("Section area", reader.not_negative("Section area"));
   height = reader.positive("Height");
   n_layers = reader.count("Layers", 1);
@@ -73,11 +75,15 @@ void Mesh::parse(Reader &reader) {
   boundary_ids = reader.located("Boundary ids", std::vector<std::pair<unsigned int, std::string>>());
   for (const auto &part : reader.parts("Boundary ids")) {
     const auto colon = part.find(':');
-    if (colon == std::string::npos || part.find_first_not_of("0123456789 ") < colon || colon == 0)
-      reader.reject("Boundary ids", "'id : condition', separated by semicolons");
-    boundary_ids.value.emplace_back(
-        dealii::Utilities::string_to_int(dealii::Utilities::trim(part.substr(0, colon))),
-        dealii::Utilities::trim(part.substr(colon + 1)));
+    try {
+      if (colon == std::string::npos)
+        throw std::invalid_argument("no condition");
+      boundary_ids.value.emplace_back(parse_count(dealii::Utilities::trim(part.substr(0, colon))),
+                                      dealii::Utilities::trim(part.substr(colon + 1)));
+    } catch (const std::invalid_argument &) {
+      reader.reject("Boundary ids",
+                    "'id : condition', separated by semicolons, the id a whole number up to 999999999");
+    }
   }
   const bool is_extruded = source == Source::extruded;
   for (const std::string key : {"Section area", "Height", "Layers"})

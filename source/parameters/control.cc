@@ -160,7 +160,7 @@ void Solver::parse(Reader &reader) {
   most_iterations = reader.count("Most iterations", 1);
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
   predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
-  linear_solver = chosen(linear_solver_names, reader.text("Linear solver"));
+  linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));
 }
 
 void Output::declare(ParameterHandler &prm) {

@@ -35,7 +35,12 @@ std::string Reader::text(const std::string &key) const { return prm_.get(key); }
 bool Reader::flag(const std::string &key) const { return prm_.get_bool(key); }
 
 double Reader::number(const std::string &key) const {
-  const double value = prm_.get_double(key);
+  double value = 0.;
+  try {
+    value = prm_.get_double(key);
+  } catch (const std::exception &) {
+    reject(key, "a finite number");
+  }
   if (!std::isfinite(value))
     reject(key, "a finite number");
   return value;
@@ -55,10 +60,10 @@ double Reader::not_negative(const std::string &key) const {
   return value;
 }
 
-unsigned int Reader::count(const std::string &key, const unsigned int least) const {
+unsigned int Reader::count(const std::string &key, const unsigned int least, const unsigned int most) const {
   const long value = prm_.get_integer(key);
-  if (value < static_cast<long>(least))
-    reject(key, "a whole number >= " + std::to_string(least));
+  if (value < static_cast<long>(least) || value > static_cast<long>(most))
+    reject(key, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<unsigned int>(value);
 }
 
@@ -84,18 +89,20 @@ std::vector<double> Reader::numbers(const std::string &key) const {
   return result;
 }
 
+unsigned int parse_count(const std::string &text) {
+  if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+    throw std::invalid_argument("'" + text + "' is not a whole number from 0 to 999999999");
+  return static_cast<unsigned int>(std::stoul(text));
+}
+
 std::vector<unsigned int> Reader::counts(const std::string &key) const {
   std::vector<unsigned int> result;
   for (const auto &part : parts(key, ',')) {
-    int value = -1;
     try {
-      value = dealii::Utilities::string_to_int(part);
-    } catch (const std::exception &) {
-      value = -1;
+      result.push_back(parse_count(part));
+    } catch (const std::invalid_argument &) {
+      reject(key, "whole numbers from 0 to 999999999, separated by commas");
     }
-    if (value < 0)
-      reject(key, "whole numbers >= 0, separated by commas");
-    result.push_back(static_cast<unsigned int>(value));
   }
   return result;
 }

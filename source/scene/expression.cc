@@ -4,6 +4,10 @@
 #include "billet/errors.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <sstream>
 
 namespace billet {
 
@@ -24,14 +28,22 @@ double evaluate_amplitude(const parameters::Amplitude &amplitude, const double t
 
 Expression::Expression(const std::string &text, const Variables variables,
                        std::vector<parameters::Amplitude> amplitudes, const std::string &origin)
-    : text_(text),
+    : text_(text), origin_(origin),
       // The parser wants three coordinates; names that cannot be meant hide them where they make no sense.
       variables_(variables == Variables::time ? "no_x_here,no_y_here,no_z_here,t" : "x,y,z,t"),
       amplitudes_(std::move(amplitudes)) {
+  // deal.II tells muParser's complaints to the console, too.
+  std::ostringstream complaints;
+  std::streambuf *console = std::cerr.rdbuf(complaints.rdbuf());
+  bool makes_sense = true;
   try {
     parse(0.);
     parser_->value(dealii::Point<3>());
   } catch (const std::exception &) {
+    makes_sense = false;
+  }
+  std::cerr.rdbuf(console);
+  if (!makes_sense) {
     std::string allowed = variables == Variables::time ? "t, pi" : "x, y, z, t, pi";
     for (const auto &amplitude : amplitudes_)
       allowed += ", " + amplitude.name;
@@ -52,7 +64,14 @@ void Expression::parse(const double t) const {
 double Expression::value(const double t, const dealii::Point<3> &position) const {
   if (t != parsed_time_)
     parse(t);
-  return parser_->value(position);
+  const double value = parser_->value(position);
+  if (!std::isfinite(value)) {
+    std::ostringstream message;
+    message << origin_ << ": '" << text_ << "' is " << value << " at time " << t
+            << "; allowed are finite values";
+    throw SolutionFailure(message.str());
+  }
+  return value;
 }
 
 } // namespace billet

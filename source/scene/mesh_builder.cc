@@ -9,6 +9,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace billet {
 

@@ -67,8 +67,15 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
 Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &body : parameters.bodies)
     bodies_.push_back(make_body(body, parameters.amplitudes));
-  for (const auto &tool : parameters.tools)
-    tools_.emplace_back(tool, parameters.amplitudes);
+  try {
+    for (const auto &tool : parameters.tools) {
+      tools_.emplace_back(tool, parameters.amplitudes);
+      tools_.back().placement(0.);
+      tools_.back().placement(parameters.time_stepping.end_time);
+    }
+  } catch (const SolutionFailure &error) { // before anything has begun it is the input that is bad
+    throw InputError(error.what());
+  }
   for (const auto &pair : parameters.pairs)
     pairs_.push_back({pair.name, parameters.body_index(pair), pair.boundary_ids.value,
                       parameters.tool_index(pair), pair.friction_coefficient,
@@ -92,9 +99,9 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
                                 (capabilities_.friction && (contact_tangent_ == Tangent::consistent ||
                                                             contact_tangent_ == Tangent::continuum)));
   if (capabilities_.unsymmetric_matrix &&
-      parameters.solver.linear_solver == parameters::Solver::LinearSolver::mumps_symmetric)
-    throw InputError(parameters.file_name +
-                     ": 'Linear solver' in 'Solver': found 'MUMPS symmetric', but this scene's contact "
+      parameters.solver.linear_solver.value == parameters::Solver::LinearSolver::mumps_symmetric)
+    throw InputError(parameters.solver.linear_solver.origin +
+                     ": found 'MUMPS symmetric', but this scene's contact "
                      "tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, or a symmetrised 'Contact tangent'");
 }

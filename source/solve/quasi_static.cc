@@ -23,9 +23,9 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     contacts_.emplace_back(scene, p, discretization, scene.contact_tangent());
   build_matrix();
-  direct_ =
-      make_direct_solver(scene.parameters().solver.linear_solver, !scene.capabilities().unsymmetric_matrix,
-                         matrix_.trilinos_matrix(), discretization.communicator());
+  direct_ = make_direct_solver(scene.parameters().solver.linear_solver.value,
+                               !scene.capabilities().unsymmetric_matrix, matrix_.trilinos_matrix(),
+                               discretization.communicator());
 
   trial_ = u_n_ = last_increment_ = support_forces_ = support_forces_n_ = discretization.make_owned_vector();
   trial_ghosted_ = state_.displacements = discretization.make_ghosted_vector();

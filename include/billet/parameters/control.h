@@ -54,7 +54,7 @@ struct Solver {
   unsigned int most_iterations;
   LineSearch line_search;
   Predictor predictor;
-  LinearSolver linear_solver;
+  Located<LinearSolver> linear_solver;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -18,6 +18,9 @@ template <class T> struct Located {
   std::string origin;
 };
 
+/// A whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
+unsigned int parse_count(const std::string &text);
+
 /// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
 /// InputError with file, line, parameter, what was found and what is allowed.
 class Reader {
@@ -38,7 +41,7 @@ public:
   double number(const std::string &key) const;
   double positive(const std::string &key) const;
   double not_negative(const std::string &key) const;
-  unsigned int count(const std::string &key, unsigned int least = 0) const;
+  unsigned int count(const std::string &key, unsigned int least = 0, unsigned int most = 999999999) const;
   std::vector<double> numbers(const std::string &key) const;
   std::vector<unsigned int> counts(const std::string &key) const;
   /// Three numbers.

@@ -7,7 +7,6 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,12 +26,13 @@ public:
   Expression(const std::string &text, Variables variables, std::vector<parameters::Amplitude> amplitudes,
              const std::string &origin);
 
+  /// Throws SolutionFailure, on the calling rank, if the value is not finite.
   double value(double t, const dealii::Point<3> &position = {}) const;
 
 private:
   void parse(double t) const;
 
-  std::string text_;
+  std::string text_, origin_;
   std::string variables_;
   std::vector<parameters::Amplitude> amplitudes_;
   // The parser takes amplitudes as constants and is made anew when the time changes.
