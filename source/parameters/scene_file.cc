@@ -42,10 +42,13 @@ std::string single_spaced(const std::string &text) {
 
 /// What a pattern of ParameterHandler's stands for, in plain words.
 std::string describe_pattern(const std::string &message) {
-  const auto begin = message.find('[');
-  const auto end = message.rfind(']');
-  const std::string pattern =
-      begin != std::string::npos && end > begin ? message.substr(begin + 1, end - begin - 1) : message;
+  // "... does not match the given pattern <[Double ...]>." A selection's description is longer than a line.
+  const std::string lead = "given pattern <";
+  const auto begin = message.find('[', message.find(lead));
+  const auto end = message.find("]>", begin);
+  if (message.find(lead) == std::string::npos || begin == std::string::npos || end == std::string::npos)
+    return message;
+  const std::string pattern = message.substr(begin + 1, end - begin - 1);
   if (pattern.find("List of <[Double") != std::string::npos)
     return "numbers, separated by commas";
   if (pattern.find("List of <[Integer") != std::string::npos)
