@@ -1,0 +1,349 @@
+#!/usr/bin/env perl
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Usage: runs.pl BILLET [LAUNCHER...]      in an empty current folder; LAUNCHER is mpirun with its option -n
+#
+# Scenes that billet must run, and some that it must give up. Each is block.prm with an edit (edit_scene.pl); 'same' ones
+# must come out as block.prm does, whatever way they say it.
+use strict;
+use warnings;
+use File::Basename;
+use File::Copy;
+use List::Util qw(max);
+
+my $here = dirname(__FILE__);
+require "$here/edit_scene.pl";
+
+my ($billet, @launcher) = @ARGV;
+my $base = read_text("$here/block.prm");
+my $no_mesh = 'Mesh: - Primitive & Mesh: - Arguments & Mesh: - Boundary ids & Mesh: Source = file & Mesh: File = ';
+my $fixed = 'Time stepping: Step control = fixed & Time stepping: - Largest step';
+my $no_law = 'Material: - Yield stress & Material: - Hardening modulus & Material: Hardening = ';
+
+my ($n_checks, $n_failed) = (0, 0);
+enter_folder();
+
+# --- what a run left -----------------------------------------------------------------------------------------------
+
+# Columns of a history by name.
+sub history
+{
+  my ($folder) = @_;
+  my ($head, @rows) = split /\n/, read_text("$folder/history.csv");
+  my @names = split /,/, $head;
+  my %history;
+  for my $row (@rows)
+  {
+    my @values = split /,/, $row, -1;
+    die "$folder/history.csv: " . @values . " values below " . @names . " names\n" unless @values == @names;
+    push @{$history{$names[$_]}}, $values[$_] for 0 .. $#names;
+  }
+  return \%history;
+}
+
+sub last_of
+{
+  my ($folder, $column) = @_;
+  my $values = history($folder)->{$column} or die "$folder/history.csv has no column '$column'\n";
+  return $values->[-1];
+}
+
+sub force
+{
+  my ($folder, $tool) = @_;
+  my $sum = 0;
+  $sum += last_of($folder, "$tool.force_$_")**2 for 'x', 'y', 'z';
+  return sqrt $sum;
+}
+
+# Times of the pictures of the bodies; all that an index names must be there.
+sub pictured
+{
+  my ($index) = @_;
+  my $folder = dirname($index);
+  my $text = read_text($index);
+  -s "$folder/$_" or die "$folder/$_ is not there or empty\n" for $text =~ /file="(.*?)"/g;
+  return join ' ', $text =~ /timestep="(.*?)" part="0"/g;
+}
+
+# --- what is claimed -----------------------------------------------------------------------------------------------
+
+sub check
+{
+  my ($name, $claim) = @_;
+  my $fault = eval { $claim->() } // $@;
+  chomp $fault;
+  print "$name: ", ($fault eq '' ? "ok\n" : "FAILED: $fault\n");
+  ++$n_checks;
+  ++$n_failed if $fault ne '';
+}
+
+sub is { my ($what, $found, $expected) = @_; return $found eq $expected ? '' : "$what is '$found', not '$expected'" }
+sub near
+{
+  my ($what, $found, $expected, $tolerance) = @_;
+  $tolerance //= 1e-6;
+  return abs($found - $expected) <= $tolerance * abs($expected) ? '' : "$what is $found, not $expected";
+}
+
+# Runs block.prm, edited, into a folder of its own, which it returns; dies unless the exit code is the expected one.
+my ($n_runs, $said, $complained) = (0, '', '');
+sub billet
+{
+  my ($edits, %how) = @_;
+  my $folder = 'r' . ++$n_runs;
+  my ($scene) = edit($base, "Output: Folder = $folder" . ($edits && " & $edits"));
+  $scene = $how{rewrite}->($scene) if $how{rewrite};
+  my $file = $how{file} // 'scene.prm';
+  write_text($file, $scene);
+  my $ranks = $how{ranks} // 1;
+  (my $code, $said, $complained) = run(($ranks > 1 ? (@launcher, $ranks) : ()), $billet, $file);
+  my $expected = $how{code} // 0;
+  die "exit code $code, not $expected\n$said$complained" unless $code == $expected;
+  die "$complained" if $expected == 0 && $complained ne '';
+  return $folder;
+}
+
+my $reference = billet('');
+my @columns = ('time', 'die.force_x', 'die.force_y', 'die.force_z', 'die.contact_area', 'elastic_energy', 'plastic_work',
+               'friction_dissipation');
+
+# All rows of the history as those of another run.
+sub compare
+{
+  my ($folder, $other, $tolerance) = @_;
+  my ($these, $those) = (history($folder), history($other));
+  for my $column (@columns)
+  {
+    my ($x, $y) = ($these->{$column}, $those->{$column});
+    return @$x . ' steps, not ' . @$y unless @$x == @$y;
+    my $size = max(map { abs } @$y);
+    for my $i (0 .. $#$x)
+    {
+      return "$column in row $i is $x->[$i], not $y->[$i]" unless abs($x->[$i] - $y->[$i]) <= $tolerance * $size + 1e-9;
+    }
+  }
+  return '';
+}
+
+sub same
+{
+  my ($name, $edits, %how) = @_;
+  check($name, sub { compare(billet($edits, %how), $how{as} // $reference, $how{tolerance} // 1e-6) });
+}
+
+# --- one scene, many ways to say it --------------------------------------------------------------------------------
+
+check 'the copy is the input', sub { is('scene.prm', read_text("$reference/scene.prm"), read_text('scene.prm')) };
+check 'the copy runs and gives the same', sub {
+  my $before = read_text("$reference/history.csv");
+  copy("$reference/scene.prm", 'copy.prm');
+  my ($code, $output, $errors) = run($billet, "$reference/scene.prm");
+  return is('exit code', $code, 0) || is('history', read_text("$reference/history.csv"), $before)
+    || is('scene.prm', read_text("$reference/scene.prm"), read_text('copy.prm'));
+};
+check 'a picture of every step', sub {
+  is('number of times', scalar split(/ /, pictured("$reference/scene.pvd")), 1 + @{history($reference)->{time}});
+};
+check 'the history is finite', sub {
+  my $history = history($reference);
+  my @bad = grep { grep { !/^[-+.\de]+$/ } @{$history->{$_}} } sort keys %$history;
+  return @bad ? "@bad" : '';
+};
+
+same "$_ ranks", '', ranks => $_ for 2, 3, 4;
+same 'a mesh file .msh', $no_mesh . 'block.msh & block: Symmetry planes = x = 0 ; y = 0';
+same 'a mesh file .vtk', $no_mesh . 'block.vtk';
+same 'a mesh file .ucd on 2 ranks', $no_mesh . 'block.ucd', ranks => 2;
+same 'an extruded mesh', 'Mesh: Source = extruded primitive & Mesh: Arguments = 2, 1 : 0, 0 : 4, 2 : true'
+  . ' & Mesh: Section area = 2 & Mesh: Height = 2 & Mesh: Layers = 2';
+same 'a scaled mesh', 'Mesh: Arguments = 2, 1, 2 : 0, 0, 0 : 4, 2, 4 : true & Mesh: Scale = 0.5';
+same 'supports for symmetry planes', 'block: - Symmetry planes'
+  . ' & Supports: + subsection left\n set Boundary ids = 0\n set Components = x\nend'
+  . '\nsubsection front\n set Boundary ids = 2\n set Components = y\nend';
+same 'a symmetry plane for a support', 'block: Symmetry planes = x = 0 ; y = 0 ; z = 0';
+same 'an expression for an amplitude', 'Motion: Translation = 0 ; 0 ; -0.1*t';
+same 'the die turned over', 'Plane: Normal = 0, 0, 1 & Motion: Rotation axis = 1, 0, 0 & Motion: Rotation angle = pi'
+  . ' & Motion: Centre = 0, 0, 2';
+same 'the penalty in stress per length', 'top on die: Penalty unit = absolute & top on die: Normal penalty = 10e3';
+same 'the same tangential penalty', 'top on die: Tangential penalty = 10';
+same 'linear hardening as a table', $no_law . 'table & Material: Table = 0 : 10, 0.5 : 35, 1 : 60';
+same 'linear hardening as a power law', $no_law . 'power law & Material: Strength coefficient = 50'
+  . ' & Material: Prestrain = 0.2 & Material: Hardening exponent = 1';
+same "linear hardening as Voce's", 'Material: Hardening = Voce & Material: Saturation stress = 10'
+  . ' & Material: Saturation rate = 3';
+write_text('title.prm', "set Title = Included\n");
+same 'an included file', '- Title & + include title.prm';
+same 'continued lines', '', rewrite => sub { (my $s = $_[0]) =~ s/ : 0, 0, 0 : / : \\\n  0, 0, 0 \\  \n : /; $s };
+same 'line ends of Windows', '', rewrite => sub { (my $s = $_[0]) =~ s/\n/\r\n/g; $s };
+
+# --- solvers -------------------------------------------------------------------------------------------------------
+
+my $fixed_soft = "$fixed & top on die: Normal penalty = 1"; # soft enough for each
+my $steady = billet($fixed_soft);
+check 'fixed steps', sub { is('number of steps', scalar @{history($steady)->{time}}, 10) };
+same "$_->[0]", "$fixed_soft & $_->[0]", as => $steady, tolerance => 1e-4, ranks => $_->[1] // 1
+  for ['Solver: Linear solver = KLU', 2], ['Solver: Linear solver = MUMPS'], ['Solver: Predictor = tangent'],
+  ['Solver: Line search = none'],
+  ['Solver: Contact tangent = consistent'], ['Solver: Contact tangent = continuum'];
+same "symmetrised $_", "$fixed_soft & Solver: Contact tangent = symmetrised $_ & Solver: Linear solver = MUMPS symmetric"
+  . ' & Solver: Most iterations = 100', as => $steady, tolerance => 1e-4, ranks => 2 for 'upper', 'lower', 'mean';
+check 'a symmetric matrix is seen', sub {
+  billet("$fixed & Solver: Contact tangent = consistent & top on die: Friction coefficient = 0");
+  return $said =~ /MUMPS \(symmetric\)/ ? '' : "says $said";
+};
+
+# --- motions, bodies, tools ----------------------------------------------------------------------------------------
+
+check 'a smooth amplitude', sub {
+  my $folder = billet('ramp: Interpolation = smooth & Output: Interval = 0.25');
+  my $history = history($folder);
+  my %travel;
+  @travel{@{$history->{time}}} = @{$history->{'die.travel_z'}};
+  return near('travel at 0.25', $travel{0.25}, -0.1 * 0.103515625);
+};
+check 'a prescribed displacement, without contact', sub {
+  my $folder = billet('top on die: delete & die: delete'
+    . ' & Supports: + subsection top\n set Boundary ids = 7\n set Components = z\n set Displacement = 0 ; 0 ; -ramp\nend'
+    . ' & Material: Law = elastic & Material: - Hardening & Material: - Yield stress & Material: - Hardening modulus',
+    ranks => 2);
+  # Hencky's law in uniaxial stress: E/2 (ln 0.95)^2 for each unit of volume
+  return near('elastic energy', last_of($folder, 'elastic_energy'), 4 * 500 * log(0.95)**2);
+};
+check 'a die that turns', sub {
+  my $folder = billet('Motion: Rotation angle = 0.05*t');
+  return near('turn', last_of($folder, 'die.turn'), 0.05)
+    || (abs(last_of($folder, 'die.moment_z')) > 1e-3 ? '' : 'no moment');
+};
+my $body = $base =~ /^(  subsection block\n.*?^  end\n)/ms ? $1 : die;
+my $die  = $base =~ /^(  subsection die\n.*?^  end\n)/ms   ? $1 : die;
+my $pair = $base =~ /^(  subsection top on die\n.*?^  end\n)/ms ? $1 : die;
+for ($body, $die, $pair)
+{
+  s/subsection (block|die|top on die)\n/subsection other $1\n/;
+  s/(Body +=|Tool +=) /$1 other /g;
+}
+$body =~ s/x = 0/x = 10/;
+$body =~ s/(subsection Mesh\n)/$1      set Translation = 10, 0, 0\n/;
+check "two bodies and two tools on $_ ranks", sub {
+  my $folder = billet("Bodies: + $body & Tools: + $die & Contact pairs: + $pair", ranks => $_);
+  return near('force', force($folder, 'die'), force($reference, 'die'), 1e-3)
+    || near('other force', force($folder, 'other die'), force($folder, 'die'), 1e-6)
+    || near('plastic work', last_of($folder, 'plastic_work'), 2 * last_of($reference, 'plastic_work'), 1e-3);
+} for 1, 3;
+
+check 'turned and moved, symmetry planes askew, on 2 ranks', sub {
+  my $folder = billet('Mesh: Rotation angle = 36.86989764584402 & Mesh: Translation = 5, 0, 0'
+    . ' & block: Symmetry planes = 0.8, 0.6, 0 = 4 ; -0.6, 0.8, 0 = -3', ranks => 2);
+  my ($x, $y, $z) = map { last_of($reference, "die.force_$_") } 'x', 'y', 'z';
+  return near('force_x', last_of($folder, 'die.force_x'), 0.8 * $x - 0.6 * $y)
+    || near('force_y', last_of($folder, 'die.force_y'), 0.6 * $x + 0.8 * $y)
+    || near('force_z', last_of($folder, 'die.force_z'), $z);
+};
+check 'a tool whose name has a comma', sub {
+  my $folder = billet('top on die: Tool = upper, die',
+    rewrite => sub { (my $s = $_[0]) =~ s/subsection die$/subsection upper, die/m; $s });
+  return is('number of columns', scalar keys %{history($folder)}, scalar keys %{history($reference)});
+};
+
+# --- output --------------------------------------------------------------------------------------------------------
+
+for (['Output: Interval = 0.25', '0 0.25 0.5 0.75 1'], ["$fixed & Output: Interval = 0.25", '0 0.25 0.5 0.75 1'],
+  ["$fixed & Output: Every steps = 3", '0 0.3 0.6 0.9 1'], ['Output: Every steps = 0', '0 1'])
+{
+  my ($edits, $times) = @$_;
+  check $edits, sub { is('times', pictured(billet($edits) . '/scene.pvd'), $times) };
+}
+check 'no fields', sub {
+  my $folder = billet('Output: Format = none');
+  return is('files', join(' ', map { basename $_ } glob "$folder/*"), 'history.csv scene.prm');
+};
+check "HDF5 on $_ ranks", sub {
+  my $folder = billet('Output: Format = hdf5 & Output: Every steps = 0', ranks => $_);
+  my $index = read_text("$folder/fields.xdmf");
+  my %files = map { $_ => 1 } $index =~ /([\w.]+\.h5):/g;
+  my $n = keys %files;
+  return "$n files in fields.xdmf, not 2" if $n != 2;
+  for (sort keys %files) { return "$_ is no HDF5 file" if substr(read_text("$folder/$_"), 0, 8) ne "\x89HDF\r\n\x1a\n" }
+  return is('times of bodies in tools.pvd', pictured("$folder/tools.pvd"), '')
+    || ($index =~ /stress_xx/ && $index =~ /NumberOfElements="4"/ ? '' : "fields.xdmf:\n$index");
+} for 1, 2;
+for (['Stress', 'von_mises_stress'], ['Plastic strain', 'equivalent_plastic_strain'], ['Contact', 'contact_pressure'])
+{
+  my ($key, $field) = @$_;
+  check "without $key", sub {
+    my $folder = billet("Output: Every steps = 0 & Output: $key = false");
+    my ($with, $without) = (read_text("$reference/fields_00001.pvtu"), read_text("$folder/fields_00001.pvtu"));
+    return "$field was never there" if $with !~ /"$field"/;
+    return $without =~ /"$field"/ ? "$field is there" : '';
+  };
+}
+check 'a quiet run', sub { billet('Output: Verbosity = quiet'); is('output', $said, '') };
+check 'iterations are shown', sub { billet('Output: Verbosity = iterations'); $said =~ /iteration +1  force/ ? '' : $said };
+check 'a scene and its mesh in another folder', sub {
+  mkdir 'elsewhere';
+  copy('block.msh', 'elsewhere/beside.msh');
+  my $folder = billet($no_mesh . 'beside.msh', file => 'elsewhere/scene.prm');
+  return compare($folder, $reference, 1e-6);
+};
+check 'a folder in a folder that is not there', sub {
+  my $folder = billet('Output: Folder = deep/er/results');
+  return -s 'deep/er/results/history.csv' ? '' : 'nothing is in it';
+};
+
+# --- failed solutions ----------------------------------------------------------------------------------------------
+
+my $wild = 'ramp: Times = 0, 0.5, 1 & ramp: Values = 0, 0.1, 2.5';
+check "$_->[0], on $_->[1] ranks", sub {
+  my $folder = billet("$_->[2] & $wild", ranks => $_->[1], code => 3);
+  my $history = history($folder);
+  my $last = $history->{time}[-1];
+  return "the last accepted time is $last" unless $last >= 0.5 && $last < 1;
+  my $times = pictured("$folder/scene.pvd");
+  return "pictures until $1, but not until $last" if $times =~ / (\S+)$/ && near("time", $1, $last, 1e-9);
+  my $message = qr/the step from time [\d.]+ to [\d.]+ failed after \d+ accepted steps and \d+ cuts: ./;
+  return $complained =~ /^billet: scene\.prm: $message.* What was computed until time [\d.]+ is in '$folder'\.\n$/
+    ? '' : "says $complained";
+} for ['a step that is far too large', 1, $fixed], ['a step that is far too large', 2, $fixed],
+      ['a step that is cut too often', 1, 'Time stepping: Smallest step = 0.01 & Output: Every steps = 0'];
+
+check 'a die that is nowhere for a moment', sub {
+  my $folder = billet("$fixed & Motion: Translation = 0 ; 0 ; if(abs(t - 0.3) < 0.01, 1/0, -0.1*t)", code => 3);
+  return near('last time', last_of($folder, 'time'), 0.2)
+    || ($complained =~ /'Translation' in 'Tools \/ die \/ Motion': .* at time 0.3/ ? '' : "says $complained");
+};
+
+# --- --check -------------------------------------------------------------------------------------------------------
+
+check '--check of half a billion elements', sub {
+  my ($scene) = edit($base, 'Mesh: Refinements = 9');
+  write_text('scene.prm', $scene);
+  my $before = picture();
+  my $start = time;
+  my ($code, $output, $errors) = run($billet, '--check', 'scene.prm');
+  my $seconds = time - $start;
+  my @changed = differences($before, picture());
+  return is('exit code', "$code $errors", '0 ') || is('files written', "@changed", '')
+    || ($seconds <= 10 ? '' : "takes $seconds s") || ($output =~ /block: 536870912 hexahedra/ ? '' : "says $output");
+};
+check '--check on 2 ranks', sub {
+  my ($scene) = edit($base, '');
+  write_text('scene.prm', $scene);
+  my ($code, $output, $errors) = run(@launcher, 2, $billet, '--check', 'scene.prm');
+  my @titles = $output =~ /^(Title)/mg;
+  return is('exit code', "$code $errors", '0 ') || is('titles', "@titles", 'Title');
+};
+check '--print-parameters explains each', sub {
+  my ($code, $output, $errors) = run($billet, '--print-parameters');
+  my ($n, @silent, $comment) = (0);
+  for (split /\n/, $output)
+  {
+    if (/^\s*set (.*?)\s*=/) { ++$n; push @silent, $1 if $comment !~ /\w.* \w/; $comment = '' }
+    elsif (/^\s*# (.*)/)     { $comment .= $1 }
+    else                     { $comment = '' }
+  }
+  return is('exit code', $code, 0) || is('without explanation', join(', ', @silent), '')
+    || ($n > 60 ? '' : "only $n parameters");
+};
+
+print "$n_checks checks, $n_failed failed\n";
+exit($n_checks && !$n_failed ? 0 : 1);
