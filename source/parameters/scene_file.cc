@@ -7,6 +7,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -83,7 +84,7 @@ std::string join(const SceneFile::Path &path) {
 
 SceneFile SceneFile::read(const std::string &file_name) {
   std::ifstream stream(file_name);
-  if (!stream)
+  if (!stream || std::filesystem::is_directory(file_name))
     throw InputError(file_name + ": the scene file cannot be read. Is the name right?");
   return scan(stream, file_name);
 }
@@ -117,7 +118,7 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
     if (take_keyword(statement, "include")) {
       const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
       std::ifstream stream(included);
-      if (!stream)
+      if (!stream || std::filesystem::is_directory(included))
         throw InputError(where + ": the included file '" + included + "' cannot be read");
       scan_file(stream, included, path, depth + 1);
       continue;
