@@ -90,8 +90,10 @@ void perform(const CommandLine &command, const bool is_first) {
 
 int main(int argc, char *argv[]) {
   using billet::ExitCode;
-  // One thread a rank: more would only start idle workers.
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // The program's name alone: PETSc, where deal.II has it, would take --check for an option of its own and
+  // complain. One thread a rank: more would only start idle workers.
+  int n_for_libraries = 1;
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   ExitCode code = ExitCode::success;
   try {

@@ -43,13 +43,12 @@ std::string single_spaced(const std::string &text) {
 
 /// What a pattern of ParameterHandler's stands for, in plain words.
 std::string describe_pattern(const std::string &message) {
-  // "... does not match the given pattern <[Double ...]>." A selection's description is longer than a line.
-  const std::string lead = "given pattern <";
-  const auto begin = message.find('[', message.find(lead));
+  // "... does not match the given pattern <[Double ...]>.", broken into lines at any blank.
+  const auto begin = message.find("<[");
   const auto end = message.find("]>", begin);
-  if (message.find(lead) == std::string::npos || begin == std::string::npos || end == std::string::npos)
+  if (end == std::string::npos)
     return message;
-  const std::string pattern = message.substr(begin + 1, end - begin - 1);
+  const std::string pattern = message.substr(begin + 2, end - begin - 2);
   if (pattern.find("List of <[Double") != std::string::npos)
     return "numbers, separated by commas";
   if (pattern.find("List of <[Integer") != std::string::npos)
