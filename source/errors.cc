@@ -46,4 +46,12 @@ void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
   }
 }
 
+void check_before_start(const std::function<void()> &action) {
+  try {
+    action();
+  } catch (const SolutionFailure &error) {
+    throw InputError(error.what());
+  }
+}
+
 } // namespace billet

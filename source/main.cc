@@ -12,9 +12,11 @@
 
 namespace {
 
+using billet::ExitCode;
+
 const char help[] =
     R"(Usage: mpirun -n N billet SCENE.prm      run a scene on N processes
-       billet --check SCENE.prm         read and check a scene, say what will be modelled, run nothing
+       billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
        billet --print-parameters        every parameter with default, range, unit and meaning
        billet --version | --help
 
@@ -26,70 +28,97 @@ enum class Task { run, check, print_parameters, version, help };
 
 struct CommandLine {
   Task task = Task::help;
-  std::string scene;
+  std::vector<std::string> scenes;
 };
+
+[[noreturn]] void refuse(const std::string &argument) {
+  throw billet::InputError("command line: found '" + argument + "', allowed is what follows.\n" + help);
+}
 
 CommandLine read_command_line(const std::vector<std::string> &arguments) {
   CommandLine command;
   for (const auto &argument : arguments) {
     if (argument == "--help" || argument == "-h")
-      return {Task::help, ""};
+      return {Task::help, {}};
     if (argument == "--version")
-      return {Task::version, ""};
+      return {Task::version, {}};
     if (argument == "--print-parameters")
-      return {Task::print_parameters, ""};
+      return {Task::print_parameters, {}};
     if (argument == "--check")
       command.task = Task::check;
-    else if (argument.empty() || argument.front() == '-' || !command.scene.empty())
-      throw billet::InputError("command line: found '" + argument + "', allowed is what follows.\n" + help);
+    else if (argument.empty() || argument.front() == '-')
+      refuse(argument);
     else
-      command.scene = argument;
+      command.scenes.push_back(argument);
   }
-  if (command.scene.empty())
+  if (command.scenes.empty())
     throw billet::InputError(std::string("command line: no scene file is named.\n") + help);
-  if (command.task != Task::check)
+  if (command.task != Task::check) {
     command.task = Task::run;
+    if (command.scenes.size() > 1)
+      refuse(command.scenes[1]);
+  }
   return command;
 }
 
-void perform(const CommandLine &command, const bool is_first) {
+billet::parameters::Scene read_scene(const std::string &file) {
+  billet::parameters::Scene parameters;
+  billet::fail_together(MPI_COMM_WORLD, [&] { parameters = billet::parameters::Scene::read(file); });
+  return parameters;
+}
+
+void check(const std::string &file, const bool is_first) {
+  const auto parameters = read_scene(file);
+  billet::fail_together(MPI_COMM_WORLD, [&] {
+    billet::check_output_folder(parameters);
+    const billet::Scene scene(parameters);
+    dealii::Triangulation<3> outline;
+    scene.build_mesh(billet::MeshDetail::outline, outline);
+    if (is_first)
+      scene.describe(std::cout);
+  });
+}
+
+void say(const std::exception &error, const bool is_first) {
+  if (is_first)
+    std::cerr << "billet: " << error.what() << std::endl;
+}
+
+ExitCode perform(const CommandLine &command, const bool is_first) {
+  ExitCode code = ExitCode::success;
   switch (command.task) {
   case Task::help:
     if (is_first)
       std::cout << help;
-    return;
+    break;
   case Task::version:
     if (is_first)
       std::cout << "billet " << billet::version << " (" << billet::git_revision << "), deal.II "
                 << billet::dealii_version << "\n";
-    return;
+    break;
   case Task::print_parameters:
     if (is_first)
       billet::parameters::print_all_parameters(std::cout);
-    return;
+    break;
   case Task::check:
+    for (const auto &file : command.scenes)
+      try {
+        check(file, is_first);
+      } catch (const billet::InputError &error) { // of one scene; the others are checked all the same
+        say(error, is_first);
+        code = ExitCode::bad_input;
+      }
+    break;
   case Task::run:
+    billet::run_simulation(read_scene(command.scenes.front()), MPI_COMM_WORLD);
     break;
   }
-  billet::parameters::Scene parameters;
-  billet::fail_together(MPI_COMM_WORLD, [&] { parameters = billet::parameters::Scene::read(command.scene); });
-  if (command.task == Task::run)
-    billet::run_simulation(parameters, MPI_COMM_WORLD);
-  else
-    billet::fail_together(MPI_COMM_WORLD, [&] {
-      billet::check_output_folder(parameters);
-      const billet::Scene scene(parameters);
-      dealii::Triangulation<3> outline;
-      scene.build_mesh(billet::MeshDetail::outline, outline);
-      if (is_first)
-        scene.describe(std::cout);
-    });
+  return code;
 }
 
 } // namespace
 
 int main(int argc, char *argv[]) {
-  using billet::ExitCode;
   // The program's name alone: PETSc, where deal.II has it, would take --check for an option of its own and
   // complain. One thread a rank: more would only start idle workers.
   int n_for_libraries = 1;
@@ -97,14 +126,12 @@ int main(int argc, char *argv[]) {
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   ExitCode code = ExitCode::success;
   try {
-    perform(read_command_line(std::vector<std::string>(argv + 1, argv + argc)), is_first);
+    code = perform(read_command_line(std::vector<std::string>(argv + 1, argv + argc)), is_first);
   } catch (const billet::InputError &error) { // the same on all ranks, as is the next
-    if (is_first)
-      std::cerr << "billet: " << error.what() << std::endl;
+    say(error, is_first);
     code = ExitCode::bad_input;
   } catch (const billet::SolutionFailure &error) {
-    if (is_first)
-      std::cerr << "billet: " << error.what() << std::endl;
+    say(error, is_first);
     code = ExitCode::failed_solution;
   } catch (const std::exception &error) {
     // Other ranks may be waiting for this one: end them all.

@@ -108,6 +108,13 @@ void check_output_folder(const parameters::Scene &parameters) {
     throw InputError(parameters.output.folder.origin + ": found '" + parameters.output.folder.value +
                      "', allowed is a folder that can be made and written to; '" + folder.string() + "' is " +
                      (fs::is_directory(folder, error) ? "not writable" : "not a folder"));
+  for (const std::string name : {"scene.prm", "history.csv"}) {
+    const fs::path file = fs::path(parameters.output.folder.value) / name;
+    if (fs::exists(file, error) && (fs::is_directory(file, error) || access(file.c_str(), W_OK) != 0))
+      throw InputError(parameters.output.folder.origin + ": found '" + parameters.output.folder.value +
+                       "', allowed is a folder that can be made and written to; '" + file.string() +
+                       "' cannot be written over");
+  }
 }
 
 void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {

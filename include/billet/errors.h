@@ -36,6 +36,9 @@ public:
 /// SolutionFailure where that was its kind, std::runtime_error else. `action` itself must not communicate.
 void fail_together(MPI_Comm communicator, const std::function<void()> &action);
 
+/// Calls `action` while nothing has begun yet: what would fail the solution later is bad input now.
+void check_before_start(const std::function<void()> &action);
+
 } // namespace billet
 
 #endif

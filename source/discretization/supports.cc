@@ -92,6 +92,13 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
           other.weights[h] -= factor * row.weights[h];
       }
   }
+  const auto names = [&holds](const std::vector<double> &weights) {
+    std::string list;
+    for (std::size_t h = 0; h < holds.size(); ++h)
+      if (std::abs(weights[h]) > 1e-14)
+        list += (list.empty() ? "'" : " and '") + holds[h]->name + "'";
+    return list;
+  };
   for (const auto &row : rows) {
     std::vector<Term> terms;
     for (std::size_t h = 0; h < holds.size(); ++h)
@@ -99,7 +106,7 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
         terms.push_back({holds[h], row.weights[h]});
     if (row.pivot < 0) {
       if (!terms.empty())
-        redundancies_.push_back({terms, position});
+        redundancies_.push_back({terms, names(row.weights), position});
       continue;
     }
     Line line;
@@ -133,10 +140,9 @@ Constraints Supports::at_time(const double t) const {
         sum += term.weight * term.hold->value->value(t, redundancy.position);
       if (std::abs(sum) > 1e-8 * discretization_.radius()) {
         std::ostringstream message;
-        message << "at time " << t << " the node at (" << redundancy.position << ") is held by";
-        for (const auto &term : redundancy.terms)
-          message << " '" << term.hold->name << "'";
-        message << ", and they contradict each other by " << std::abs(sum)
+        message << redundancy.terms.front().hold->origin << ": at time " << t << " the node at ("
+                << redundancy.position << ") is held by " << redundancy.holds
+                << ", and they contradict each other by " << std::abs(sum)
                 << ". Allowed are prescribed displacements that agree where their boundaries meet";
         throw InputError(message.str());
       }

@@ -24,7 +24,7 @@ void Mesh::declare(ParameterHandler &prm) {
       "Primitive", "hyper_rectangle", Patterns::Anything(),
       "Name of the GridGenerator function, such as hyper_rectangle, subdivided_hyper_rectangle, cylinder; "
       "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell.");
-  prm.declare_entry("Arguments", "0, 0, 0 : 1, 1, 1", Patterns::Anything(),
+  prm.declare_entry("Arguments", "0, 0, 0 : 1, 1, 1 : true", Patterns::Anything(),
                     "Arguments of that function, separated by ':' (points and lists inside by ','). All "
                     "arguments without a "
                     "default have to be given.");
@@ -191,9 +191,9 @@ void Material::parse(Reader &reader) {
       try {
         if (pair.size() != 2)
           throw std::invalid_argument("pair");
-        table_strains.push_back(dealii::Utilities::string_to_double(pair[0]));
-        table_stresses.push_back(dealii::Utilities::string_to_double(pair[1]));
-      } catch (const std::exception &) {
+        table_strains.push_back(parse_number(pair[0]));
+        table_stresses.push_back(parse_number(pair[1]));
+      } catch (const std::invalid_argument &) {
         reader.reject("Table", "'strain : stress' pairs, separated by commas");
       }
       const std::size_t n = table_strains.size();
@@ -273,18 +273,17 @@ SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
   plane.text = text;
   try {
     const std::string left = dealii::Utilities::trim(text.substr(0, equals));
-    plane.offset = dealii::Utilities::string_to_double(dealii::Utilities::trim(text.substr(equals + 1)));
+    plane.offset = parse_number(dealii::Utilities::trim(text.substr(equals + 1)));
     if (left == "x" || left == "y" || left == "z")
       plane.normal[static_cast<unsigned int>(left[0] - 'x')] = 1.;
     else {
-      const auto components =
-          dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(left, ','));
+      const auto components = dealii::Utilities::split_string_list(left, ',');
       if (components.size() != 3)
         throw std::invalid_argument("components");
       for (unsigned int i = 0; i < 3; ++i)
-        plane.normal[i] = components[i];
+        plane.normal[i] = parse_number(components[i]);
     }
-  } catch (const std::exception &) {
+  } catch (const std::invalid_argument &) {
     reader.reject("Symmetry planes", allowed);
   }
   const double length = plane.normal.norm();

@@ -42,7 +42,7 @@ void TimeStepping::declare(ParameterHandler &prm) {
                     "First step; every step where they are fixed. [time]");
   prm.declare_entry("Smallest step", "1e-6", Patterns::Double(),
                     "The run ends when a step would have to be cut below this. [time]");
-  prm.declare_entry("Largest step", "0.1", Patterns::Double(), "[time]");
+  prm.declare_entry("Largest step", "0.1", Patterns::Double(), "A step grows up to this length. [time]");
   prm.declare_entry("Few iterations", "5", Patterns::Integer(0),
                     "The step grows after at most so many iterations.");
   prm.declare_entry("Many iterations", "9", Patterns::Integer(0),
@@ -193,6 +193,8 @@ void Output::parse(Reader &reader) {
   format = chosen_format == "vtu" ? Format::vtu : chosen_format == "hdf5" ? Format::hdf5 : Format::none;
   every_steps = reader.count("Every steps");
   interval = reader.not_negative("Interval");
+  if (interval > 0. && every_steps > 0 && reader.is_set("Every steps"))
+    reader.reject("Every steps", "no value, or 0: fields are written by the 'Interval'");
   stress = reader.flag("Stress");
   plastic_strain = reader.flag("Plastic strain");
   contact = reader.flag("Contact");

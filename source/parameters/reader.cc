@@ -7,6 +7,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace billet {
 
@@ -77,16 +79,28 @@ std::vector<std::string> Reader::parts(const std::string &key, const char separa
 
 std::vector<double> Reader::numbers(const std::string &key) const {
   std::vector<double> result;
-  for (const auto &part : parts(key, ',')) {
+  const auto list = dealii::Utilities::split_string_list(prm_.get(key), ',');
+  for (const auto &part : list) {
+    if (part.empty() && list.size() == 1)
+      break;
     try {
-      result.push_back(dealii::Utilities::string_to_double(part));
-    } catch (const std::exception &) {
-      reject(key, "numbers, separated by commas");
-    }
-    if (!std::isfinite(result.back()))
+      result.push_back(parse_number(part));
+    } catch (const std::invalid_argument &) {
       reject(key, "finite numbers, separated by commas");
+    }
   }
   return result;
+}
+
+double parse_number(const std::string &text) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  try {
+    value = dealii::Utilities::string_to_double(text);
+  } catch (const std::exception &) { // of which deal.II throws its own kinds
+  }
+  if (!std::isfinite(value))
+    throw std::invalid_argument("'" + text + "' is not a finite number");
+  return value;
 }
 
 unsigned int parse_count(const std::string &text) {
@@ -97,7 +111,10 @@ unsigned int parse_count(const std::string &text) {
 
 std::vector<unsigned int> Reader::counts(const std::string &key) const {
   std::vector<unsigned int> result;
-  for (const auto &part : parts(key, ',')) {
+  const auto list = dealii::Utilities::split_string_list(prm_.get(key), ',');
+  for (const auto &part : list) {
+    if (part.empty() && list.size() == 1)
+      break;
     try {
       result.push_back(parse_count(part));
     } catch (const std::invalid_argument &) {

@@ -79,11 +79,23 @@ void check_amplitude_name(const std::string &name, const std::string &file_name)
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
   };
   if (!std::all_of(name.begin(), name.end(), is_word) ||
-      std::isdigit(static_cast<unsigned char>(name[0])) != 0 || name == "x" || name == "y" || name == "z" ||
+      std::isalpha(static_cast<unsigned char>(name[0])) == 0 || name == "x" || name == "y" || name == "z" ||
       name == "t" || name == "pi")
     throw InputError(file_name + ": amplitude '" + name +
-                     "': found a name that expressions cannot use, allowed are letters, digits and '_', not "
-                     "first a digit, and not x, y, z, t, pi");
+                     "': found a name that expressions cannot use, allowed are letters, digits and '_', "
+                     "first a letter, and not x, y, z, t, pi");
+}
+
+/// A face that met one tool in two pairs would be pushed back twice.
+void check_twice(const std::vector<ContactPair> &pairs) {
+  for (auto second = pairs.begin(); second != pairs.end(); ++second)
+    for (auto first = pairs.begin(); first != second; ++first)
+      if (first->body.value == second->body.value && first->tool.value == second->tool.value)
+        for (const auto id : second->boundary_ids.value)
+          if (std::count(first->boundary_ids.value.begin(), first->boundary_ids.value.end(), id) > 0)
+            throw InputError(second->boundary_ids.origin + ": found boundary id " + std::to_string(id) +
+                             ", allowed are others: pair '" + first->name +
+                             "' already has it against the same tool");
 }
 
 } // namespace
@@ -119,6 +131,7 @@ Scene Scene::read(const std::string &file_name) {
     scene.body_index(pair);
     scene.tool_index(pair);
   }
+  check_twice(scene.pairs);
   return scene;
 }
 

@@ -43,12 +43,17 @@ std::string single_spaced(const std::string &text) {
 
 /// What a pattern of ParameterHandler's stands for, in plain words.
 std::string describe_pattern(const std::string &message) {
-  // "... does not match the given pattern <[Double ...]>.", broken into lines at any blank.
-  const auto begin = message.find("<[");
-  const auto end = message.find("]>", begin);
-  if (end == std::string::npos)
-    return message;
-  const std::string pattern = message.substr(begin + 2, end - begin - 2);
+  // "... does not match the given pattern <[Double ...]>.", which deal.II breaks into lines at any blank.
+  std::istringstream words(message);
+  std::string text, word;
+  while (words >> word)
+    text += word + ' ';
+  const std::string before = "the given pattern <[";
+  const auto begin = text.rfind(before);
+  const auto end = text.find("]>", begin);
+  if (begin == std::string::npos || end == std::string::npos)
+    return text;
+  const std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
   if (pattern.find("List of <[Double") != std::string::npos)
     return "numbers, separated by commas";
   if (pattern.find("List of <[Integer") != std::string::npos)
@@ -59,16 +64,8 @@ std::string describe_pattern(const std::string &message) {
     return "a whole number, not negative";
   if (pattern.compare(0, 4, "Bool") == 0)
     return "true or false";
-  if (pattern.compare(0, 9, "Selection") == 0) {
-    std::string choices = pattern.substr(10);
-    std::string result;
-    for (const char c : choices)
-      if (c == '|')
-        result += ", ";
-      else if (c != ' ' || (!result.empty() && result.back() != ' '))
-        result += c;
-    return "one of: " + trim(result);
-  }
+  if (pattern.compare(0, 9, "Selection") == 0)
+    return "one of: " + dealii::Utilities::replace_in_string(trim(pattern.substr(10)), "|", ", ");
   return pattern;
 }
 
@@ -94,14 +91,12 @@ SceneFile SceneFile::scan(std::istream &text, const std::string &name) {
   Path path;
   file.scan_file(text, name, path, 0);
   if (!path.empty())
-    throw InputError(file.where(path) + ": subsection '" + join(path) +
+    throw InputError(file.last_opened(path) + ": subsection '" + join(path) +
                      "' is opened but never closed: an 'end' is missing");
   return file;
 }
 
 void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path, const unsigned int depth) {
-  if (depth > 20)
-    throw InputError(name + ": files include each other without end");
   const std::size_t outer_depth = path.size();
   std::string line;
   for (unsigned int number = 1; std::getline(text, line); ++number) {
@@ -115,6 +110,10 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
     }
     std::string statement = trim(line.substr(0, line.find('#')));
     if (take_keyword(statement, "include")) {
+      if (statement.empty())
+        throw InputError(where + ": 'include' needs the name of a file");
+      if (depth == 20)
+        throw InputError(where + ": files include each other without end");
       const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
       std::ifstream stream(included);
       if (!stream || std::filesystem::is_directory(included))
@@ -148,7 +147,8 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
                        "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'");
   }
   if (depth > 0 && path.size() != outer_depth)
-    throw InputError(name + ": a subsection opened in this file is not closed in it");
+    throw InputError(last_opened(path) + ": subsection '" + join(path) +
+                     "' is opened but never closed: an 'end' is missing in this file");
 }
 
 const SceneFile::Entry *SceneFile::find(const Path &path, const std::string &key) const {
@@ -169,7 +169,7 @@ std::vector<std::string> SceneFile::names_below(const Path &path) const {
 
 std::string SceneFile::where(const Path &path, const std::string &key) const {
   const Entry *entry = find(path, key);
-  return entry != nullptr ? entry->where : file_name_ + " (default)";
+  return entry != nullptr ? entry->where : where(path) + " (default)";
 }
 
 bool SceneFile::is_set(const Path &path, const std::string &key) const { return find(path, key) != nullptr; }
@@ -179,6 +179,12 @@ std::string SceneFile::where(const Path &path) const {
     if (subsection.path == path)
       return subsection.where;
   return file_name_;
+}
+
+std::string SceneFile::last_opened(const Path &path) const {
+  const auto last = std::find_if(subsections_.rbegin(), subsections_.rend(),
+                                 [&](const Subsection &subsection) { return subsection.path == path; });
+  return last->where;
 }
 
 std::string SceneFile::folder() const { return folder_of(file_name_); }

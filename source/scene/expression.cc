@@ -26,20 +26,34 @@ double evaluate_amplitude(const parameters::Amplitude &amplitude, const double t
   return values[i - 1] + weight * (values[i] - values[i - 1]);
 }
 
+namespace {
+
+/// "0,1" would be two values to muParser, of which it takes the last; its author meant 0.1.
+bool has_free_comma(const std::string &text) {
+  int depth = 0;
+  return std::any_of(text.begin(), text.end(), [&depth](const char c) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    return c == ',' && depth == 0;
+  });
+}
+
+} // namespace
+
 Expression::Expression(const std::string &text, const Variables variables,
                        std::vector<parameters::Amplitude> amplitudes, const std::string &origin)
     : text_(text), origin_(origin),
-      // The parser wants three coordinates; names that cannot be meant hide them where they make no sense.
-      variables_(variables == Variables::time ? "no_x_here,no_y_here,no_z_here,t" : "x,y,z,t"),
+      // The parser wants three coordinates; names that no amplitude can have hide them where they make no
+      // sense.
+      variables_(variables == Variables::time ? "_no_x,_no_y,_no_z,t" : "x,y,z,t"),
       amplitudes_(std::move(amplitudes)) {
   // deal.II tells muParser's complaints to the console, too.
   std::ostringstream complaints;
   std::streambuf *console = std::cerr.rdbuf(complaints.rdbuf());
-  bool makes_sense = true;
+  bool makes_sense = !has_free_comma(text);
   try {
     parse(0.);
     parser_->value(dealii::Point<3>());
-  } catch (const std::exception &) {
+  } catch (...) { // muParser's own are no std::exception
     makes_sense = false;
   }
   std::cerr.rdbuf(console);

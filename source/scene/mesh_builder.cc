@@ -47,6 +47,10 @@ template <int dim> void generate_primitive(const parameters::Mesh &parameters, T
         "-dimensional function of deal.II's GridGenerator with all its arguments without default. " +
         essence(error));
   }
+  if (mesh.n_active_cells() == 0)
+    throw InputError(parameters.primitive.origin + ": found '" + parameters.primitive.value +
+                     "' with arguments '" + parameters.arguments +
+                     "', allowed are arguments for which GridGenerator makes a mesh; it made none of these");
 }
 
 void generate_extruded(const parameters::Mesh &parameters, const MeshDetail detail, Triangulation<3> &mesh) {
@@ -93,9 +97,11 @@ void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mes
   for (const auto &[id, condition] : parameters.boundary_ids.value) {
     const Expression holds(condition, Expression::Variables::time_and_position, {},
                            parameters.boundary_ids.origin);
-    for (const auto &face : mesh.active_face_iterators())
-      if (face->at_boundary() && holds.value(0., face->center()) != 0.)
-        face->set_boundary_id(id);
+    check_before_start([&, id = id] {
+      for (const auto &face : mesh.active_face_iterators())
+        if (face->at_boundary() && holds.value(0., face->center()) != 0.)
+          face->set_boundary_id(id);
+    });
   }
 }
 

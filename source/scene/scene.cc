@@ -50,6 +50,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
       if (support.components[i]) {
         Hold hold;
         hold.name = "support " + support.name;
+        hold.origin = support.displacement.origin;
         hold.boundary_ids = support.boundary_ids.value;
         hold.normal[i] = 1.;
         body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
@@ -67,15 +68,13 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
 Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &body : parameters.bodies)
     bodies_.push_back(make_body(body, parameters.amplitudes));
-  try {
+  check_before_start([&] {
     for (const auto &tool : parameters.tools) {
       tools_.emplace_back(tool, parameters.amplitudes);
       tools_.back().placement(0.);
       tools_.back().placement(parameters.time_stepping.end_time);
     }
-  } catch (const SolutionFailure &error) { // before anything has begun it is the input that is bad
-    throw InputError(error.what());
-  }
+  });
   for (const auto &pair : parameters.pairs)
     pairs_.push_back({pair.name, parameters.body_index(pair), pair.boundary_ids.value,
                       parameters.tool_index(pair), pair.friction_coefficient,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/quasi_static.h"
 
+#include "billet/errors.h"
+
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
@@ -43,7 +45,10 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   for (const auto &tool : scene.tools())
     state_.placements.push_back(tool.placement(0.));
   // Prescribed displacements hold at time 0, too.
-  supports_.at_time(0.).distribute(u_n_);
+  check_before_start([&] {
+    supports_.at_time(0.).distribute(u_n_);
+    supports_.at_time(scene.parameters().time_stepping.end_time);
+  });
   state_.displacements = u_n_;
 }
 
@@ -77,16 +82,19 @@ void QuasiStatic::set_trial(const Epetra_Vector &x) {
 }
 
 void QuasiStatic::condense(Vector &forces) const {
+  // On this rank's own values: to write through deal.II's vector would make ranks wait for each other that do
+  // not hold as many constraints.
+  Epetra_Vector &values = as_epetra(forces);
+  const auto place = [&values](const DofIndex dof) { return values.Map().LID(static_cast<int>(dof)); };
   for (const auto &line : supports_.homogeneous().get_lines()) {
     if (!discretization_.owned_dofs().is_element(line.index))
       continue;
-    const double force = forces(line.index);
+    double &force = values[place(line.index)];
     // The dofs of a node have one owner, and constraints couple dofs of one node only.
     for (const auto &entry : line.entries)
-      forces(entry.first) += entry.second * force;
-    forces(line.index) = 0.;
+      values[place(entry.first)] += entry.second * force;
+    force = 0.;
   }
-  forces.compress(dealii::VectorOperation::add);
 }
 
 bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) {

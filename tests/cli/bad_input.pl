@@ -8,8 +8,10 @@
 # "@: 'Key' in 'Path': found 'value', allowed ...". After NAME := EDIT, NAME at the start of a line stands for EDIT.
 # '#' begins a comment.
 #
-# Each must end with exit code 2, print the message once and nothing else, and leave every file as it was, results of a
-# run before included. On one rank --check must say the same; tables named run_*.cases are of what --check may pass.
+# One start of the program with --check reads the whole table: it must say the messages and nothing else. Every tenth
+# (fiftieth under mpirun)
+# scene, and every one of a table run_*.cases (of what --check may pass), is also run. Each must end with exit code 2 and
+# leave every file as it was, results of a run before included.
 use strict;
 use warnings;
 use File::Basename;
@@ -18,9 +20,7 @@ my $here = dirname(__FILE__);
 require "$here/edit_scene.pl";
 
 my ($table, @command) = @ARGV;
-my @runs = (['scene.prm']);
-push @runs, ['--check', 'scene.prm'] if @command == 1 && basename($table) !~ /^run_/;
-my $cases = read_text($table);
+my $runs_all = basename($table) =~ /^run_/;
 
 enter_folder();
 mkdir 'no_history' and mkdir 'no_history/history.csv'; # a folder where a file should be
@@ -29,9 +29,10 @@ write_text('scene.prm', $base);
 my ($code, undef, $errors) = run($command[-1], 'scene.prm');
 die "block.prm itself fails ($code): $errors\n" if $code;
 
-my ($n_cases, $n_failed, %short) = (0, 0);
-my $before = picture('scene.prm');
-for (split /\n/, $cases)
+# --- the table -----------------------------------------------------------------------------------------------------
+
+my (@cases, %short); # of each case: its name, its file, the message and its pattern
+for (split /\n/, read_text($table))
 {
   next if /^\s*(#|$)/;
   if (/^(\w+) := (.*)/)
@@ -43,32 +44,47 @@ for (split /\n/, $cases)
   my $name = $edits;
   $edits =~ s/^(\w+)(?= &|$)/$short{$1} \/\/ $1/e;
   my ($scene, $line, $path, $key, $value) = edit($base, $edits);
-  write_text('scene.prm', $scene);
+  my $file = sprintf 'case_%03d.prm', 1 + @cases;
+  write_text($file, $scene);
 
   $expected = "\@: '$key'" . ($path && " in '$path'") . ": found '$value', $expected" if $expected =~ /^allowed /;
-  $expected =~ s/\@\{(.*?)\}/'scene.prm:' . line_of($scene, $1)/ge;
-  $expected =~ s/\@/scene.prm:$line/g;
+  $expected =~ s/\@\{(.*?)\}/"$file:" . line_of($scene, $1)/ge;
+  $expected =~ s/\@/$file:$line/g;
+  $expected =~ s/\bscene\.prm\b(?=:)/$file/g;
   my $pattern = join '.*', map { quotemeta } split /\.\.\./, $expected, -1;
-
-  my @faults;
-  for my $arguments (@runs)
-  {
-    my ($code, $output, $errors) = run(@command, @$arguments);
-    my $fault =
-        $code == 124 || $code == 137        ? "hangs\n"
-      : $code != 2                          ? "exit code $code\n" . join('', (split /^/m, $output . $errors)[0 .. 7])
-      : $output ne ''                       ? "prints:\n$output"
-      : $errors !~ /^billet: $pattern\n\z/  ? "says:\n${errors}instead of:\nbillet: $expected\n"
-      :                                       '';
-    push @faults, "billet @$arguments $fault" if $fault;
-    my $after = picture('scene.prm');
-    my @changed = differences($before, $after);
-    push @faults, 'writes over ' . @changed . " files, such as $changed[0]\n" if @changed;
-    $before = $after;
-  }
-  print "$name: ", (@faults ? "FAILED: @faults" : "ok\n");
-  ++$n_cases;
-  ++$n_failed if @faults;
+  push @cases, { name => $name, file => $file, expected => $expected, pattern => qr/^billet: $pattern\n\z/ };
 }
-print "$n_cases cases, $n_failed failed\n";
-exit($n_cases && !$n_failed ? 0 : 1);
+
+# --- the program ---------------------------------------------------------------------------------------------------
+
+my %faults;
+my $before = picture();
+
+# Runs the cases at once and notes their faults.
+sub refused
+{
+  my ($option, @these) = @_;
+  my ($code, $output, $errors) = run(@command, @$option, map { $_->{file} } @these);
+  my @messages = split /^(?=billet: )/m, $errors;
+  for my $case (@these)
+  {
+    my $is_of_another = @messages && $messages[0] =~ /^billet: (case_\d+\.prm)/ && $1 ne $case->{file};
+    my $message = @messages && !$is_of_another ? shift @messages : "nothing\n";
+    $faults{$case->{name}} .= "says:\n${message}instead of:\nbillet: $case->{expected}\n" if $message !~ $case->{pattern};
+  }
+  my $last = $these[-1]{name};
+  $faults{$last} .= "prints:\n" . join '', (split /^/m, $output)[0 .. 7] if $output ne '';
+  $faults{$last} .= "says besides:\n@messages" if @messages;
+  $faults{$last} .= $code == 124 || $code == 137 ? "hangs\n" : "exit code $code\n" if $code != 2;
+  my $after = picture();
+  my @changed = differences($before, $after);
+  $faults{$last} .= 'writes over ' . @changed . " files, such as $changed[0]\n" if @changed;
+  $before = $after;
+}
+
+refused(['--check'], @cases) unless $runs_all;
+refused([], $_) for @cases[grep { $runs_all || $_ % (@command == 1 ? 10 : 50) == 0 } 0 .. $#cases];
+
+print "$_->{name}: ", (exists $faults{$_->{name}} ? "FAILED: $faults{$_->{name}}" : "ok\n") for @cases;
+printf "%d cases, %d failed\n", scalar @cases, scalar keys %faults;
+exit(@cases && !%faults ? 0 : 1);

@@ -59,6 +59,7 @@ private:
   /// Σ weight value(t) must vanish.
   struct Redundancy {
     std::vector<Term> terms;
+    std::string holds; ///< their names, for messages
     dealii::Point<3> position;
   };
   void eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,

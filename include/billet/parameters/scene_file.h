@@ -45,7 +45,7 @@ public:
   /// one that is set twice, or a value of the wrong type.
   void set_all(dealii::ParameterHandler &prm) const;
 
-  /// Where an entry was set, "file:line"; "file (default)" if it was not.
+  /// Where an entry was set, "file:line"; "file:line (default)" with the subsection's line if it was not.
   std::string where(const Path &path, const std::string &key) const;
   bool is_set(const Path &path, const std::string &key) const;
   /// Where a subsection was opened.
@@ -59,6 +59,7 @@ public:
 
 private:
   void scan_file(std::istream &text, const std::string &name, Path &path, unsigned int depth);
+  std::string last_opened(const Path &path) const;
   const Entry *find(const Path &path, const std::string &key) const;
 
   std::string file_name_;

@@ -17,7 +17,8 @@ namespace billet {
 
 /// A plane or a prescribed displacement that holds boundary nodes.
 struct Hold {
-  std::string name; ///< for messages and reports
+  std::string name;   ///< for messages and reports
+  std::string origin; ///< where its value is set, the beginning of a message
   /// n · u = value; either nodes of these boundaries ...
   std::vector<unsigned int> boundary_ids;
   /// ... or, where there are none, boundary nodes on this plane.
