@@ -236,13 +236,14 @@ void FieldWriter::write_index() const {
   std::ofstream out(name);
   out << std::setprecision(12) << "<?xml version=\"1.0\"?>\n"
       << "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  const auto data_set = [&out](const double time, const std::string &part, const std::string &file) {
+    out << R"(<DataSet timestep=")" << time << R"(" )" << part << R"( file=")" << file << "\"/>\n";
+  };
   for (const auto &snapshot : snapshots_) {
     if (with_fields)
-      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"0\" name=\"bodies\" file=\""
-          << snapshot.fields << "\"/>\n";
+      data_set(snapshot.time, R"(part="0" name="bodies")", snapshot.fields);
     if (!scene_.tools().empty())
-      out << "<DataSet timestep=\"" << snapshot.time << "\" part=\"1\" name=\"tools\" file=\""
-          << snapshot.tools << "\"/>\n";
+      data_set(snapshot.time, R"(part="1" name="tools")", snapshot.tools);
   }
   out << "</Collection>\n</VTKFile>\n";
   out.close();

@@ -2,6 +2,7 @@
 #include "billet/output/progress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
@@ -13,7 +14,7 @@ using Verbosity = parameters::Output::Verbosity;
 namespace {
 
 std::string format_duration(const double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
+  const auto whole = std::lround(seconds);
   std::ostringstream stream;
   stream << std::setfill('0');
   if (whole >= 3600)

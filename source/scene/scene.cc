@@ -2,9 +2,11 @@
 #include "billet/scene/scene.h"
 
 #include "billet/errors.h"
+#include "billet/parameters/reader.h"
 
 #include <algorithm>
 #include <ostream>
+#include <stdexcept>
 
 namespace billet {
 
@@ -32,6 +34,15 @@ MaterialLaw make_material(const parameters::Material &material) {
   return law;
 }
 
+/// A plain number that is 0; an expression that vanishes only looks like one when it is evaluated.
+bool is_zero(const std::string &expression) {
+  try {
+    return parse_number(expression) == 0.;
+  } catch (const std::invalid_argument &) {
+    return false;
+  }
+}
+
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
   Body body;
   body.name = parameters.name;
@@ -56,7 +67,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
         body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
                                                                 Expression::Variables::time_and_position,
                                                                 amplitudes, support.displacement.origin));
-        if (support.displacement.value[i] != "0")
+        if (!is_zero(support.displacement.value[i]))
           hold.value = body.expressions.back().get();
         body.holds.push_back(hold);
       }

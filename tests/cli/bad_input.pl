@@ -9,9 +9,8 @@
 # '#' begins a comment.
 #
 # One start of the program with --check reads the whole table: it must say the messages and nothing else. Every tenth
-# (fiftieth under mpirun)
-# scene, and every one of a table run_*.cases (of what --check may pass), is also run. Each must end with exit code 2 and
-# leave every file as it was, results of a run before included.
+# scene (fiftieth under mpirun), and every one of a table run_*.cases (of what --check may pass), is also run. Each must
+# end with exit code 2 and leave every file as it was, results of a run before included.
 use strict;
 use warnings;
 use File::Basename;

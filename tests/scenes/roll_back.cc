@@ -31,15 +31,23 @@ int main(int argc, char *argv[]) {
   testing::set_fixed_steps(parameters, 20);
   parameters.solver.most_iterations = 8;
   SceneRun untried(parameters), tried(parameters);
-  bool failed = true, same = true;
+  bool failed = true, same = true, first_guess = false, correction = false, iterations = false;
   for (unsigned int step = 0; step < 8; ++step) {
     // Past the tool's end, and through the billet: det F <= 0, or too many iterations.
-    failed = failed && !tried.problem.step(tried.control.time() + 1.45, step == 0 ? 0. : 0.05).converged;
+    const NewtonReport report =
+        tried.problem.step(tried.control.time() + (step % 2 == 0 ? 1.45 : 0.45), step == 0 ? 0. : 0.05);
+    failed = failed && !report.converged;
+    first_guess = first_guess || report.failure.find("first guess is not admissible") != std::string::npos;
+    correction = correction || report.failure.find("correction leads to inadmissible") != std::string::npos;
+    iterations = iterations || report.failure.find("iterations") != std::string::npos;
     untried.advance();
     tried.advance();
     same = same && same_bits(untried, tried);
   }
   check("the long steps fail", failed);
+  check("some because an element is inside out at the start", first_guess);
+  check("some because a correction would turn it", correction);
+  check("some because of too many iterations", iterations);
   check("the short ones have the same bits as without them", same);
   return billet::testing::exit_code();
 }

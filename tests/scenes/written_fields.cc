@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What is written is what was computed: the contact fields are read back from the HDF5 file. Over the slave
+// nodes the tractions times the areas are the tool's force; the pressure is the penalty times the
+// penetration; the gap is the node's height over the plane; nodes that slide have slip and obey Coulomb's
+// law; nodes that no pair names have none. The stress, constant in the elements, carries the same force
+// through a section.
+#include "scene_run.h"
+
+#include "billet/output/field_writer.h"
+
+#include <deal.II/base/hdf5.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <filesystem>
+#include <map>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+using dealii::Tensor;
+
+namespace {
+
+/// Fields of one HDF5 file, by name; rows are the vertices of the elements, one after the other.
+class Fields {
+public:
+  explicit Fields(const std::string &file_name)
+      : file_(file_name, dealii::HDF5::File::FileAccessMode::open, MPI_COMM_WORLD) {}
+
+  std::vector<double> scalar(const std::string &name) {
+    auto dataset = file_.open_dataset(name);
+    const auto matrix = dataset.read<dealii::FullMatrix<double>>();
+    std::vector<double> values;
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      values.push_back(matrix(i, 0));
+    return values;
+  }
+  std::vector<Tensor<1, 3>> vector(const std::string &name) {
+    auto dataset = file_.open_dataset(name);
+    const auto matrix = dataset.read<dealii::FullMatrix<double>>();
+    std::vector<Tensor<1, 3>> values(matrix.m());
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        values[i][j] = matrix(i, j);
+    return values;
+  }
+
+private:
+  dealii::HDF5::File file_;
+};
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (!testing::is_first_rank())
+    std::cout.setstate(std::ios::failbit); // one rank speaks
+  auto parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
+  // Pressed, then dragged until it slides.
+  const double mu = 0.3;
+  parameters.pairs[0].friction_coefficient = mu;
+  parameters.bodies[0].supports[0].displacement.value = {"0.03*turn/pi", "0", "-0.01*press"};
+  parameters.tools[0].motion.rotation_angle.value = "0";
+  parameters.tools[0].motion.translation.value = {"0", "0", "0"};
+  parameters.output.format = parameters::Output::Format::hdf5;
+  SceneRun scene(parameters);
+  const std::string folder = "written_fields";
+  if (testing::is_first_rank())
+    std::filesystem::create_directory(folder);
+  MPI_Barrier(MPI_COMM_WORLD);
+  FieldWriter writer(scene.scene, scene.discretization, folder);
+  scene.finish();
+  writer.write(scene.problem);
+
+  Fields fields(folder + "/fields_00000.h5");
+  const auto positions = fields.vector("nodes");
+  const auto tractions = fields.vector("contact_traction"), displacements = fields.vector("displacement");
+  const auto pressures = fields.scalar("contact_pressure"), gaps = fields.scalar("contact_gap");
+  const auto slips = fields.scalar("contact_slip"), states = fields.scalar("contact_status");
+  const auto areas = fields.scalar("contact_area"), pairs = fields.scalar("contact_pair");
+  const auto stresses_zz = fields.scalar("stress_zz"), stresses_xz = fields.scalar("stress_xz");
+
+  // A node stands in the file once for each element around it.
+  std::map<std::array<long, 3>, std::size_t> nodes;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Tensor<1, 3> start = positions[i] - displacements[i];
+    nodes[{std::lround(4. * start[0]), std::lround(4. * start[1]), std::lround(4. * start[2])}] = i;
+  }
+  const double penalty = 10. * 1000. / 0.5; // 10 E/h
+  Tensor<1, 3> force;
+  double area = 0.;
+  unsigned int n_slave = 0;
+  bool all_slide = true;
+  testing::WorstError gap_error, pressure_error, friction_error, idle_error;
+  double least_slip = 1.;
+  for (const auto &[start, i] : nodes) {
+    if (start[2] != 0) {
+      idle_error.add(std::abs(pressures[i]) + std::abs(gaps[i]) + std::abs(slips[i]) + std::abs(areas[i]) +
+                     tractions[i].norm() + std::abs(states[i] + 1.) + std::abs(pairs[i] + 1.));
+      continue;
+    }
+    ++n_slave;
+    force += areas[i] * tractions[i];
+    area += areas[i];
+    gap_error.add(std::abs(gaps[i] - positions[i][2]));
+    pressure_error.add(std::abs(pressures[i] + penalty * gaps[i]) / std::abs(pressures[i]));
+    friction_error.add(std::abs(std::hypot(tractions[i][0], tractions[i][1]) / (mu * pressures[i]) - 1.));
+    least_slip = std::min(least_slip, slips[i]);
+    all_slide = all_slide && states[i] == static_cast<double>(ContactStatus::slip) && pairs[i] == 0.;
+  }
+  check("nodes of the block", nodes.size() == 27);
+  check("nodes at the plane", n_slave == 9);
+  check("status and pair: all slide on the one plane", all_slide);
+  check("gap: height over the plane", gap_error.value(), 1e-6); // of the size of a float's last bit
+  check("pressure: penalty times penetration", pressure_error.value(), 1e-6);
+  check("traction: Coulomb's law", friction_error.value(), 1e-6);
+  check("slip: there is some", least_slip > 1e-3);
+  check("area: the face's, to first order in the strain", std::abs(area - 1.), 0.05);
+  check("traction times area: the tool's force", (force - scene.load().force).norm() / force.norm(), 1e-6);
+  check("other nodes: nothing", idle_error.value(), 1e-12);
+
+  // The four lower elements; the vertices of each follow each other. Their stress balances the tool's force.
+  double normal = 0., shear = 0.;
+  unsigned int n_lower = 0;
+  for (std::size_t e = 0; e < positions.size(); e += 8) {
+    double height = 0.;
+    for (std::size_t v = e; v < e + 8; ++v)
+      height += (positions[v][2] - displacements[v][2]) / 8.;
+    if (height > 0.5)
+      continue;
+    ++n_lower;
+    normal += stresses_zz[e] / 4.;
+    shear += stresses_xz[e] / 4.;
+  }
+  check("lower elements", n_lower == 4);
+  check("stress: carries the normal force", std::abs(-normal * area / force[2] - 1.), 0.02);
+  check("stress: carries the friction", std::abs(-shear * area / force[0] - 1.), 0.02);
+  return billet::testing::exit_code();
+}
