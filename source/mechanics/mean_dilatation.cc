@@ -170,7 +170,7 @@ void compute_internal_tangent(const ReferenceElement &element, const MeanDilatat
         row[c] += B[0][r] * cB[0][c] + B[1][r] * cB[1][c] + B[2][r] * cB[2][c] + B[3][r] * cB[3][c] +
                   B[4][r] * cB[4][c] + B[5][r] * cB[5][c] + theta_factor * theta[c] +
                   tau_factor * tau_grad[c] + div_factor * divergence[c];
-      for (unsigned int b = a; b < n_element_nodes; ++b) {
+      for (std::size_t b = a; b < n_element_nodes; ++b) {
         const auto &g_a = gradients[a];
         const auto &g_b = gradients[b];
         // tr(δL L) couples (a, i) and (b, j) through ∂N_a/∂x_j ∂N_b/∂x_i.
