@@ -7,7 +7,7 @@ use strict;
 use warnings;
 use File::Find;
 
-my @floors = qw(parameters geometry material mechanics scene discretization forces contact solve output);
+my @floors = qw(geometry parameters material friction mechanics scene discretization forces contact solve output);
 my @apart  = (['forces', 'contact']);                          # neighbours that must not know each other
 my %for_all = map { $_ => 1 } qw(compatibility errors version);    # billet/NAME.h, for every floor
 my %above_all = map { $_ => 1 } qw(simulation main);               # files that may include everything

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <type_traits>
 
 namespace billet {
 
@@ -29,11 +30,15 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
   collect_facets(discretization);
   set_penalties(scene, discretization);
   start_step(0., 0.);
-  if (pair_.friction_coefficient > 0.)
+  states_.resize(nodes_.size());
+  if (pair_.has_friction())
     friction_n_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const auto X = placement_.to_tool(nodes_[i].reference);
-    nodes_[i].gap = nodes_[i].gap_n = tool_.surface().project(X).gap;
+    const auto projection = tool_.surface().project(X);
+    states_[i].position = nodes_[i].reference;
+    states_[i].gap = nodes_[i].gap_n = projection.gap;
+    nodes_[i].patch = projection.patch;
     if (!friction_n_.empty())
       friction_n_[i].tool_position = X;
   }
@@ -57,7 +62,6 @@ void RigidContact::collect_facets(const Discretization &discretization) {
           for (unsigned int i = 0; i < 3; ++i)
             node.dofs[i] = face->vertex_dof_index(v, i);
           node.reference = face->vertex(v);
-          node.position = node.reference;
           nodes_.push_back(node);
         }
         facet.nodes[v] = found.first->second;
@@ -89,98 +93,143 @@ void RigidContact::set_penalties(const Scene &scene, const Discretization &discr
   const double young_modulus = scene.bodies()[pair_.body].young_modulus;
   for (auto &node : nodes_) {
     const double h = std::sqrt(ghosted(node.dofs[0]) / ghosted(node.dofs[1]));
+    node.size = h;
     node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, h),
-                      pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, h),
-                      pair_.friction_coefficient};
+                      pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, h)};
   }
 }
 
 void RigidContact::start_step(const double t_n, const double t) {
   placement_n_ = tool_.placement(t_n);
   placement_ = tool_.placement(t);
+  duration_ = t - t_n;
 }
 
 void RigidContact::update(const Vector &displacements) {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    Node &node = nodes_[i];
-    for (unsigned int c = 0; c < 3; ++c)
-      node.position[c] = node.reference[c] + displacements(node.dofs[c]);
-    const auto projection = tool_.surface().project(placement_.to_tool(node.position));
-    node.normal = placement_.rotation * projection.normal;
-    node.gap = projection.gap;
-    node.slip_increment = node.dissipation = node.tangential_energy = 0.;
-    // A node that starts exactly on the tool counts as touching: its stiffness may be all that holds the
-    // body.
-    const bool touches = node.gap < 0. || (node.gap == 0. && node.gap_n <= 0.);
-    if (!touches) {
-      node.status = ContactStatus::open;
-      node.pressure = 0.;
-      node.traction = 0.;
-      node.tangent = 0.;
-      if (!friction_.empty()) {
-        friction_[i].is_active = false;
-        friction_[i].tangential = {};
-        friction_[i].slip = friction_n_[i].slip;
-      }
-    } else if (!friction_.empty())
-      apply_friction(node, friction_n_[i], friction_[i]);
-    else {
-      const FrameTraction t = compute_frictionless_traction(node.stiffness.normal, node.gap);
-      node.status = t.status;
-      node.pressure = t.pressure;
-      node.traction = t.pressure * node.normal;
-      node.tangent = node.stiffness.normal * dealii::outer_product(node.normal, node.normal);
-    }
-    if (!friction_.empty())
-      friction_[i].tool_position = placement_.to_tool(node.position);
-  }
+  std::visit(
+      [&](const auto &law) {
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+          Node &node = nodes_[i];
+          Tensor<1, 3> position = node.reference;
+          for (unsigned int c = 0; c < 3; ++c)
+            position[c] += displacements(node.dofs[c]);
+          states_[i] = evaluate(law, i, position, friction_.empty() ? nullptr : &friction_[i]);
+          node.patch = states_[i].patch;
+        }
+      },
+      pair_.friction);
 }
 
-void RigidContact::apply_friction(Node &node, const FrictionHistory &history_n,
-                                  FrictionHistory &history) const {
+template <class Law>
+RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t i,
+                                               const Tensor<1, 3> &position, FrictionHistory *history) const {
+  const Node &node = nodes_[i];
+  NodeState state;
+  state.position = position;
+  const Tensor<1, 3> on_tool = placement_.to_tool(position);
+  const auto projection = tool_.surface().project(on_tool, node.patch);
+  state.gap = projection.gap;
+  state.patch = projection.patch;
+  // A node that starts exactly on the tool counts as touching: its stiffness may be all that holds the
+  // body.
+  const bool touches = projection.exists && (state.gap < 0. || (state.gap == 0. && node.gap_n <= 0.));
+  if (touches) {
+    state.normal = placement_.rotation * projection.normal;
+    state.turning = placement_.rotation * projection.turning * dealii::transpose(placement_.rotation);
+  }
+  if constexpr (std::is_same_v<Law, Frictionless>) {
+    if (touches) {
+      const FrameTraction t = compute_frictionless_traction(node.stiffness.normal, state.gap);
+      state.status = t.status;
+      state.pressure = t.pressure;
+      state.traction = t.pressure * state.normal;
+      state.tangent = node.stiffness.normal * dealii::outer_product(state.normal, state.normal);
+      if (tangent_ == ContactTangent::exact)
+        state.tangent -= t.pressure * state.turning;
+    }
+  } else {
+    const FrictionHistory &history_n = friction_n_[i];
+    if (touches)
+      apply_friction(law, node, state, history_n, *history);
+    else {
+      history->is_active = false;
+      history->tangential = {};
+      history->slip = history_n.slip;
+      history->slip_rate = 0.;
+    }
+    history->tool_position = on_tool;
+  }
+  return state;
+}
+
+template <class Law>
+void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &state,
+                                  const FrictionHistory &history_n, FrictionHistory &history) const {
   history.frame = history_n.is_active
                       ? history_n.frame.transported(
-                            placement_.rotation * dealii::transpose(placement_n_.rotation), node.normal)
-                      : Frame::from_normal(node.normal);
+                            placement_.rotation * dealii::transpose(placement_n_.rotation), state.normal)
+                      : Frame::from_normal(state.normal);
   const Frame &Z = history.frame;
+  const std::array<Tensor<1, 3>, 3> axes{Z.q, Z.r, Z.n};
 
   // Relative displacement over the step, against the tool's material point that was at the node (eq. (33),
   // with the tool's motion).
-  const Tensor<1, 3> displacement = node.position - placement_.to_space(history_n.tool_position);
-  const std::array<double, 2> increment{displacement * Z.q, displacement * Z.r};
+  const Tensor<1, 3> displacement = state.position - placement_.to_space(history_n.tool_position);
+  TangentialIncrement increment{{displacement * Z.q, displacement * Z.r}};
+  increment.per_time = duration_ > 0. ? 1. / duration_ : 0.;
+  increment.rate = history_n.slip_rate;
 
   // A node that enters within the step has slid along the tool for the part φ = g/(g − g_n) of it only.
   ContactStiffness stiffness = node.stiffness;
-  std::array<double, 2> slope{};
-  double fraction = 1.;
+  double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ
   if (!history_n.is_active && node.gap_n > 0.) {
-    fraction = node.gap / (node.gap - node.gap_n);
+    fraction = state.gap / (state.gap - node.gap_n);
     stiffness.tangential *= fraction;
-    const double relative_slope = node.gap_n / (node.gap * (node.gap_n - node.gap)); // (∂φ/∂g)/φ
-    slope = {increment[0] * relative_slope, increment[1] * relative_slope};
+    relative_slope = node.gap_n / (state.gap * (node.gap_n - state.gap));
+  }
+  // The frame turns with the normal, δn = H δx:
+  //   δΔg_q = q·δx − (Δ·n) q·Hδx + Δg_r spin·Hδx,  δΔg_r = r·δx − (Δ·n) r·Hδx − Δg_q spin·Hδx.
+  const Tensor<1, 3> Hq = state.turning * Z.q, Hr = state.turning * Z.r, Hs = state.turning * Z.spin;
+  if (tangent_ == ContactTangent::exact) {
+    const double along = displacement * Z.n;
+    const std::array<Tensor<1, 3>, 2> gradient{
+        Z.q - along * Hq + increment.value[1] * Hs + increment.value[0] * relative_slope * Z.n,
+        Z.r - along * Hr - increment.value[0] * Hs + increment.value[1] * relative_slope * Z.n};
+    for (unsigned int i = 0; i < 2; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        increment.gradient[i][j] = gradient[i] * axes[j];
   }
   const FrameTraction t =
-      compute_traction(stiffness, tangent_, node.gap, history_n.tangential, increment, slope);
+      compute_traction(law, stiffness, tangent_, state.gap, history_n.tangential, increment);
 
-  node.status = t.status;
-  node.pressure = t.pressure;
-  node.traction = t.tangential[0] * Z.q + t.tangential[1] * Z.r + t.pressure * Z.n;
-  const std::array<Tensor<1, 3>, 3> axes{Z.q, Z.r, Z.n};
-  node.tangent = 0.;
+  state.status = t.status;
+  state.pressure = t.pressure;
+  state.traction = t.tangential[0] * Z.q + t.tangential[1] * Z.r + t.pressure * Z.n;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
-      node.tangent += t.tangent[i][j] * dealii::outer_product(axes[i], axes[j]);
+      state.tangent += t.tangent[i][j] * dealii::outer_product(axes[i], axes[j]);
+  if (tangent_ == ContactTangent::exact) // −(t_q δq + t_r δr + p δn)
+    state.tangent += dealii::outer_product(Z.n, t.tangential[0] * Hq + t.tangential[1] * Hr) -
+                     dealii::outer_product(t.tangential[0] * Z.r - t.tangential[1] * Z.q, Hs) -
+                     t.pressure * state.turning;
 
   history.is_active = true;
   history.tangential = t.tangential;
-  node.slip_increment = fraction * std::hypot(t.slip[0], t.slip[1]);
-  node.dissipation = -fraction * (t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]);
-  node.tangential_energy = 0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) /
-                           node.stiffness.tangential;
-  history.slip = history_n.slip + node.slip_increment;
+  state.slip_increment = fraction * std::hypot(t.slip[0], t.slip[1]);
+  state.dissipation = -fraction * (t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]);
+  state.tangential_energy = 0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) /
+                            node.stiffness.tangential;
+  history.slip = history_n.slip + state.slip_increment;
+  history.slip_rate =
+      increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
 }
 
-RigidContact::FacetAreas RigidContact::compute_areas(const Facet &facet, const bool with_derivatives) const {
+RigidContact::FacetStates RigidContact::states_of(const Facet &facet) const {
+  return {&states_[facet.nodes[0]], &states_[facet.nodes[1]], &states_[facet.nodes[2]],
+          &states_[facet.nodes[3]]};
+}
+
+RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, const bool with_derivatives) {
   static const double g = 1. / std::sqrt(3.);
   static const std::array<std::array<double, 2>, 4> corners{{{-1., -1.}, {1., -1.}, {-1., 1.}, {1., 1.}}};
   FacetAreas result{};
@@ -192,22 +241,24 @@ RigidContact::FacetAreas RigidContact::compute_areas(const Facet &facet, const b
       N[a] = 0.25 * (1. + corners[a][0] * xi) * (1. + corners[a][1] * eta);
       N_xi[a] = 0.25 * corners[a][0] * (1. + corners[a][1] * eta);
       N_eta[a] = 0.25 * corners[a][1] * (1. + corners[a][0] * xi);
-      g_1 += N_xi[a] * nodes_[facet.nodes[a]].position;
-      g_2 += N_eta[a] * nodes_[facet.nodes[a]].position;
+      g_1 += N_xi[a] * states[a]->position;
+      g_2 += N_eta[a] * states[a]->position;
     }
     const Tensor<1, 3> area_vector = dealii::cross_product_3d(g_1, g_2);
     for (unsigned int a = 0; a < 4; ++a) {
-      const Node &node = nodes_[facet.nodes[a]];
+      const NodeState &node = *states[a];
       if (node.status == ContactStatus::open)
         continue;
       const double facing = -(area_vector * node.normal);
       if (facing <= 0.)
         continue;
       result.areas[a] += N[a] * facing;
-      if (with_derivatives)
+      if (with_derivatives) {
+        result.normal_derivatives[a] -= N[a] * area_vector;
         for (unsigned int b = 0; b < 4; ++b)
           result.derivatives[a][b] -= N[a] * (N_xi[b] * dealii::cross_product_3d(g_2, node.normal) +
                                               N_eta[b] * dealii::cross_product_3d(node.normal, g_1));
+      }
     }
   }
   return result;
@@ -215,82 +266,118 @@ RigidContact::FacetAreas RigidContact::compute_areas(const Facet &facet, const b
 
 void RigidContact::add_forces(Vector &residual) const {
   for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(facet, false);
+    const FacetAreas areas = compute_areas(states_of(facet), false);
     for (unsigned int a = 0; a < 4; ++a) {
-      const Node &node = nodes_[facet.nodes[a]];
       if (areas.areas[a] == 0.)
         continue;
+      const NodeState &state = states_[facet.nodes[a]];
       std::array<double, 3> values{};
       for (unsigned int i = 0; i < 3; ++i)
-        values[i] = -areas.areas[a] * node.traction[i];
-      residual.add(3, node.dofs.data(), values.data());
+        values[i] = -areas.areas[a] * state.traction[i];
+      residual.add(3, nodes_[facet.nodes[a]].dofs.data(), values.data());
     }
   }
 }
 
 void RigidContact::add_tangent(const TangentSystem &system) const {
-  const bool exact = tangent_ == ContactTangent::exact;
   dealii::FullMatrix<double> facet_matrix(12, 12);
   std::vector<DofIndex> dofs(12);
   for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(facet, exact);
-    if (std::all_of(areas.areas.begin(), areas.areas.end(), [](const double area) { return area == 0.; }))
+    const FacetStates states = states_of(facet);
+    if (std::all_of(states.begin(), states.end(),
+                    [](const NodeState *state) { return state->status == ContactStatus::open; }))
       continue;
     facet_matrix = 0.;
-    for (unsigned int a = 0; a < 4; ++a) {
-      const Node &node = nodes_[facet.nodes[a]];
-      for (unsigned int i = 0; i < 3; ++i) {
-        dofs[3 * a + i] = node.dofs[i];
-        for (unsigned int j = 0; j < 3; ++j)
-          facet_matrix(3 * a + i, 3 * a + j) += areas.areas[a] * node.tangent[i][j];
-        if (exact)
-          for (unsigned int b = 0; b < 4; ++b)
-            for (unsigned int j = 0; j < 3; ++j)
-              facet_matrix(3 * a + i, 3 * b + j) -= node.traction[i] * areas.derivatives[a][b][j];
-      }
-    }
+    if (tangent_ == ContactTangent::numerical)
+      add_numerical_tangent(facet, facet_matrix);
+    else
+      add_closed_tangent(facet, facet_matrix);
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        dofs[3 * a + i] = nodes_[facet.nodes[a]].dofs[i];
     system.add(facet_matrix, dofs);
   }
+}
+
+void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
+  const bool exact = tangent_ == ContactTangent::exact;
+  const FacetAreas areas = compute_areas(states_of(facet), exact);
+  for (unsigned int a = 0; a < 4; ++a) {
+    const NodeState &state = states_[facet.nodes[a]];
+    const Tensor<1, 3> turned = exact ? state.turning * areas.normal_derivatives[a] : Tensor<1, 3>();
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j) {
+        matrix(3 * a + i, 3 * a + j) += areas.areas[a] * state.tangent[i][j] - state.traction[i] * turned[j];
+        if (exact)
+          for (unsigned int b = 0; b < 4; ++b)
+            matrix(3 * a + i, 3 * b + j) -= state.traction[i] * areas.derivatives[a][b][j];
+      }
+  }
+}
+
+void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
+  std::visit(
+      [&](const auto &law) {
+        FrictionHistory ignored;
+        for (unsigned int b = 0; b < 4; ++b) {
+          const Node &node = nodes_[facet.nodes[b]];
+          const double h = 1e-5 * node.size;
+          for (unsigned int j = 0; j < 3; ++j)
+            for (const double sign : {1., -1.}) {
+              Tensor<1, 3> position = states_[facet.nodes[b]].position;
+              position[j] += sign * h;
+              const NodeState moved = evaluate(law, facet.nodes[b], position, &ignored);
+              FacetStates states = states_of(facet);
+              states[b] = &moved;
+              const FacetAreas areas = compute_areas(states, false);
+              for (unsigned int a = 0; a < 4; ++a)
+                for (unsigned int i = 0; i < 3; ++i)
+                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
+            }
+        }
+      },
+      pair_.friction);
 }
 
 void RigidContact::add_tool_push(const double t, Vector &forces) const {
   const Placement after = tool_.placement(t);
   for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(facet, false);
+    const FacetAreas areas = compute_areas(states_of(facet), false);
     for (unsigned int a = 0; a < 4; ++a) {
-      const Node &node = nodes_[facet.nodes[a]];
+      const NodeState &state = states_[facet.nodes[a]];
       if (areas.areas[a] == 0.)
         continue;
-      const Tensor<1, 3> motion = after.to_space(placement_.to_tool(node.position)) - node.position;
-      const Tensor<1, 3> force = areas.areas[a] * (node.tangent * motion);
+      const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
+      const Tensor<1, 3> force = areas.areas[a] * (state.tangent * motion);
       const std::array<double, 3> values{force[0], force[1], force[2]};
-      forces.add(3, node.dofs.data(), values.data());
+      forces.add(3, nodes_[facet.nodes[a]].dofs.data(), values.data());
     }
   }
 }
 
 void RigidContact::commit() {
-  for (auto &node : nodes_)
-    node.gap_n = node.gap;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    nodes_[i].gap_n = states_[i].gap;
   friction_n_ = friction_;
 }
 
 ContactLoad RigidContact::compute_load() const {
   ContactLoad local;
   for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(facet, false);
+    const FacetAreas areas = compute_areas(states_of(facet), false);
     for (unsigned int a = 0; a < 4; ++a) {
-      const Node &node = nodes_[facet.nodes[a]];
-      if (node.status == ContactStatus::open)
+      const NodeState &state = states_[facet.nodes[a]];
+      if (state.status == ContactStatus::open)
         continue;
-      const Tensor<1, 3> force = areas.areas[a] * node.traction;
+      const Tensor<1, 3> force = areas.areas[a] * state.traction;
+      const double penalty = nodes_[facet.nodes[a]].stiffness.normal;
       local.force += force;
-      local.moment += dealii::cross_product_3d(node.position - placement_.moved_centre(), force);
+      local.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
       local.area += areas.areas[a];
       local.stored_energy +=
-          areas.areas[a] * (0.5 * node.stiffness.normal * node.gap * node.gap + node.tangential_energy);
-      local.dissipation += areas.areas[a] * node.dissipation;
-      local.deepest = std::max(local.deepest, -node.gap);
+          areas.areas[a] * (0.5 * penalty * state.gap * state.gap + state.tangential_energy);
+      local.dissipation += areas.areas[a] * state.dissipation;
+      local.deepest = std::max(local.deepest, -state.gap);
     }
   }
   const std::array<double, 9> sums{local.force[0],  local.force[1],      local.force[2],
@@ -314,12 +401,12 @@ ContactLoad RigidContact::compute_load() const {
 std::vector<RigidContact::NodeReport> RigidContact::report() const {
   std::vector<NodeReport> reports;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node &node = nodes_[i];
-    reports.push_back({node.dofs, node.status, node.pressure, node.gap,
-                       friction_.empty() ? 0. : friction_[i].slip, 0., node.traction});
+    const NodeState &state = states_[i];
+    reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap,
+                       friction_.empty() ? 0. : friction_[i].slip, 0., state.traction});
   }
   for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(facet, false);
+    const FacetAreas areas = compute_areas(states_of(facet), false);
     for (unsigned int a = 0; a < 4; ++a)
       reports[facet.nodes[a]].area += areas.areas[a];
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/traction.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace billet {
@@ -13,25 +14,57 @@ FrameTraction compute_frictionless_traction(const double normal_stiffness, const
   return traction;
 }
 
-FrameTraction compute_traction(const ContactStiffness &stiffness, const ContactTangent tangent,
-                               const double gap, const std::array<double, 2> &tangential_n,
-                               const std::array<double, 2> &increment,
-                               const std::array<double, 2> &increment_slope) {
+namespace {
+
+/// The slip γ >= 0 with |t*| − k_t γ = L(p, γ/Δt), by Newton inside a bracket. There is one, where L does not
+/// rise with the slip rate and its fall gets no steeper.
+template <class Law>
+double solve_slip(const Law &law, const double pressure, const double trial, const double k_t,
+                  const double per_time) {
+  const auto excess = [&](const double slip) {
+    return trial - k_t * slip - law.limit(pressure, slip * per_time).value;
+  };
+  // At γ = 0 the excess is positive; where all of the trial traction has gone it is not.
+  double low = 0., high = trial / k_t;
+  double slip = std::max(0., (trial - law.limit(pressure, 0.).value) / k_t);
+  for (unsigned int i = 0; i < 100; ++i) {
+    const double value = excess(slip);
+    (value > 0. ? low : high) = slip;
+    const double slope = -k_t - per_time * law.limit(pressure, slip * per_time).rate_slope;
+    double next = slope < 0. ? slip - value / slope : low;
+    if (!(next > low && next < high))
+      next = 0.5 * (low + high);
+    if (std::abs(next - slip) <= 1e-15 * trial / k_t)
+      return next;
+    slip = next;
+  }
+  return slip;
+}
+
+} // namespace
+
+template <class Law>
+FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness,
+                               const ContactTangent tangent, const double gap,
+                               const std::array<double, 2> &tangential_n,
+                               const TangentialIncrement &increment) {
   FrameTraction traction = compute_frictionless_traction(stiffness.normal, gap);
   const double k_t = stiffness.tangential;
-  const std::array<double, 2> trial{tangential_n[0] - k_t * increment[0],
-                                    tangential_n[1] - k_t * increment[1]};
+  const std::array<double, 2> trial{tangential_n[0] - k_t * increment.value[0],
+                                    tangential_n[1] - k_t * increment.value[1]};
   const double trial_norm = std::hypot(trial[0], trial[1]);
-  const double limit = stiffness.friction_coefficient * traction.pressure;
+  const bool has_duration = increment.per_time > 0.;
+  FrictionLimit limit = law.limit(traction.pressure, has_duration ? 0. : increment.rate);
   auto &K = traction.tangent;
 
   // −∂t*/∂u on (q, r, n)
   std::array<std::array<double, 3>, 2> trial_tangent{{{k_t, 0., 0.}, {0., k_t, 0.}}};
   if (tangent == ContactTangent::exact)
     for (unsigned int i = 0; i < 2; ++i)
-      trial_tangent[i][2] = k_t * increment_slope[i];
+      for (unsigned int j = 0; j < 3; ++j)
+        trial_tangent[i][j] = k_t * increment.gradient[i][j];
 
-  if (trial_norm <= limit) {
+  if (trial_norm <= limit.value) {
     traction.status = ContactStatus::stick;
     traction.tangential = trial;
     for (unsigned int i = 0; i < 2; ++i)
@@ -39,19 +72,29 @@ FrameTraction compute_traction(const ContactStiffness &stiffness, const ContactT
     return traction;
   }
 
+  double rate_ratio = 0.; // ρ
+  if (has_duration && limit.rate_slope != 0.) {
+    const double slip = solve_slip(law, traction.pressure, trial_norm, k_t, increment.per_time);
+    limit = law.limit(traction.pressure, slip * increment.per_time);
+    limit.value = trial_norm - k_t * slip;
+    const double slope = limit.rate_slope * increment.per_time;
+    rate_ratio = slope / (k_t + slope);
+  }
   const std::array<double, 2> direction{trial[0] / trial_norm, trial[1] / trial_norm};
-  const double ratio = limit / trial_norm; // β
-  const double beta = tangent == ContactTangent::continuum ? 1. : ratio;
+  const double beta = tangent == ContactTangent::continuum ? 1. : limit.value / trial_norm;
   for (unsigned int i = 0; i < 2; ++i) {
-    traction.tangential[i] = limit * direction[i];
+    traction.tangential[i] = limit.value * direction[i];
     traction.slip[i] = -(trial[i] - traction.tangential[i]) / k_t;
     for (unsigned int j = 0; j < 3; ++j)
       for (unsigned int m = 0; m < 2; ++m)
-        K[i][j] += beta * ((i == m ? 1. : 0.) - direction[i] * direction[m]) * trial_tangent[m][j];
-    const double coupling = stiffness.friction_coefficient * stiffness.normal * direction[i];
+        K[i][j] += (beta * ((i == m ? 1. : 0.) - direction[i] * direction[m]) +
+                    rate_ratio * direction[i] * direction[m]) *
+                   trial_tangent[m][j];
+    const double coupling = limit.pressure_slope * (1. - rate_ratio) * stiffness.normal * direction[i];
     switch (tangent) {
     case ContactTangent::automatic: // resolved by the scene
     case ContactTangent::exact:
+    case ContactTangent::numerical:
     case ContactTangent::consistent:
     case ContactTangent::continuum:
       K[i][2] += coupling;
@@ -70,5 +113,14 @@ FrameTraction compute_traction(const ContactStiffness &stiffness, const ContactT
   }
   return traction;
 }
+
+#define BILLET_INSTANTIATE(Law)                                                                              \
+  template FrameTraction compute_traction(const Law &, const ContactStiffness &, ContactTangent, double,     \
+                                          const std::array<double, 2> &, const TangentialIncrement &);
+BILLET_INSTANTIATE(Coulomb)
+BILLET_INSTANTIATE(ShearLimited)
+BILLET_INSTANTIATE(StaticKinetic)
+BILLET_INSTANTIATE(PressureDependent)
+#undef BILLET_INSTANTIATE
 
 } // namespace billet

@@ -2,17 +2,104 @@
 #include "billet/geometry/plane.h"
 
 #include "billet/geometry/frame.h"
+#include "billet/geometry/surface_type.h"
+#include "billet/geometry/swept_profile.h"
+
+#include <array>
 
 namespace billet {
 
-SurfacePicture Plane::picture(const dealii::Tensor<1, 3> &centre, const double radius) const {
-  const auto foot = centre - ((centre - point_) * normal_) * normal_;
+using dealii::Tensor;
+using Kind = SurfaceParameter::Kind;
+
+BoundingBox Plane::bounding_box() const {
+  BoundingBox box;
+  for (unsigned int i = 0; i < 3; ++i) {
+    const bool is_flat = std::abs(normal_[i]) == 1.; // to the last bit
+    const double reach = std::numeric_limits<double>::infinity();
+    box.low[i] = is_flat ? point_[i] : -reach;
+    box.high[i] = is_flat ? point_[i] : reach;
+  }
+  return box;
+}
+
+void Plane::draw(const PictureRegion &region, SurfacePicture &picture) const {
+  const auto foot = closest_point(region.centre).position;
   const Frame frame = Frame::from_normal(normal_);
-  SurfacePicture picture;
+  const auto first = static_cast<unsigned int>(picture.points.size());
   for (const auto &corner : {std::array<double, 2>{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}})
-    picture.points.push_back(foot + radius * (corner[0] * frame.q + corner[1] * frame.r));
-  picture.facets.push_back({0, 1, 2, 3});
-  return picture;
+    picture.points.push_back(foot + region.radius * (corner[0] * frame.q + corner[1] * frame.r));
+  picture.facets.push_back({first, first + 1, first + 2, first + 3});
+}
+
+namespace {
+
+const SurfaceParameter normal_parameter{"Normal", "0, 0, 1", Kind::text,
+                                        "Normal out of the tool, towards the bodies."};
+
+/// Borders as lines from a to b in the plane of the axes' x (towards b) and y, the normal.
+Profile flat_profile(const double from, const double to) {
+  return Profile({Profile::Segment::line(Profile::Point({from, 0.}), Profile::Point({to, 0.}))},
+                 Profile::Outside::left);
+}
+
+} // namespace
+
+SurfaceType plane_type() {
+  return {"plane",
+          "An infinite plane.",
+          {{"Point", "0, 0, 0", Kind::text, "A point of the plane. [length]"}, normal_parameter},
+          [](const SurfaceInput &input) {
+            std::vector<std::unique_ptr<const SurfacePatch>> patches;
+            patches.push_back(std::make_unique<Plane>(input.vector("Point"), input.direction("Normal")));
+            return patches;
+          }};
+}
+
+SurfaceType rectangle_type() {
+  return {"rectangle",
+          "A rectangle.",
+          {{"Centre", "0, 0, 0", Kind::text, "[length]"},
+           normal_parameter,
+           {"Direction", "1, 0, 0", Kind::text,
+            "Of the sides that have the length; its part along the normal is left out."},
+           {"Length", "1", Kind::number, "> 0. [length]"},
+           {"Width", "1", Kind::number, "> 0, of the other sides. [length]"}},
+          [](const SurfaceInput &input) {
+            const auto normal = input.direction("Normal"), direction = input.direction("Direction");
+            if (dealii::cross_product_3d(normal, direction).norm() < 1e-6)
+              input.reject("Direction", "a direction across the normal");
+            const double length = input.positive("Length"), width = input.positive("Width");
+            // Profile along x, normal along y: extruded along x × n.
+            Axes axes(input.vector("Centre"), normal, direction);
+            axes.y = normal;
+            axes.z = dealii::cross_product_3d(axes.x, axes.y);
+            std::vector<std::unique_ptr<const SurfacePatch>> patches;
+            patches.push_back(std::make_unique<ExtrudedProfile>(flat_profile(-0.5 * length, 0.5 * length),
+                                                                axes, -0.5 * width, 0.5 * width));
+            return patches;
+          }};
+}
+
+SurfaceType disc_type() {
+  return {"disc",
+          "A disc, or a ring.",
+          {{"Centre", "0, 0, 0", Kind::text, "[length]"},
+           normal_parameter,
+           {"Radius", "1", Kind::number, "> 0. [length]"},
+           {"Inner radius", "0", Kind::number, ">= 0; of the hole. [length]"}},
+          [](const SurfaceInput &input) {
+            const double radius = input.positive("Radius"), inner = input.not_negative("Inner radius");
+            if (inner >= radius)
+              input.reject("Inner radius", "a number below the radius");
+            const Profile profile(
+                {Profile::Segment::line(Profile::Point({inner, 0.}), Profile::Point({radius, 0.}))},
+                Profile::Outside::left, inner == 0.);
+            std::vector<std::unique_ptr<const SurfacePatch>> patches;
+            patches.push_back(std::make_unique<RevolvedProfile>(
+                profile, Axes(input.vector("Centre"), input.direction("Normal"))));
+            return patches;
+          }};
 }
 
 } // namespace billet

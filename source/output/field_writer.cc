@@ -191,7 +191,7 @@ void FieldWriter::write_tools(const SolutionState &state, const std::string &nam
   std::vector<std::size_t> tool_of_facet;
   for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
     const SurfacePicture picture = scene_.tools()[t].surface().picture(
-        state.placements[t].to_tool(discretization_.centre()), 1.5 * discretization_.radius());
+        {state.placements[t].to_tool(discretization_.centre()), 1.5 * discretization_.radius()});
     for (const auto &facet : picture.facets) {
       facets.emplace_back();
       for (const unsigned int point : facet)

@@ -95,10 +95,7 @@ void Mesh::parse(Reader &reader) {
   if (source == Source::file) {
     if (file_name.value.empty())
       reader.reject("File", "the name of a mesh file, since 'Source = file'");
-    if (file_name.value.front() != '/')
-      file_name.value = reader.file().folder() + file_name.value;
-    if (!std::ifstream(file_name.value))
-      reader.reject("File", "a file that can be read ('" + file_name.value + "' cannot)");
+    file_name.value = reader.file("File");
   } else if (reader.is_set("File"))
     reader.reject("File", "no value: the mesh does not come from a file");
 }

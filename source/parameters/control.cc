@@ -92,6 +92,7 @@ namespace {
 const std::vector<std::pair<std::string, ContactTangent>> tangent_names = {
     {"automatic", ContactTangent::automatic},
     {"exact", ContactTangent::exact},
+    {"numerical", ContactTangent::numerical},
     {"consistent", ContactTangent::consistent},
     {"continuum", ContactTangent::continuum},
     {"symmetrised upper", ContactTangent::symmetrised_upper},
@@ -124,7 +125,9 @@ void Solver::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Contact tangent", "automatic", Patterns::Selection(selection(tangent_names)),
       "automatic: exact with friction, consistent without, so that the matrix is symmetric where it can be; "
-      "exact: the full derivative of the contact forces, change of area included; consistent, "
+      "exact: the full derivative of the contact forces, with the turning of the tool's normal and the "
+      "change of area; "
+      "numerical: the same by central differences, eq. (43), slow, for comparison; consistent, "
       "continuum: Bittencourt & "
       "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower "
       "triangle or the mean of "

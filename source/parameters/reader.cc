@@ -7,6 +7,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
@@ -107,6 +109,15 @@ unsigned int parse_count(const std::string &text) {
   if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
     throw std::invalid_argument("'" + text + "' is not a whole number from 0 to 999999999");
   return static_cast<unsigned int>(std::stoul(text));
+}
+
+std::string Reader::file(const std::string &key) const {
+  const std::string written = text(key);
+  const std::string name = written.empty() || written.front() == '/' ? written : file_.folder() + written;
+  std::ifstream stream(name);
+  if (!stream || std::filesystem::is_directory(name))
+    reject(key, "a file that can be read ('" + name + "' cannot)");
+  return name;
 }
 
 std::vector<unsigned int> Reader::counts(const std::string &key) const {

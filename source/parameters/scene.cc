@@ -27,16 +27,29 @@ void declare_named(ParameterHandler &prm, const std::string &list, const std::ve
   prm.leave_subsection();
 }
 
-/// Declares the whole tree; `names_below` tells which names each list of subsections has.
-void declare_all(ParameterHandler &prm,
-                 const std::function<std::vector<std::string>(const SceneFile::Path &)> &names_below) {
+/// What has to be known of a scene before its parameters can be declared.
+struct Outline {
+  /// The names in a list of subsections.
+  std::function<std::vector<std::string>(const SceneFile::Path &)> names_below;
+  /// The shape of the surface in this subsection.
+  std::function<std::string(const SceneFile::Path &)> shape;
+};
+
+/// Declares the whole tree.
+void declare_all(ParameterHandler &prm, const Outline &outline) {
+  const auto &names_below = outline.names_below;
   prm.declare_entry("Title", "", dealii::Patterns::Anything(), "Shown in the console and in --check.");
   declare_named(prm, "Amplitudes", names_below({"Amplitudes"}),
                 [&](const std::string &) { Amplitude::declare(prm); });
   declare_named(prm, "Bodies", names_below({"Bodies"}), [&](const std::string &name) {
     Body::declare(prm, names_below({"Bodies", name, "Supports"}));
   });
-  declare_named(prm, "Tools", names_below({"Tools"}), [&](const std::string &) { Tool::declare(prm); });
+  declare_named(prm, "Tools", names_below({"Tools"}), [&](const std::string &name) {
+    std::vector<std::pair<std::string, std::string>> shapes;
+    for (const auto &part : names_below({"Tools", name, "Surfaces"}))
+      shapes.emplace_back(part, outline.shape({"Tools", name, "Surfaces", part}));
+    Tool::declare(prm, shapes);
+  });
   declare_named(prm, "Contact pairs", names_below({"Contact pairs"}),
                 [&](const std::string &) { ContactPair::declare(prm); });
   prm.enter_subsection("Time stepping");
@@ -107,7 +120,8 @@ std::size_t Scene::tool_index(const ContactPair &pair) const { return index_of(t
 Scene Scene::read(const std::string &file_name) {
   const SceneFile file = SceneFile::read(file_name);
   ParameterHandler prm;
-  declare_all(prm, [&file](const SceneFile::Path &path) { return file.names_below(path); });
+  declare_all(prm, {[&file](const SceneFile::Path &path) { return file.names_below(path); },
+                    [&file](const SceneFile::Path &path) { return file.value(path, "Shape", "plane"); }});
   file.set_all(prm);
 
   Reader reader(prm, file);
@@ -137,13 +151,23 @@ Scene Scene::read(const std::string &file_name) {
 
 void print_all_parameters(std::ostream &stream) {
   ParameterHandler prm;
-  declare_all(prm, [](const SceneFile::Path &path) -> std::vector<std::string> {
+  const std::string prefix = "(name of a surface of shape ";
+  const auto names_below = [&prefix](const SceneFile::Path &path) -> std::vector<std::string> {
+    if (path.back() == "Surfaces") {
+      std::vector<std::string> names;
+      for (const auto &type : surface_types())
+        names.push_back(prefix + type.name + ")");
+      return names;
+    }
     return {path.back() == "Amplitudes" ? "(name of an amplitude)"
             : path.back() == "Bodies"   ? "(name of a body)"
             : path.back() == "Supports" ? "(name of a support)"
             : path.back() == "Tools"    ? "(name of a tool)"
                                         : "(name of a contact pair)"};
-  });
+  };
+  declare_all(prm, {names_below, [&prefix](const SceneFile::Path &path) {
+                      return path.back().substr(prefix.size(), path.back().size() - prefix.size() - 1);
+                    }});
   prm.print_parameters(stream, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
 }
 

@@ -172,6 +172,11 @@ std::string SceneFile::where(const Path &path, const std::string &key) const {
   return entry != nullptr ? entry->where : where(path) + " (default)";
 }
 
+std::string SceneFile::value(const Path &path, const std::string &key, const std::string &otherwise) const {
+  const Entry *entry = find(path, key);
+  return entry != nullptr ? entry->value : otherwise;
+}
+
 bool SceneFile::is_set(const Path &path, const std::string &key) const { return find(path, key) != nullptr; }
 
 std::string SceneFile::where(const Path &path) const {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/parameters/tool.h"
 
+#include "billet/errors.h"
+
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
 
 namespace billet::parameters {
 
@@ -30,11 +33,61 @@ void Motion::parse(Reader &reader) {
   centre = reader.vector("Centre");
 }
 
-void Tool::declare(ParameterHandler &prm) {
-  prm.declare_entry("Surface", "plane", Patterns::Selection("plane"), "Shape of the rigid surface.");
-  prm.enter_subsection("Plane");
-  prm.declare_entry("Point", "0, 0, 0", Patterns::Anything(), "A point of the (infinite) plane. [length]");
-  prm.declare_entry("Normal", "0, 0, 1", Patterns::Anything(), "Normal out of the tool, towards the bodies.");
+namespace {
+
+std::string shape_names() {
+  std::string names;
+  for (const auto &type : surface_types())
+    names += (names.empty() ? "" : "|") + type.name;
+  return names;
+}
+
+const SurfaceType *find_type(const std::string &shape) {
+  for (const auto &type : surface_types())
+    if (type.name == shape)
+      return &type;
+  return nullptr;
+}
+
+void declare_surface(ParameterHandler &prm, const std::string &shape) {
+  const SurfaceType *type = find_type(shape);
+  // An unknown shape is refused when the entry is set.
+  prm.declare_entry("Shape", type != nullptr ? shape : "plane", Patterns::Selection(shape_names()),
+                    (type != nullptr ? type->meaning + " " : "") +
+                        "The other parameters are those of the shape.");
+  if (type == nullptr)
+    return;
+  using Kind = SurfaceParameter::Kind;
+  for (const auto &parameter : type->parameters) {
+    const auto colon = parameter.meaning.find(':');
+    switch (parameter.kind) {
+    case Kind::number:
+      prm.declare_entry(parameter.key, parameter.default_value, Patterns::Double(), parameter.meaning);
+      break;
+    case Kind::text:
+      prm.declare_entry(parameter.key, parameter.default_value, Patterns::Anything(), parameter.meaning);
+      break;
+    case Kind::flag:
+      prm.declare_entry(parameter.key, parameter.default_value, Patterns::Bool(), parameter.meaning);
+      break;
+    case Kind::choice:
+      prm.declare_entry(parameter.key, parameter.default_value,
+                        Patterns::Selection(parameter.meaning.substr(0, colon)),
+                        dealii::Utilities::trim(parameter.meaning.substr(colon + 1)));
+      break;
+    }
+  }
+}
+
+} // namespace
+
+void Tool::declare(ParameterHandler &prm, const std::vector<std::pair<std::string, std::string>> &shapes) {
+  prm.enter_subsection("Surfaces");
+  for (const auto &[name, shape] : shapes) {
+    prm.enter_subsection(name);
+    declare_surface(prm, shape);
+    prm.leave_subsection();
+  }
   prm.leave_subsection();
   prm.enter_subsection("Motion");
   Motion::declare(prm);
@@ -43,10 +96,19 @@ void Tool::declare(ParameterHandler &prm) {
 
 void Tool::parse(Reader &reader) {
   origin = reader.origin();
-  reader.in("Plane", [&] {
-    plane_point = reader.vector("Point");
-    plane_normal = reader.direction("Normal");
+  std::vector<std::unique_ptr<const SurfacePatch>> patches;
+  reader.in("Surfaces", [&] {
+    for (const auto &part : reader.names())
+      reader.in(part, [&] {
+        const SurfaceType *type = find_type(reader.text("Shape"));
+        shapes += (shapes.empty() ? "" : ", ") + type->name;
+        for (auto &patch : type->make(reader))
+          patches.push_back(std::move(patch));
+      });
   });
+  if (patches.empty())
+    throw InputError(origin + ": the tool has no surface: allowed is at least one subsection in 'Surfaces'");
+  surface = std::make_shared<const RigidSurface>(std::move(patches));
   reader.in("Motion", [&] { motion.parse(reader); });
 }
 
@@ -55,7 +117,19 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Boundary ids", "", Patterns::Anything(),
                     "Boundary ids of the body's faces that may touch the tool, separated by commas.");
   prm.declare_entry("Tool", "", Patterns::Anything(), "Name of the tool.");
-  prm.declare_entry("Friction coefficient", "0", Patterns::Double(), "Coulomb's mu >= 0. 0: no friction.");
+  prm.declare_entry(
+      "Friction law", "Coulomb",
+      Patterns::Selection("Coulomb|shear limited|static-kinetic|pressure dependent"),
+      "The shear stress at which nodes slide under a pressure p. Coulomb: mu p; shear limited: mu p, at most "
+      "the largest shear stress; static-kinetic: mu falls from rest to fast sliding as mu_k + (mu - mu_k) "
+      "exp(-c v), v the slip rate; pressure dependent: mu (p/p_0)^(e-1) p.");
+  prm.declare_entry("Friction coefficient", "0", Patterns::Double(),
+                    "mu >= 0; at rest, or at the reference pressure. 0: no friction.");
+  prm.declare_entry("Largest shear stress", "0", Patterns::Double(), "> 0. [stress]");
+  prm.declare_entry("Kinetic friction coefficient", "0", Patterns::Double(), "mu_k > 0, not above mu.");
+  prm.declare_entry("Decay", "0", Patterns::Double(), "c >= 0. [time/length]");
+  prm.declare_entry("Reference pressure", "0", Patterns::Double(), "p_0 > 0. [stress]");
+  prm.declare_entry("Pressure exponent", "1", Patterns::Double(), "0 < e <= 1.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection("factor|absolute"),
                     "factor: penalties are multiples of E/h, Young's modulus over the facet's size; "
                     "absolute: they are pressures "
@@ -75,7 +149,7 @@ void ContactPair::parse(Reader &reader) {
   boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
   if (boundary_ids.value.empty())
     reader.reject("Boundary ids", "at least one boundary id");
-  friction_coefficient = reader.not_negative("Friction coefficient");
+  parse_friction(reader);
   penalty_unit = reader.text("Penalty unit") == "factor" ? PenaltyUnit::factor : PenaltyUnit::absolute;
   normal_penalty = reader.positive("Normal penalty");
   if (reader.text("Tangential penalty").empty())
@@ -90,6 +164,50 @@ void ContactPair::parse(Reader &reader) {
   }
   allowed_penetration =
       reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
+}
+
+void ContactPair::parse_friction(Reader &reader) {
+  const std::string law = reader.text("Friction law");
+  friction_law = law == "Coulomb"          ? FrictionLaw::coulomb
+                 : law == "shear limited"  ? FrictionLaw::shear_limited
+                 : law == "static-kinetic" ? FrictionLaw::static_kinetic
+                                           : FrictionLaw::pressure_dependent;
+  friction_coefficient = reader.not_negative("Friction coefficient");
+  largest_shear_stress = reader.number("Largest shear stress");
+  kinetic_coefficient = reader.number("Kinetic friction coefficient");
+  friction_decay = reader.number("Decay");
+  reference_pressure = reader.number("Reference pressure");
+  pressure_exponent = reader.number("Pressure exponent");
+  if (friction_coefficient == 0. && friction_law != FrictionLaw::coulomb)
+    reader.reject("Friction coefficient", "a number > 0, since there is a friction law");
+
+  const std::vector<std::pair<std::string, FrictionLaw>> users = {
+      {"Largest shear stress", FrictionLaw::shear_limited},
+      {"Kinetic friction coefficient", FrictionLaw::static_kinetic},
+      {"Decay", FrictionLaw::static_kinetic},
+      {"Reference pressure", FrictionLaw::pressure_dependent},
+      {"Pressure exponent", FrictionLaw::pressure_dependent}};
+  for (const auto &[key, user] : users)
+    if (user != friction_law && reader.is_set(key))
+      reader.reject(key, "no value: '" + law + "' friction does not use it");
+  switch (friction_law) {
+  case FrictionLaw::coulomb:
+    break;
+  case FrictionLaw::shear_limited:
+    reader.positive("Largest shear stress");
+    break;
+  case FrictionLaw::static_kinetic:
+    reader.positive("Kinetic friction coefficient");
+    if (kinetic_coefficient > friction_coefficient)
+      reader.reject("Kinetic friction coefficient", "a number not above the friction coefficient");
+    reader.not_negative("Decay");
+    break;
+  case FrictionLaw::pressure_dependent:
+    reader.positive("Reference pressure");
+    if (!(pressure_exponent > 0. && pressure_exponent <= 1.))
+      reader.reject("Pressure exponent", "a number > 0 and <= 1");
+    break;
+  }
 }
 
 } // namespace billet::parameters

@@ -143,7 +143,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
             const Frame frame = Frame::from_normal(n);
             const Tensor<1, 3> arm = (face->vertex(v) - centre) / size;
             supported_or_touching.add(n, arm);
-            if (pair.friction_coefficient > 0.) {
+            if (pair.has_friction()) {
               supported_or_touching.add(frame.q, arm);
               supported_or_touching.add(frame.r, arm);
             }
@@ -186,7 +186,7 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
         return;
       const double h = std::sqrt(face->measure());
       for (const unsigned int v : face->vertex_indices()) {
-        const double gap = tool.surface().project(start.to_tool(face->vertex(v))).gap;
+        const double gap = tool.surface().project(start.to_tool(face->vertex(v))).gap; // none: positive
         if (gap / h < deepest / size_there) {
           deepest = gap;
           size_there = h;

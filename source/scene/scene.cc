@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 
 namespace billet {
@@ -74,6 +75,44 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   return body;
 }
 
+FrictionLaw make_friction(const parameters::ContactPair &pair) {
+  using Law = parameters::ContactPair::FrictionLaw;
+  if (pair.friction_coefficient == 0.)
+    return Frictionless();
+  switch (pair.friction_law) {
+  case Law::coulomb:
+    break;
+  case Law::shear_limited:
+    return ShearLimited{pair.friction_coefficient, pair.largest_shear_stress};
+  case Law::static_kinetic:
+    return StaticKinetic{pair.friction_coefficient, pair.kinetic_coefficient, pair.friction_decay};
+  case Law::pressure_dependent:
+    return PressureDependent{pair.friction_coefficient, pair.reference_pressure, pair.pressure_exponent};
+  }
+  return Coulomb{pair.friction_coefficient};
+}
+
+std::string describe_friction(const parameters::ContactPair &pair) {
+  using Law = parameters::ContactPair::FrictionLaw;
+  std::ostringstream text;
+  text << "mu = " << pair.friction_coefficient;
+  if (pair.friction_coefficient > 0.)
+    switch (pair.friction_law) {
+    case Law::coulomb:
+      break;
+    case Law::shear_limited:
+      text << " up to " << pair.largest_shear_stress;
+      break;
+    case Law::static_kinetic:
+      text << " at rest, " << pair.kinetic_coefficient << " when fast";
+      break;
+    case Law::pressure_dependent:
+      text << " at pressure " << pair.reference_pressure << ", falling";
+      break;
+    }
+  return text.str();
+}
+
 } // namespace
 
 Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
@@ -88,7 +127,7 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   });
   for (const auto &pair : parameters.pairs)
     pairs_.push_back({pair.name, parameters.body_index(pair), pair.boundary_ids.value,
-                      parameters.tool_index(pair), pair.friction_coefficient,
+                      parameters.tool_index(pair), make_friction(pair),
                       pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor, pair.normal_penalty,
                       pair.tangential_penalty});
 
@@ -99,15 +138,16 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
       capabilities_.moving_supports |= hold.value != nullptr;
   }
   for (const auto &pair : pairs_)
-    capabilities_.friction |= pair.friction_coefficient > 0.;
+    capabilities_.friction |= pair.has_friction();
   using Tangent = parameters::ContactTangent;
   contact_tangent_ = parameters.solver.contact_tangent;
   if (contact_tangent_ == Tangent::automatic)
     contact_tangent_ = capabilities_.friction ? Tangent::exact : Tangent::consistent;
   capabilities_.unsymmetric_matrix =
-      capabilities_.contact && (contact_tangent_ == Tangent::exact ||
-                                (capabilities_.friction && (contact_tangent_ == Tangent::consistent ||
-                                                            contact_tangent_ == Tangent::continuum)));
+      capabilities_.contact &&
+      (contact_tangent_ == Tangent::exact || contact_tangent_ == Tangent::numerical ||
+       (capabilities_.friction &&
+        (contact_tangent_ == Tangent::consistent || contact_tangent_ == Tangent::continuum)));
   if (capabilities_.unsymmetric_matrix &&
       parameters.solver.linear_solver.value == parameters::Solver::LinearSolver::mumps_symmetric)
     throw InputError(parameters.solver.linear_solver.origin +
@@ -149,12 +189,14 @@ void Scene::describe(std::ostream &stream) const {
            << " supports\n";
   }
   for (const auto &tool : tools_)
-    stream << "Tool           " << tool.name() << ": rigid plane\n";
-  for (const auto &pair : pairs_)
+    stream << "Tool           " << tool.name() << ": rigid " << tool.shapes() << "\n";
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const ContactPair &pair = pairs_[p];
     stream << "Contact pair   " << pair.name << ": " << bodies_[pair.body].name << " on "
-           << tools_[pair.tool].name() << ", mu = " << pair.friction_coefficient << ", penalties "
+           << tools_[pair.tool].name() << ", " << describe_friction(parameters_.pairs[p]) << ", penalties "
            << pair.normal_penalty << ", " << pair.tangential_penalty
            << (pair.penalty_is_factor ? " E/h" : " (absolute)") << "\n";
+  }
   const auto &stepping = parameters_.time_stepping;
   stream << "Time           0 to " << stepping.end_time
          << (stepping.control == parameters::TimeStepping::Control::automatic ? ", automatic steps from "

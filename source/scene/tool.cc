@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/scene/tool.h"
 
-#include "billet/geometry/plane.h"
-
 #include <deal.II/base/point.h>
 #include <deal.II/physics/transformations.h>
 
 namespace billet {
 
 Tool::Tool(const parameters::Tool &parameters, const std::vector<parameters::Amplitude> &amplitudes)
-    : name_(parameters.name),
-      surface_(std::make_unique<Plane>(parameters.plane_point, parameters.plane_normal)),
+    : name_(parameters.name), shapes_(parameters.shapes), surface_(parameters.surface),
       angle_(parameters.motion.rotation_angle.value, Expression::Variables::time, amplitudes,
              parameters.motion.rotation_angle.origin),
       axis_(parameters.motion.rotation_axis), centre_(parameters.motion.centre) {

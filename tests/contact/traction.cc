@@ -14,7 +14,8 @@ using billet::testing::WorstError;
 
 namespace {
 
-constexpr ContactStiffness stiffness{3.5e5, 1.2e5, 0.3};
+constexpr ContactStiffness stiffness{3.5e5, 1.2e5};
+constexpr Coulomb coulomb{0.3};
 
 struct Sample {
   double gap;
@@ -31,7 +32,7 @@ std::vector<Sample> make_samples(const bool slipping) {
                         {random(-0.01, 0.01), random(-0.01, 0.01)}};
     const double trial = std::hypot(sample.tangential_n[0] - stiffness.tangential * sample.increment[0],
                                     sample.tangential_n[1] - stiffness.tangential * sample.increment[1]);
-    const double ratio = trial / (-stiffness.friction_coefficient * stiffness.normal * sample.gap);
+    const double ratio = trial / (-coulomb.coefficient * stiffness.normal * sample.gap);
     if (slipping ? ratio > 1.05 : ratio < 0.95)
       samples.push_back(sample);
   }
@@ -39,7 +40,7 @@ std::vector<Sample> make_samples(const bool slipping) {
 }
 
 FrameTraction evaluate(const Sample &s, const ContactTangent tangent) {
-  return compute_traction(stiffness, tangent, s.gap, s.tangential_n, s.increment, {0., 0.});
+  return compute_traction(coulomb, stiffness, tangent, s.gap, s.tangential_n, {s.increment});
 }
 
 /// Largest relative difference between the tangent and −∂t/∂u by central differences; u_n moves the gap.
@@ -76,7 +77,7 @@ void check_cone_and_return() {
     const FrameTraction t = evaluate(s, ContactTangent::consistent);
     statuses = statuses && t.status == ContactStatus::slip;
     const double size = std::hypot(t.tangential[0], t.tangential[1]);
-    cone_error.add(std::abs(size / (stiffness.friction_coefficient * t.pressure) - 1.));
+    cone_error.add(std::abs(size / (coulomb.coefficient * t.pressure) - 1.));
     const std::array<double, 2> trial{s.tangential_n[0] - stiffness.tangential * s.increment[0],
                                       s.tangential_n[1] - stiffness.tangential * s.increment[1]};
     direction_error.add(std::abs(trial[0] * t.tangential[1] - trial[1] * t.tangential[0]) / (size * size));
@@ -114,10 +115,11 @@ void check_tangents() {
       const auto enter = [&](const Sample &at) {
         const double fraction = at.gap / (at.gap - gap_n);
         const double slope = gap_n / (at.gap * (gap_n - at.gap));
-        return compute_traction(
-            {stiffness.normal, fraction * stiffness.tangential, stiffness.friction_coefficient},
-            ContactTangent::exact, at.gap, at.tangential_n, at.increment,
-            {slope * at.increment[0], slope * at.increment[1]});
+        TangentialIncrement increment{at.increment};
+        for (unsigned int i = 0; i < 2; ++i)
+          increment.gradient[i][2] = slope * at.increment[i];
+        return compute_traction(coulomb, {stiffness.normal, fraction * stiffness.tangential},
+                                ContactTangent::exact, at.gap, at.tangential_n, increment);
       };
       const FrameTraction here = enter(s);
       for (unsigned int i = 0; i < 2; ++i) {

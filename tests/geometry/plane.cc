@@ -23,12 +23,14 @@ int main() {
     }
     const Tensor<1, 3> normal = random.rotation() * z;
     const Plane plane(point, normal);
-    const auto projection = plane.project(x);
+    const auto projection = plane.closest_point(x);
     const Tensor<1, 3> foot = x - projection.gap * projection.normal;
     gap_error.add(std::abs((foot - point) * normal)); // the contact point lies in the plane
     normal_error.add((projection.normal - normal).norm());
-    for (const auto &corner : plane.picture(x, 3.).points)
-      picture_error.add(std::abs(plane.project(corner).gap));
+    SurfacePicture picture;
+    plane.draw({x, 3.}, picture);
+    for (const auto &corner : picture.points)
+      picture_error.add(std::abs(plane.closest_point(corner).gap));
 
     Placement placement;
     placement.rotation = random.rotation();
@@ -42,8 +44,8 @@ int main() {
   check("the normal is the plane's", normal_error.value(), 0.);
   Tensor<1, 3> above({0., 0., 2.}), below({0., 0., -2.}), up({0., 0., 1.});
   check("the gap is positive outside, negative inside",
-        Plane(Tensor<1, 3>(), up).project(above).gap == 2. &&
-            Plane(Tensor<1, 3>(), up).project(below).gap == -2.);
+        Plane(Tensor<1, 3>(), up).closest_point(above).gap == 2. &&
+            Plane(Tensor<1, 3>(), up).closest_point(below).gap == -2.);
   check("the picture lies in the plane", picture_error.value(), 1e-13);
   check("to the tool and back", round_trip_error.value(), 1e-13);
   check("a placement is rigid, and turns about the centre", rigid_error.value(), 1e-13);

@@ -29,8 +29,8 @@ int main(int argc, char *argv[]) {
     plane.offset = plane.normal * shift;
   }
   auto &tool = turned.tools[0];
-  tool.plane_point = R * tool.plane_point + shift;
-  tool.plane_normal = R * tool.plane_normal;
+  tool.surface = testing::make_plane(R * dealii::Tensor<1, 3>({0., 0., 15.}) + shift,
+                                     R * dealii::Tensor<1, 3>({0., 0., -1.}));
   for (unsigned int i = 0; i < 3; ++i)
     tool.motion.translation.value[i] = dealii::Utilities::to_string(R[i][2]) + "*(-9.6*t)";
 

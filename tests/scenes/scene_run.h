@@ -3,6 +3,7 @@
 #define BILLET_TESTS_SCENE_RUN_H
 
 #include "billet/errors.h"
+#include "billet/geometry/plane.h"
 #include "billet/solve/quasi_static.h"
 #include "billet/solve/step_control.h"
 
@@ -58,6 +59,14 @@ private:
 
 inline parameters::Scene read_shipped_scene(const std::string &name) {
   return parameters::Scene::read(std::string(SOURCE_DIR) + "/../../prm/" + name);
+}
+
+/// An infinite plane as the surface of a tool.
+inline std::shared_ptr<const RigidSurface> make_plane(const dealii::Tensor<1, 3> &point,
+                                                      const dealii::Tensor<1, 3> &normal) {
+  std::vector<std::unique_ptr<const SurfacePatch>> patches;
+  patches.push_back(std::make_unique<Plane>(point, normal));
+  return std::make_shared<const RigidSurface>(std::move(patches));
 }
 
 inline void set_fixed_steps(parameters::Scene &parameters, const unsigned int n) {

@@ -4,7 +4,9 @@
 
 #include "billet/contact/traction.h"
 #include "billet/discretization/supports.h"
+#include "billet/geometry/frame.h"
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <vector>
@@ -80,19 +82,24 @@ private:
     std::array<DofIndex, 3> dofs;
     dealii::Point<3> reference;
     ContactStiffness stiffness;
-    // at the last update()
+    double size;            ///< of the facets around it
+    double gap_n = 0.;      ///< at the start of the step
+    unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
+  };
+  /// What follows from a node's position.
+  struct NodeState {
     dealii::Tensor<1, 3> position;
     dealii::Tensor<1, 3> normal;
+    dealii::Tensor<2, 3> turning; ///< ∂n/∂x
     double gap = 0.;
+    unsigned int patch = 0;
     ContactStatus status = ContactStatus::open;
     double pressure = 0.;
     dealii::Tensor<1, 3> traction;
-    dealii::Tensor<2, 3> tangent;
+    dealii::Tensor<2, 3> tangent; ///< −∂traction/∂x
     double slip_increment = 0.;
-    double dissipation = 0.;       // per area, in this step
-    double tangential_energy = 0.; // per area
-    // at the start of the step
-    double gap_n = 0.;
+    double dissipation = 0.;       ///< per area, in this step
+    double tangential_energy = 0.; ///< per area
   };
   /// Only with friction.
   struct FrictionHistory {
@@ -101,30 +108,45 @@ private:
     std::array<double, 2> tangential{};
     dealii::Tensor<1, 3> tool_position; ///< of the slave node, in the tool's coordinates
     double slip = 0.;                   ///< length of the path slipped
+    double slip_rate = 0.;
   };
   /// Nodes ordered so that the area vector points out of the body.
   struct Facet {
     std::array<unsigned int, 4> nodes;
   };
+  using FacetStates = std::array<const NodeState *, 4>;
   struct FacetAreas {
     std::array<double, 4> areas;
-    /// ∂A_a/∂x_b
+    /// ∂A_a/∂x_b, normals held
     std::array<std::array<dealii::Tensor<1, 3>, 4>, 4> derivatives;
+    /// ∂A_a/∂n_a
+    std::array<dealii::Tensor<1, 3>, 4> normal_derivatives;
   };
 
   void collect_facets(const Discretization &discretization);
   void set_penalties(const Scene &scene, const Discretization &discretization);
-  void apply_friction(Node &node, const FrictionHistory &history_n, FrictionHistory &history) const;
-  FacetAreas compute_areas(const Facet &facet, bool with_derivatives) const;
+  /// The state of node i at `position`; with friction, the history that goes with it.
+  template <class Law>
+  NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
+                     FrictionHistory *history) const;
+  template <class Law>
+  void apply_friction(const Law &law, const Node &node, NodeState &state, const FrictionHistory &history_n,
+                      FrictionHistory &history) const;
+  FacetStates states_of(const Facet &facet) const;
+  static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
+  void add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
+  void add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
 
   const ContactPair &pair_;
   const Tool &tool_;
   const MPI_Comm communicator_;
   const ContactTangent tangent_;
   std::vector<Node> nodes_;
+  std::vector<NodeState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
   std::vector<Facet> facets_;
   Placement placement_n_, placement_;
+  double duration_ = 0.; ///< of the step [time]
 };
 
 } // namespace billet

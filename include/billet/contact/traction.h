@@ -2,7 +2,7 @@
 #ifndef BILLET_CONTACT_TRACTION_H
 #define BILLET_CONTACT_TRACTION_H
 
-#include "billet/geometry/frame.h"
+#include "billet/friction/friction_law.h"
 #include "billet/parameters/control.h"
 
 #include <array>
@@ -13,11 +13,10 @@ using parameters::ContactTangent;
 
 enum class ContactStatus { open = 0, stick = 1, slip = 2 };
 
-/// Penalties of a node [force/length³] and the friction coefficient of its pair.
+/// Penalties of a node [force/length³].
 struct ContactStiffness {
   double normal;
   double tangential;
-  double friction_coefficient;
 };
 
 /// Traction of a slave node in its contact frame, t = (t_q, t_r, p), and its derivative, both per current
@@ -31,24 +30,33 @@ struct FrameTraction {
   std::array<std::array<double, 3>, 3> tangent;
 };
 
-/// Coulomb friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40)); the slave's
-/// normal points against n.
+/// The relative tangential motion of a node over a step, on the current q and r.
+struct TangentialIncrement {
+  std::array<double, 2> value; ///< Δg [length]
+  /// ∂Δg/∂(u_q, u_r, u_n). (1 0 0; 0 1 0) on a plane; the turning of the frame and, where a node enters
+  /// contact within the step, its entry add to it. Only the exact tangent asks for it.
+  std::array<std::array<double, 3>, 2> gradient{{{1., 0., 0.}, {0., 1., 0.}}};
+  /// Slip rate = slip × this [1/time], 0 in a step without duration: then `rate` is the slip rate.
+  double per_time = 0.;
+  double rate = 0.;
+};
+
+/// Friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40)); the slave's normal
+/// points against n. With L(p, γ/Δt) the friction law's limit:
 ///   trial   t* = t_n − k_t Δg
-///   stick   |t*| ≤ μ p:  t = t*          slip   else:  t = μ p t*/|t*|
-/// `gap` < 0; `tangential_n` the traction at the start of the step and `increment` Δg the relative tangential
-/// displacement, both on the current q and r; `increment_slope` = ∂Δg/∂g, which is not zero where a node
-/// enters contact within the step. Tangents, with β = μ p/|t*|, t̂ = t*/|t*| and areas held:
-///   stick                  k_n n⊗n + k_t P                                              (58)
-///   consistent             k_n n⊗n + β k_t (P − t̂⊗t̂) + μ k_n t̂⊗n                       (55)-(57)
-///   continuum              the same with β = 1                                          (50)
-///   symmetrised            upper: the triangle of (57) that holds the coupling μ k_n t̂⊗n, mirrored; lower:
-///   the one
+///   stick   |t*| ≤ L(p, 0):  t = t*        slip   else:  |t*| − k_t γ = L(p, γ/Δt),  t = L t*/|t*|
+/// For Coulomb's law L = μ p. `gap` < 0; `tangential_n` is the traction at the start of the step. Tangents,
+/// with β = L/|t*|, t̂ = t*/|t*|, ρ = L_v/(k_t Δt + L_v), L_p and L_v the limit's slopes, and areas held:
+///   stick                  k_n n⊗n + k_t P                                                          (58)
+///   consistent             k_n n⊗n + β k_t (P − t̂⊗t̂) + L_p (1 − ρ) k_n t̂⊗n + ρ k_t t̂⊗t̂ (55)-(57) continuum
+///   the same with β = 1                                                      (50) symmetrised upper: the
+///   triangle of (57) that holds the coupling t̂⊗n, mirrored; lower: the one
 ///                          that does not; mean: half of each
-///   exact                  consistent, and the increment's slope over g
-FrameTraction compute_traction(const ContactStiffness &stiffness, ContactTangent tangent, double gap,
-                               const std::array<double, 2> &tangential_n,
-                               const std::array<double, 2> &increment,
-                               const std::array<double, 2> &increment_slope);
+///   exact                  consistent, with the increment's gradient in place of P
+template <class Law>
+FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness, ContactTangent tangent,
+                               double gap, const std::array<double, 2> &tangential_n,
+                               const TangentialIncrement &increment);
 
 /// The same without friction: only pressure and k_n n⊗n.
 FrameTraction compute_frictionless_traction(double normal_stiffness, double gap);

@@ -9,6 +9,9 @@ namespace billet {
 /// Contact reference system (CRS): right-handed, q × r = n.
 struct Frame {
   dealii::Tensor<1, 3> q, r, n;
+  /// How the frame spins about n when n turns by δn: δq = −(q·δn) n + (spin·δn) r, δr = −(r·δn) n − (spin·δn)
+  /// q.
+  dealii::Tensor<1, 3> spin;
 
   /// Any frame about the unit vector `n`; the same for the same n.
   static Frame from_normal(const dealii::Tensor<1, 3> &n) {
@@ -29,7 +32,9 @@ struct Frame {
   /// This frame, carried along by the rotation of the tool and then turned onto the new normal `n`
   /// (Bittencourt & Creus 1998, eqs. (4), (5) with the sign of (5) mended and the spin of the tool added):
   ///   q* = R q,  r = n × q* / |n × q*|,  q = r × n.
-  /// Where the normal has turned onto q* the frame follows r instead.
+  /// Where the normal has turned onto q* the frame follows r instead. With δr across r in the plane of δn ×
+  /// q*,
+  ///   spin = −(q*·n)/(q*·q) r,  or, following r* = R r,  (r*·n)/(r*·r) q.
   Frame transported(const dealii::Tensor<2, 3> &rotation, const dealii::Tensor<1, 3> &n_new) const {
     Frame frame;
     frame.n = n_new;
@@ -39,10 +44,13 @@ struct Frame {
     if (length > 0.5) {
       frame.r /= length;
       frame.q = dealii::cross_product_3d(frame.r, n_new);
+      frame.spin = -(q_carried * n_new) / (q_carried * frame.q) * frame.r;
     } else { // |n × q*|² + |n × r*|² ≥ 1: one of the two is always usable
-      frame.q = dealii::cross_product_3d(rotation * r, n_new);
+      const dealii::Tensor<1, 3> r_carried = rotation * r;
+      frame.q = dealii::cross_product_3d(r_carried, n_new);
       frame.q /= frame.q.norm();
       frame.r = dealii::cross_product_3d(n_new, frame.q);
+      frame.spin = (r_carried * n_new) / (r_carried * frame.r) * frame.q;
     }
     return frame;
   }

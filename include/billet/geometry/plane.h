@@ -2,22 +2,23 @@
 #ifndef BILLET_GEOMETRY_PLANE_H
 #define BILLET_GEOMETRY_PLANE_H
 
-#include "billet/geometry/rigid_surface.h"
+#include "billet/geometry/surface_patch.h"
 
 namespace billet {
 
 /// Infinite plane: g = (x − x_I)·n, eq. (13).
-class Plane final : public RigidSurface {
+class Plane final : public SurfacePatch {
 public:
   /// `normal` has unit length and points out of the tool.
   Plane(const dealii::Tensor<1, 3> &point, const dealii::Tensor<1, 3> &normal)
       : point_(point), normal_(normal) {}
 
-  Projection project(const dealii::Tensor<1, 3> &x) const override {
-    return {normal_, (x - point_) * normal_};
+  ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override {
+    const double gap = (x - point_) * normal_;
+    return {x - gap * normal_, normal_, gap, {}};
   }
-
-  SurfacePicture picture(const dealii::Tensor<1, 3> &centre, double radius) const override;
+  BoundingBox bounding_box() const override;
+  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
 
 private:
   dealii::Tensor<1, 3> point_, normal_;

@@ -2,34 +2,50 @@
 #ifndef BILLET_GEOMETRY_RIGID_SURFACE_H
 #define BILLET_GEOMETRY_RIGID_SURFACE_H
 
-#include <deal.II/base/tensor.h>
+#include "billet/geometry/surface_patch.h"
 
-#include <array>
-#include <vector>
+#include <memory>
 
 namespace billet {
 
-/// Triangles and quadrilaterals that picture a surface, in the tool's own coordinates.
-struct SurfacePicture {
-  std::vector<dealii::Tensor<1, 3>> points;
-  std::vector<std::vector<unsigned int>> facets;
-};
-
-/// Surface of a rigid tool in the tool's own coordinates. Pure: no mesh, no motion.
+/// The surface of a rigid tool in the tool's own coordinates: patches, of which the nearest counts. Where
+/// patches meet the surface goes on: on a smooth seam nothing shows; in a concave edge the gap is the
+/// distance to the edge; beyond a border that no other patch shares there is no surface.
 class RigidSurface {
 public:
-  virtual ~RigidSurface() = default;
+  explicit RigidSurface(std::vector<std::unique_ptr<const SurfacePatch>> patches);
+  ~RigidSurface();
 
   struct Projection {
+    bool exists;                 ///< whether the surface lies before the point; else only the gap is set
     dealii::Tensor<1, 3> normal; ///< unit, out of the tool, at the contact point
-    double gap;                  ///< (x − x_P)·n, positive where the point is outside [length]
+    double gap; ///< (x − x_P)·n, positive outside; without contact point, the distance [length]
+    dealii::Tensor<2, 3> turning; ///< ∂n/∂x [1/length]
+    unsigned int patch;           ///< the nearest, to start from the next time
   };
 
-  /// The contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)).
-  virtual Projection project(const dealii::Tensor<1, 3> &x) const = 0;
+  /// The contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)). The answer does not depend on
+  /// `first_patch`, a guess of the nearest one; the cost does.
+  Projection project(const dealii::Tensor<1, 3> &x, unsigned int first_patch = 0) const;
 
-  /// A picture of the part near the ball about `centre` [length].
-  virtual SurfacePicture picture(const dealii::Tensor<1, 3> &centre, double radius) const = 0;
+  std::size_t n_patches() const { return patches_.size(); }
+  const BoundingBox &bounding_box() const { return box_; }
+  SurfacePicture picture(const PictureRegion &region) const;
+
+private:
+  struct Tree; ///< boxes of the patches
+  Projection project_beyond_border(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
+                                   unsigned int patch) const;
+  /// Calls visit(patch) for patches whose box is no farther from x than the root of `largest_square`, which
+  /// visit() may lower, nearest boxes first.
+  template <class Visit>
+  void visit_near(const dealii::Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const;
+
+  std::vector<std::unique_ptr<const SurfacePatch>> patches_;
+  std::vector<BoundingBox> boxes_;
+  std::unique_ptr<const Tree> tree_;
+  BoundingBox box_;
+  double tolerance_ = 0.; ///< patches that come nearer than this to each other meet [length]
 };
 
 } // namespace billet

@@ -36,6 +36,7 @@ struct TimeStepping {
 enum class ContactTangent {
   automatic, ///< exact where there is friction; consistent, and so symmetric, where there is none
   exact,
+  numerical, ///< the same by central differences, for comparison
   consistent,
   continuum,
   symmetrised_upper,

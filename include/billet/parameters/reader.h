@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_READER_H
 #define BILLET_PARAMETERS_READER_H
 
+#include "billet/geometry/surface_type.h"
 #include "billet/parameters/scene_file.h"
 
 #include <deal.II/base/tensor.h>
@@ -26,7 +27,7 @@ double parse_number(const std::string &text);
 
 /// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
 /// InputError with file, line, parameter, what was found and what is allowed.
-class Reader {
+class Reader : public SurfaceInput {
 public:
   Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
 
@@ -39,20 +40,22 @@ public:
   /// The subsections that the user opened here, by name.
   std::vector<std::string> names() const { return file_.names_below(path_); }
 
-  std::string text(const std::string &key) const;
+  std::string text(const std::string &key) const override;
   bool flag(const std::string &key) const;
-  double number(const std::string &key) const;
-  double positive(const std::string &key) const;
-  double not_negative(const std::string &key) const;
+  double number(const std::string &key) const override;
+  double positive(const std::string &key) const override;
+  double not_negative(const std::string &key) const override;
   unsigned int count(const std::string &key, unsigned int least = 0, unsigned int most = 999999999) const;
-  std::vector<double> numbers(const std::string &key) const;
+  std::vector<double> numbers(const std::string &key) const override;
   std::vector<unsigned int> counts(const std::string &key) const;
   /// Three numbers.
-  dealii::Tensor<1, 3> vector(const std::string &key) const;
+  dealii::Tensor<1, 3> vector(const std::string &key) const override;
   /// Three numbers, not all zero, normalised.
-  dealii::Tensor<1, 3> direction(const std::string &key) const;
+  dealii::Tensor<1, 3> direction(const std::string &key) const override;
   /// Parts between semicolons, trimmed, empty ones left out.
-  std::vector<std::string> parts(const std::string &key, char separator = ';') const;
+  std::vector<std::string> parts(const std::string &key, char separator = ';') const override;
+  /// The name of a file as it can be opened from here. Refuses one that cannot be read.
+  std::string file(const std::string &key) const override;
 
   template <class T> Located<T> located(const std::string &key, T value) const {
     return {std::move(value), origin(key)};
@@ -60,10 +63,9 @@ public:
   std::string origin(const std::string &key) const;
   /// The subsection at hand, for messages about what is missing in it.
   std::string origin() const;
-  bool is_set(const std::string &key) const { return file_.is_set(path_, key); }
-  const SceneFile &file() const { return file_; }
+  bool is_set(const std::string &key) const override { return file_.is_set(path_, key); }
 
-  [[noreturn]] void reject(const std::string &key, const std::string &allowed) const;
+  [[noreturn]] void reject(const std::string &key, const std::string &allowed) const override;
 
 private:
   void enter(const std::string &name);

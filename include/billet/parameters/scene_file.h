@@ -41,6 +41,9 @@ public:
   /// Names of the subsections right below `path`, in the order of their appearance.
   std::vector<std::string> names_below(const Path &path) const;
 
+  /// What an entry is set to; `otherwise` if it is not.
+  std::string value(const Path &path, const std::string &key, const std::string &otherwise) const;
+
   /// Hands every entry to `prm`. Throws InputError with file and line on an unknown subsection or parameter,
   /// one that is set twice, or a value of the wrong type.
   void set_all(dealii::ParameterHandler &prm) const;

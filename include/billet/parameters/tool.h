@@ -2,9 +2,12 @@
 #ifndef BILLET_PARAMETERS_TOOL_H
 #define BILLET_PARAMETERS_TOOL_H
 
+#include "billet/geometry/rigid_surface.h"
 #include "billet/parameters/reader.h"
 
 #include <array>
+#include <memory>
+#include <utility>
 
 namespace billet::parameters {
 
@@ -23,24 +26,33 @@ struct Motion {
 struct Tool {
   std::string name;
   std::string origin;
-  dealii::Tensor<1, 3> plane_point;
-  dealii::Tensor<1, 3> plane_normal; ///< unit, out of the tool
+  std::shared_ptr<const RigidSurface> surface;
+  std::string shapes; ///< of the surface's parts, for reports
   Motion motion;
 
-  static void declare(dealii::ParameterHandler &prm);
+  /// `shapes`: name and shape of each part of the surface.
+  static void declare(dealii::ParameterHandler &prm,
+                      const std::vector<std::pair<std::string, std::string>> &shapes);
   void parse(Reader &reader);
 };
 
 /// One named subsection of Contact pairs.
 struct ContactPair {
   enum class PenaltyUnit { factor, absolute };
+  enum class FrictionLaw { coulomb, shear_limited, static_kinetic, pressure_dependent };
 
   std::string name;
   std::string origin;
   Located<std::string> body;
   Located<std::vector<unsigned int>> boundary_ids;
   Located<std::string> tool;
-  double friction_coefficient;
+  FrictionLaw friction_law;
+  double friction_coefficient; ///< at rest, or at the reference pressure; 0: no friction
+  double largest_shear_stress; ///< of ShearLimited
+  double kinetic_coefficient;  ///< of StaticKinetic
+  double friction_decay;       ///< of StaticKinetic
+  double reference_pressure;   ///< of PressureDependent
+  double pressure_exponent;    ///< of PressureDependent
   PenaltyUnit penalty_unit;
   double normal_penalty;
   double tangential_penalty;
@@ -48,6 +60,9 @@ struct ContactPair {
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
+
+private:
+  void parse_friction(Reader &reader);
 };
 
 } // namespace billet::parameters

@@ -2,6 +2,7 @@
 #ifndef BILLET_SCENE_SCENE_H
 #define BILLET_SCENE_SCENE_H
 
+#include "billet/friction/friction_law.h"
 #include "billet/mechanics/element_block.h"
 #include "billet/parameters/scene.h"
 #include "billet/scene/mesh_builder.h"
@@ -43,10 +44,11 @@ struct ContactPair {
   std::size_t body;
   std::vector<unsigned int> boundary_ids;
   std::size_t tool;
-  double friction_coefficient;
+  FrictionLaw friction;
   bool penalty_is_factor;
   double normal_penalty, tangential_penalty;
 
+  bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
   /// k [force/length³] from the scene's number, for facets of size h on a body with Young's modulus E.
   double scaled_penalty(const double penalty, const double young_modulus, const double h) const {
     return penalty_is_factor ? penalty * young_modulus / h : penalty;

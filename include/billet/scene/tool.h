@@ -19,13 +19,15 @@ public:
 
   const std::string &name() const { return name_; }
   const RigidSurface &surface() const { return *surface_; }
+  /// In words.
+  const std::string &shapes() const { return shapes_; }
   Placement placement(double t) const;
   /// Of the motion; moments and turns are about it.
   const dealii::Tensor<1, 3> &rotation_axis() const { return axis_; }
 
 private:
-  std::string name_;
-  std::unique_ptr<RigidSurface> surface_;
+  std::string name_, shapes_;
+  std::shared_ptr<const RigidSurface> surface_;
   std::vector<Expression> translation_;
   Expression angle_;
   dealii::Tensor<1, 3> axis_, centre_;

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_SWEPT_PROFILE_H
+#define BILLET_GEOMETRY_SWEPT_PROFILE_H
+
+#include "billet/geometry/profile.h"
+#include "billet/geometry/surface_patch.h"
+
+namespace billet {
+
+/// Three orthonormal directions and an origin.
+struct Axes {
+  dealii::Tensor<1, 3> origin, x, y, z;
+
+  /// z along `axis` (unit); x as near to `towards` as it can be, y = z × x.
+  Axes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis,
+       const dealii::Tensor<1, 3> &towards);
+  /// x anyhow across the axis.
+  Axes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis);
+
+  dealii::Tensor<1, 3> from_origin(const double a, const double b, const double c) const {
+    return origin + a * x + b * y + c * z;
+  }
+};
+
+/// A profile of points (radius, height) revolved about the z axis: with the plane's gap g(ρ, z),
+///   ∂²g/∂x² = ∂²g/∂(ρ, z)² + (1/ρ ∂g/∂ρ) e_φ⊗e_φ.
+class RevolvedProfile final : public SurfacePatch {
+public:
+  /// From angle `from` on the x axis over `sweep` > 0 [radians]; 2π or more is all around. No point of the
+  /// profile has a negative radius.
+  RevolvedProfile(Profile profile, const Axes &axes, double from = 0., double sweep = 2. * M_PI);
+
+  ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
+  BoundingBox bounding_box() const override;
+  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+
+private:
+  Profile profile_;
+  Axes axes_;
+  double from_, sweep_;
+  bool is_full_;
+};
+
+/// A profile of points (x, y) extruded along z.
+class ExtrudedProfile final : public SurfacePatch {
+public:
+  /// From z = `low` to `high`, which may be infinite.
+  ExtrudedProfile(Profile profile, const Axes &axes, double low, double high);
+
+  ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
+  BoundingBox bounding_box() const override;
+  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+
+private:
+  Profile profile_;
+  Axes axes_;
+  double low_, high_;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/geometry/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace billet {
+
+namespace {
+
+using Point = Profile::Point;
+using Segment = Profile::Segment;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// Parts of the profile's size that count as nothing: ends that meet, points that lie on an end.
+constexpr double meeting = 1e-9, on_the_end = 1e-10;
+
+Point left_of(const Point &tangent) { return Point({-tangent[1], tangent[0]}); }
+Point at_angle(const double angle) { return Point({std::cos(angle), std::sin(angle)}); }
+double cross(const Point &a, const Point &b) { return a[0] * b[1] - a[1] * b[0]; }
+double angle_of(const Point &a) { return std::atan2(a[1], a[0]); }
+
+/// `angle` plus whole turns, into [0, 2π).
+double positive_angle(const double angle) {
+  const double turn = 2. * M_PI;
+  const double rest = std::fmod(angle, turn);
+  return rest < 0. ? rest + turn : rest;
+}
+
+} // namespace
+
+Segment Segment::line(const Point &start, const Point &end) {
+  Segment segment;
+  segment.start = start;
+  segment.end = end;
+  return segment;
+}
+
+Segment Segment::endless_line(const Point &point, const Point &direction) {
+  Segment segment = line(point, point + direction);
+  segment.is_endless = true;
+  return segment;
+}
+
+Segment Segment::arc(const Point &centre, const double radius, const double from, const double sweep) {
+  Segment segment;
+  segment.is_arc = true;
+  segment.centre = centre;
+  segment.radius = radius;
+  segment.from = from;
+  segment.sweep = sweep;
+  segment.start = centre + radius * at_angle(from);
+  segment.end = std::abs(sweep) == 2. * M_PI ? segment.start : centre + radius * at_angle(from + sweep);
+  return segment;
+}
+
+Segment Segment::arc_through(const Point &start, const Point &middle, const Point &end) {
+  const Point a = middle - start, b = end - start;
+  const double area = cross(a, b); // twice the triangle's
+  if (std::abs(area) <= 1e-12 * std::max(a.norm_square(), b.norm_square()))
+    return line(start, end);
+  // Circumcentre: (c − start)·a = a²/2, (c − start)·b = b²/2
+  const double fa = 0.5 * a.norm_square(), fb = 0.5 * b.norm_square();
+  const Point arm({(fa * b[1] - fb * a[1]) / area, (fb * a[0] - fa * b[0]) / area});
+  const Point centre = start + arm;
+  const double from = angle_of(start - centre), to = angle_of(end - centre);
+  const double left = positive_angle(to - from);
+  Segment segment = arc(centre, arm.norm(), from, area > 0. ? left : left - 2. * M_PI);
+  segment.start = start; // to the last bit
+  segment.end = end;
+  return segment;
+}
+
+Point Segment::tangent_at(const Point &point) const {
+  if (!is_arc)
+    return (end - start) / (end - start).norm();
+  const Point arm = point - centre;
+  return (sweep > 0. ? 1. : -1.) * left_of(arm / arm.norm());
+}
+
+Point Segment::foot(const Point &x) const {
+  if (!is_arc) {
+    const Point along = end - start;
+    return start + ((x - start) * along / along.norm_square()) * along;
+  }
+  const Point arm = x - centre;
+  const double length = arm.norm();
+  return length > 0. ? centre + radius / length * arm : start;
+}
+
+bool Segment::contains(const Point &point, const double slack) const {
+  if (is_endless)
+    return true;
+  if (!is_arc) {
+    const Point along = end - start;
+    const double part = (point - start) * along / along.norm();
+    return part >= -slack && part <= along.norm() + slack;
+  }
+  const double turned = positive_angle((sweep > 0. ? 1. : -1.) * (angle_of(point - centre) - from));
+  const double angle_slack = slack / radius;
+  return turned <= std::abs(sweep) + angle_slack || turned >= 2. * M_PI - angle_slack;
+}
+
+Profile::Profile(std::vector<Segment> segments, const Outside outside, const bool closed_start,
+                 const bool closed_end)
+    : segments_(std::move(segments)), side_(outside == Outside::left ? 1. : -1.), closed_start_(closed_start),
+      closed_end_(closed_end), is_loop_(false), size_(0.) {
+  for (const auto &segment : segments_) {
+    size_ = std::max({size_, (segment.end - segment.start).norm(), segment.radius});
+    size_ = std::max(size_, (segment.end - segments_.front().start).norm());
+  }
+  const Segment &last = segments_.back();
+  is_loop_ = (last.end - segments_.front().start).norm() <= meeting * size_;
+}
+
+Point Profile::normal_at(const Segment &segment, const Point &point) const {
+  return side_ * left_of(segment.tangent_at(point));
+}
+
+Profile::Closest Profile::at_joint(const Point &x, const Point &joint, const Point &first_normal,
+                                   const Point &second_normal, const double curvature) const {
+  Point normal = first_normal + second_normal;
+  const double length = normal.norm();
+  normal = length > 1e-6 ? normal / length : first_normal; // of a needle: any
+  const Point arm = x - joint;
+  const double distance = arm.norm();
+  const bool is_smooth = std::abs(cross(first_normal, second_normal)) <= 1e-9;
+  if (is_smooth || distance <= on_the_end * size_) {
+    const double gap = arm * normal;
+    return {joint, normal, gap, curvature / (1. + curvature * gap), false};
+  }
+  const double gap = arm * normal < 0. ? -distance : distance;
+  return {joint, arm / gap, gap, 1. / gap, false};
+}
+
+Profile::Closest Profile::closest_point(const Point &x) const {
+  double best_square = infinity;
+  std::size_t best = 0;
+  Point best_position;
+  int best_end = 0; // −1, 1: at the segment's start, end; 0: between them
+  for (std::size_t s = 0; s < segments_.size(); ++s) {
+    const Segment &segment = segments_[s];
+    Point position = segment.foot(x);
+    int end = 0;
+    if (!segment.contains(position, 0.)) {
+      const bool is_start = (x - segment.start).norm_square() <= (x - segment.end).norm_square();
+      position = is_start ? segment.start : segment.end;
+      end = is_start ? -1 : 1;
+    }
+    const double square = (x - position).norm_square();
+    if (square < best_square) {
+      best_square = square;
+      best = s;
+      best_position = position;
+      best_end = end;
+    }
+  }
+
+  const Segment &segment = segments_[best];
+  const Point normal = normal_at(segment, best_position);
+  const double curvature =
+      segment.is_arc ? (normal * (best_position - segment.centre) > 0. ? 1. : -1.) / segment.radius : 0.;
+  const Point arm = x - best_position;
+  const double gap = arm * normal;
+  const Closest straight_above = {best_position, normal, gap, curvature / (1. + curvature * gap), false};
+  if (best_end == 0)
+    return straight_above;
+
+  // At an end of a segment. The chain goes on there, or is mirrored there, or has its border there.
+  const bool is_first = best == 0 && best_end < 0, is_last = best + 1 == segments_.size() && best_end > 0;
+  if ((is_first || is_last) && !is_loop_) {
+    if (is_first ? closed_start_ : closed_end_)
+      return at_joint(x, best_position, normal, Point({-normal[0], normal[1]}), curvature);
+    Closest border = straight_above;
+    border.is_beyond_border = std::abs(arm * segment.tangent_at(best_position)) > on_the_end * size_;
+    return border;
+  }
+  const std::size_t n = segments_.size();
+  const Segment &neighbour = segments_[(best + (best_end < 0 ? n - 1 : 1)) % n];
+  return at_joint(x, best_position, normal, normal_at(neighbour, best_position), curvature);
+}
+
+double Profile::support(const Point &direction) const {
+  double result = -infinity;
+  for (const auto &segment : segments_) {
+    result = std::max({result, segment.start * direction, segment.end * direction});
+    if (segment.is_endless && std::abs((segment.end - segment.start) * direction) > 1e-14 * direction.norm())
+      return infinity;
+    if (segment.is_arc && direction.norm() > 0.) {
+      const Point top = segment.centre + segment.radius / direction.norm() * direction;
+      if (segment.contains(top, 0.))
+        result = std::max(result, top * direction);
+    }
+  }
+  return result;
+}
+
+std::vector<Point> Profile::polyline(const double angle, const Point &centre, const double radius) const {
+  std::vector<Point> points;
+  const auto add = [&](const Point &point) {
+    if (points.empty() || (points.back() - point).norm() > meeting * size_)
+      points.push_back(point);
+  };
+  for (const auto &segment : segments_) {
+    if (segment.is_endless) {
+      const Point along = segment.end - segment.start;
+      const double middle = (centre - segment.start) * along;
+      add(segment.start + (middle - radius) * along);
+      add(segment.start + (middle + radius) * along);
+      continue;
+    }
+    add(segment.start);
+    if (segment.is_arc) {
+      const auto n = static_cast<int>(std::ceil(std::abs(segment.sweep) / angle));
+      for (int i = 1; i < n; ++i)
+        add(segment.centre + segment.radius * at_angle(segment.from + i * segment.sweep / n));
+    }
+    points.push_back(segment.end);
+  }
+  return points;
+}
+
+namespace {
+
+std::string print(const Point &point) {
+  std::ostringstream stream;
+  stream << "(" << point[0] << ", " << point[1] << ")";
+  return stream.str();
+}
+
+/// The endless curve at `offset` to the left of a segment.
+Segment offset_curve(const Segment &segment, const double offset) {
+  Segment result = segment;
+  if (segment.is_arc)
+    result.radius = segment.radius - (segment.sweep > 0. ? offset : -offset);
+  else {
+    const Point shift = offset * left_of(segment.tangent_at(segment.start));
+    result.start += shift;
+    result.end += shift;
+  }
+  return result;
+}
+
+std::vector<Point> intersections(const Segment &a, const Segment &b) {
+  if (a.is_arc && !b.is_arc)
+    return intersections(b, a);
+  if (!a.is_arc && !b.is_arc) {
+    const Point u = a.end - a.start, v = b.end - b.start;
+    const double sine = cross(u, v);
+    if (std::abs(sine) <= 1e-14 * u.norm() * v.norm())
+      return {};
+    return {a.start + cross(b.start - a.start, v) / sine * u};
+  }
+  // A foot on the line (of the centres' radical line, for two circles) and half a chord.
+  Point foot, along;
+  if (!a.is_arc) {
+    foot = a.foot(b.centre);
+    along = (a.end - a.start) / (a.end - a.start).norm();
+  } else {
+    const Point d = b.centre - a.centre;
+    const double length = d.norm();
+    if (length == 0.)
+      return {};
+    const double part = 0.5 * (length * length + a.radius * a.radius - b.radius * b.radius) / length;
+    foot = a.centre + part / length * d;
+    along = left_of(d / length);
+  }
+  const double chord = b.radius * b.radius - (foot - b.centre).norm_square();
+  if (chord < 0.)
+    return {};
+  return {foot + std::sqrt(chord) * along, foot - std::sqrt(chord) * along};
+}
+
+/// Rounds the corner between two segments; shortens them.
+Segment round_off(Segment &before, Segment &after, const double radius) {
+  const Point corner = before.end;
+  const double slack = 1e-9 * std::max(radius, (before.end - before.start).norm());
+  bool found = false;
+  Segment best;
+  double best_distance = infinity;
+  for (const double side : {1., -1.}) { // the fillet's centre lies to the left, or to the right, of both
+    const Segment a = offset_curve(before, side * radius), b = offset_curve(after, side * radius);
+    if ((a.is_arc && a.radius <= 0.) || (b.is_arc && b.radius <= 0.))
+      continue;
+    for (const Point &centre : intersections(a, b)) {
+      const Point first = before.foot(centre), second = after.foot(centre);
+      if (!before.contains(first, slack) || !after.contains(second, slack))
+        continue;
+      const double from = angle_of(first - centre), to = angle_of(second - centre);
+      const double left = positive_angle(to - from);
+      Segment fillet = Segment::arc(centre, radius, from, side > 0. ? left : left - 2. * M_PI);
+      fillet.start = first;
+      fillet.end = second;
+      const double distance = (centre - corner).norm();
+      if (std::abs(fillet.sweep) < M_PI && distance < best_distance) {
+        found = true;
+        best = fillet;
+        best_distance = distance;
+      }
+    }
+  }
+  if (!found)
+    throw std::invalid_argument("the fillet of radius " + std::to_string(radius) + " at " + print(corner) +
+                                " does not fit between its neighbours");
+  const auto shorten = [](Segment &segment, const Point &start, const Point &end) {
+    if (segment.is_arc) {
+      const double turned =
+          positive_angle((segment.sweep > 0. ? 1. : -1.) *
+                         (angle_of(end - segment.centre) - angle_of(start - segment.centre)));
+      segment.from = angle_of(start - segment.centre);
+      segment.sweep = segment.sweep > 0. ? turned : -turned;
+    }
+    segment.start = start;
+    segment.end = end;
+  };
+  shorten(before, before.start, best.start);
+  shorten(after, best.end, after.end);
+  return best;
+}
+
+} // namespace
+
+std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners) {
+  if (corners.size() < 2)
+    throw std::invalid_argument("a profile needs two points");
+  double size = 0.;
+  for (const auto &corner : corners)
+    size = std::max(size, (corner.position - corners.front().position).norm());
+  std::vector<Segment> legs;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const Point &start = corners[i - 1].position, &end = corners[i].position;
+    const bool goes_round = corners[i].has_via;
+    if ((end - start).norm() <= meeting * size)
+      throw std::invalid_argument("two points coincide at " + print(end));
+    legs.push_back(goes_round ? Segment::arc_through(start, corners[i].via, end) : Segment::line(start, end));
+  }
+  std::vector<Segment> segments{legs.front()};
+  for (std::size_t i = 1; i < legs.size(); ++i) {
+    if (corners[i].fillet > 0.)
+      segments.push_back(round_off(segments.back(), legs[i], corners[i].fillet));
+    segments.push_back(legs[i]);
+  }
+  // Of a leg between two fillets nothing may be left.
+  segments.erase(
+      std::remove_if(segments.begin(), segments.end(),
+                     [size](const Segment &s) { return (s.end - s.start).norm() <= meeting * size; }),
+      segments.end());
+  return segments;
+}
+
+} // namespace billet

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Sphere, cylinder, cone and torus: profiles of one arc or one line, revolved. Trimmed along the profile and
+// around the axis.
+#include "billet/geometry/surface_type.h"
+#include "billet/geometry/swept_profile.h"
+
+#include <cmath>
+
+namespace billet {
+
+namespace {
+
+using Kind = SurfaceParameter::Kind;
+using Point = Profile::Point;
+using Segment = Profile::Segment;
+using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
+
+constexpr double degree = M_PI / 180.;
+
+const SurfaceParameter axis_parameter{"Axis", "0, 0, 1", Kind::text, "Direction of the axis of revolution."};
+const std::vector<SurfaceParameter> sector_parameters{
+    {"Start", "1, 0, 0", Kind::text, "Direction across the axis where the sector begins."},
+    {"Sector", "360", Kind::number,
+     "> 0 and <= 360: how far it goes round, right-handed about the axis. [degrees]"}};
+
+std::vector<SurfaceParameter> with_sector(std::vector<SurfaceParameter> parameters) {
+  parameters.insert(parameters.end(), sector_parameters.begin(), sector_parameters.end());
+  parameters.push_back(side_parameter);
+  return parameters;
+}
+
+double in_range(const SurfaceInput &input, const std::string &key, const double low, const double high,
+                const std::string &allowed) {
+  const double value = input.number(key);
+  if (!(value >= low && value <= high))
+    input.reject(key, allowed);
+  return value;
+}
+
+Patches revolve(const SurfaceInput &input, const std::string &origin_key, const Profile &profile) {
+  const auto axis = input.direction("Axis");
+  const double sector = input.number("Sector");
+  if (!(sector > 0. && sector <= 360.))
+    input.reject("Sector", "a number > 0 and <= 360");
+  const auto origin = input.vector(origin_key);
+  Axes axes(origin, axis);
+  if (sector < 360.) {
+    const auto start = input.direction("Start");
+    if (dealii::cross_product_3d(start, axis).norm() < 1e-6)
+      input.reject("Start", "a direction across the axis");
+    axes = Axes(origin, axis, start);
+  } else if (input.is_set("Start"))
+    input.reject("Start", "no value: the surface goes all around");
+  Patches patches;
+  patches.push_back(std::make_unique<RevolvedProfile>(profile, axes, 0., sector * degree));
+  return patches;
+}
+
+/// Walked upwards (counter-clockwise, for an arc), the axis is on the left.
+Profile::Outside away_from_axis(const SurfaceInput &input) {
+  return side_sign(input) > 0. ? Profile::Outside::right : Profile::Outside::left;
+}
+
+} // namespace
+
+SurfaceType sphere_type() {
+  return {
+      "sphere", "A sphere, or a zone of it.",
+      with_sector(
+          {{"Centre", "0, 0, 0", Kind::text, "[length]"},
+           {"Radius", "1", Kind::number, "> 0. [length]"},
+           axis_parameter,
+           {"From latitude", "-90", Kind::number, "Where the zone begins, -90 at the pole below. [degrees]"},
+           {"To latitude", "90", Kind::number, "Where it ends, 90 at the pole above. [degrees]"}}),
+      [](const SurfaceInput &input) {
+        const double radius = input.positive("Radius");
+        const double from = in_range(input, "From latitude", -90., 90., "a number from -90 to 90");
+        const double to = in_range(input, "To latitude", -90., 90., "a number from -90 to 90");
+        if (to <= from)
+          input.reject("To latitude", "a number above 'From latitude'");
+        const Segment arc = Segment::arc(Point(), radius, from * degree, (to - from) * degree);
+        return revolve(input, "Centre", Profile({arc}, away_from_axis(input), from == -90., to == 90.));
+      }};
+}
+
+SurfaceType cylinder_type() {
+  return {"cylinder", "A cylinder, infinite unless it has a length.",
+          with_sector(
+              {{"Point", "0, 0, 0", Kind::text, "A point of the axis, in the middle of the length. [length]"},
+               axis_parameter,
+               {"Radius", "1", Kind::number, "> 0. [length]"},
+               {"Length", "", Kind::text, "> 0; empty: infinite. [length]"}}),
+          [](const SurfaceInput &input) {
+            const double radius = input.positive("Radius");
+            std::vector<Segment> segments;
+            if (input.text("Length").empty()) {
+              segments = {Segment::endless_line(Point({radius, 0.}), Point({0., 1.}))};
+            } else {
+              const auto length = input.numbers("Length");
+              if (length.size() != 1 || !(length[0] > 0.))
+                input.reject("Length", "a number > 0, or nothing");
+              segments = {Segment::line(Point({radius, -0.5 * length[0]}), Point({radius, 0.5 * length[0]}))};
+            }
+            return revolve(input, "Point", Profile(segments, away_from_axis(input)));
+          }};
+}
+
+SurfaceType cone_type() {
+  return {
+      "cone", "A cone, or a part of it between two circles.",
+      with_sector({{"Apex", "0, 0, 0", Kind::text, "[length]"},
+                   {"Axis", "0, 0, 1", Kind::text, "Direction of the axis, from the apex into the cone."},
+                   {"Half angle", "45", Kind::number, "> 0 and < 90, between axis and surface. [degrees]"},
+                   {"From height", "0", Kind::number, ">= 0, along the axis from the apex. [length]"},
+                   {"To height", "1", Kind::number, "> From height. [length]"}}),
+      [](const SurfaceInput &input) {
+        const double angle = input.number("Half angle") * degree;
+        if (!(angle > 0. && angle < 0.5 * M_PI))
+          input.reject("Half angle", "a number > 0 and < 90");
+        const double from = input.not_negative("From height"), to = input.number("To height");
+        if (!(to > from))
+          input.reject("To height", "a number above 'From height'");
+        const double slope = std::tan(angle);
+        const Segment line = Segment::line(Point({slope * from, from}), Point({slope * to, to}));
+        return revolve(input, "Apex", Profile({line}, away_from_axis(input), from == 0.));
+      }};
+}
+
+SurfaceType torus_type() {
+  return {"torus", "A torus, or a part of it such as a fillet.",
+          with_sector(
+              {{"Centre", "0, 0, 0", Kind::text, "Of the ring. [length]"},
+               axis_parameter,
+               {"Ring radius", "2", Kind::number, "> 0, of the circle in the tube's middle. [length]"},
+               {"Tube radius", "1", Kind::number, "> 0. [length]"},
+               {"From angle", "0", Kind::number,
+                "Where the part begins in the tube's section: 0 away from the axis, 90 along it. [degrees]"},
+               {"To angle", "360", Kind::number, "Where it ends, up to 360 further on. [degrees]"}}),
+          [](const SurfaceInput &input) {
+            const double ring = input.positive("Ring radius"), tube = input.positive("Tube radius");
+            const double from = input.number("From angle"), to = input.number("To angle");
+            if (!(to > from && to - from <= 360.))
+              input.reject("To angle", "a number above 'From angle', by at most 360");
+            const Segment arc = Segment::arc(Point({ring, 0.}), tube, from * degree, (to - from) * degree);
+            // A part that stays away from the axis may have a thick tube.
+            const double nearest = -Profile({arc}, Profile::Outside::right).support(Point({-1., 0.}));
+            if (nearest < -1e-12 * ring)
+              input.reject("Tube radius", "a tube that does not cross the axis: at most the ring radius " +
+                                              input.text("Ring radius"));
+            return revolve(input, "Centre", Profile({arc}, away_from_axis(input)));
+          }};
+}
+
+} // namespace billet

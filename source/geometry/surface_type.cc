@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/geometry/surface_type.h"
+
+namespace billet {
+
+SurfaceType plane_type();
+SurfaceType rectangle_type();
+SurfaceType disc_type();
+SurfaceType sphere_type();
+SurfaceType cylinder_type();
+SurfaceType cone_type();
+SurfaceType torus_type();
+SurfaceType revolved_profile_type();
+SurfaceType extruded_profile_type();
+
+const std::vector<SurfaceType> &surface_types() {
+  static const std::vector<SurfaceType> types{
+      plane_type(),  rectangle_type(),        disc_type(),
+      sphere_type(), cylinder_type(),         cone_type(),
+      torus_type(),  revolved_profile_type(), extruded_profile_type()};
+  return types;
+}
+
+const SurfaceParameter side_parameter{"Side", "outside", SurfaceParameter::Kind::choice,
+                                      "outside|inside: Where the bodies are."};
+
+double side_sign(const SurfaceInput &input) { return input.text("Side") == "outside" ? 1. : -1.; }
+
+} // namespace billet
