@@ -41,7 +41,8 @@ int main(int argc, char *argv[]) {
     body.material.young_modulus *= 1e6;
     body.material.yield_stress *= 1e6;
     body.material.hardening_modulus *= 1e6;
-    in_m.tools[0].surface = testing::make_plane(dealii::Tensor<1, 3>({0., 0., 15e-3}), dealii::Tensor<1, 3>({0., 0., -1.}));
+    in_m.tools[0].surface =
+        testing::make_plane(dealii::Tensor<1, 3>({0., 0., 15e-3}), dealii::Tensor<1, 3>({0., 0., -1.}));
     in_m.tools[0].motion.translation.value[2] = "-9.6e-3*t";
     if (absolute) {
       in_m.pairs[0].normal_penalty *= 1e9; // N/mm³ to N/m³
