@@ -321,7 +321,7 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
         FrictionHistory ignored;
         for (unsigned int b = 0; b < 4; ++b) {
           const Node &node = nodes_[facet.nodes[b]];
-          const double h = 1e-5 * node.size;
+          const double h = 1e-7 * node.size;
           for (unsigned int j = 0; j < 3; ++j)
             for (const double sign : {1., -1.}) {
               Tensor<1, 3> position = states_[facet.nodes[b]].position;

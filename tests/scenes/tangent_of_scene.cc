@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The assembled tangent of a whole scene (elements, contact, supports) against central differences of its
-// residual, with nodes that stick, slip and enter, on a tool that turns and moves.
+// residual, with nodes that stick, slip and enter, on tools of every shape that turn and move, for every
+// friction law.
 #include "scene_run.h"
+
+#include "../geometry/make_surface.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -59,6 +62,74 @@ double tangent_error(SceneRun &run, const double t, const unsigned int n_directi
   return error.value();
 }
 
+/// The block is pressed onto a curved tool, shoved and turned over it.
+parameters::Scene make_curved(const testing::SurfacePart &part, const double friction_coefficient) {
+  parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
+  scene.bodies[0].supports[0].displacement.value = {"0.04*t", "0.03*t - 0.01*z*t", "-0.08*t"};
+  scene.bodies[0].material.yield_stress = 1e6;
+  scene.tools[0].surface = testing::make_surface(part.shape, part.lines);
+  scene.tools[0].motion.rotation_axis = dealii::Tensor<1, 3>({2. / 7., 3. / 7., 6. / 7.});
+  scene.tools[0].motion.rotation_angle.value = "0.05*t";
+  scene.tools[0].motion.translation.value = {"0.01*t", "0", "0.01*t"};
+  scene.pairs[0].friction_coefficient = friction_coefficient;
+  scene.pairs[0].allowed_penetration.value = 1.;
+  scene.time_stepping.initial_step = 0.1;
+  return scene;
+}
+
+void check_curved() {
+  const std::vector<testing::SurfacePart> parts{
+      {"sphere", "set Centre = 0.45, 0.55, -5\nset Radius = 5"},
+      {"sphere", "set Centre = 0.45, 0.55, 4.9\nset Radius = 5\nset Side = inside"},
+      {"cylinder", "set Point = 0.45, 0.55, -3\nset Radius = 3\nset Axis = 1, 0.4, 0.1"},
+      {"cone", "set Apex = -4, 0.6, -1.5\nset Axis = 1, 0, 0\nset Half angle = 18\nset To height = 12"},
+      {"torus", "set Centre = 0.45, 0.55, -8\nset Axis = 0, 1, 0\nset Ring radius = 5\nset Tube radius = 3"},
+      {"torus",
+       "set Centre = 0.45, 0.55, 4.98\nset Axis = 0, 1, 0.05\nset Ring radius = 7\nset Tube radius = 2"},
+      {"revolved profile",
+       "set Origin = 0.45, 0.55, 0\nset Corners = 0, 0 ; 0.35, 0 : 1 ; 1, -0.2\nset Outside = left"}};
+  for (const auto &part : parts)
+    for (const double friction : {0.8, 0.03, 0.}) {
+      const std::string state = friction > 0.5  ? ", much friction"
+                                : friction > 0. ? ", little friction"
+                                                : ", no friction";
+      parameters::Scene scene = make_curved(part, friction);
+      scene.solver.contact_tangent = parameters::ContactTangent::exact;
+      SceneRun exact(scene);
+      check(part.shape + state + ": exact tangent", tangent_error(exact, 0.75, 3), 1e-6);
+      unsigned int n_touch = 0, n_stick = 0;
+      for (const auto &node : exact.problem.contacts()[0].report()) {
+        n_touch += node.status != ContactStatus::open;
+        n_stick += node.status == ContactStatus::stick;
+      }
+      check(part.shape + state + ": contact is as meant",
+            n_touch > 3 && (friction > 0.5 ? n_stick > 0 : n_stick < n_touch));
+    }
+  parameters::Scene scene = make_curved(parts[4], 0.03);
+  scene.solver.contact_tangent = parameters::ContactTangent::numerical;
+  SceneRun numerical(scene);
+  check("torus, slipping: numerical tangent", tangent_error(numerical, 0.75, 3), 1e-6);
+}
+
+void check_friction_laws() {
+  using Law = parameters::ContactPair::FrictionLaw;
+  for (const Law law : {Law::shear_limited, Law::static_kinetic, Law::pressure_dependent}) {
+    parameters::Scene scene = make_curved({"sphere", "set Centre = 0.45, 0.55, -5\nset Radius = 5"}, 0.1);
+    auto &pair = scene.pairs[0];
+    pair.friction_law = law;
+    pair.largest_shear_stress = 1.;
+    pair.kinetic_coefficient = 0.05;
+    pair.friction_decay = 5.;
+    pair.reference_pressure = 10.;
+    pair.pressure_exponent = 0.6;
+    SceneRun run(scene);
+    const std::string name = law == Law::shear_limited    ? "shear limited"
+                             : law == Law::static_kinetic ? "static-kinetic"
+                                                          : "pressure dependent";
+    check(name + " friction on a sphere: exact tangent", tangent_error(run, 0.75, 3), 1e-6);
+  }
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -78,5 +149,8 @@ int main(int argc, char *argv[]) {
   block.pairs[0].friction_coefficient = 0.05;
   SceneRun dragged(block);
   check("block on a turning plane, slipping: exact tangent", tangent_error(dragged, 0.8, 5), 1e-6);
+
+  check_curved();
+  check_friction_laws();
   return billet::testing::exit_code();
 }
