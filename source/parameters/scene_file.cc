@@ -53,7 +53,7 @@ std::string describe_pattern(const std::string &message) {
   const auto end = text.find("]>", begin);
   if (begin == std::string::npos || end == std::string::npos)
     return text;
-  const std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
+  std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
   if (pattern.find("List of <[Double") != std::string::npos)
     return "numbers, separated by commas";
   if (pattern.find("List of <[Integer") != std::string::npos)

@@ -24,10 +24,10 @@ bool holds_face(const Hold &hold, const Triangulation<3>::active_face_iterator &
   if (!hold.on_plane)
     return std::find(hold.boundary_ids.begin(), hold.boundary_ids.end(), face->boundary_id()) !=
            hold.boundary_ids.end();
-  for (const unsigned int v : face->vertex_indices())
-    if (std::abs(face->vertex(v) * hold.normal - hold.offset) > tolerance)
-      return false;
-  return true;
+  const auto vertices = face->vertex_indices();
+  return std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
+    return std::abs(face->vertex(v) * hold.normal - hold.offset) <= tolerance;
+  });
 }
 
 namespace {

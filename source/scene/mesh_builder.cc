@@ -137,7 +137,8 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
 std::size_t count_full_elements(const parameters::Mesh &parameters, const Triangulation<3> &outline) {
   const bool is_extruded = parameters.source == parameters::Mesh::Source::extruded;
   const unsigned int per_refinement = is_extruded ? 4 : 8;
-  std::size_t count = outline.n_active_cells() * (is_extruded ? parameters.n_layers : 1);
+  std::size_t count = outline.n_active_cells();
+  count *= is_extruded ? parameters.n_layers : 1;
   for (unsigned int i = 0; i < parameters.refinements; ++i)
     count *= per_refinement;
   return count;

@@ -208,7 +208,7 @@ public:
   NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic &solver,
                                           NOX::StatusTest::CheckType) override {
     const auto &group = dynamic_cast<const Group &>(solver.getSolutionGroup());
-    const unsigned int n = static_cast<unsigned int>(solver.getNumIterations());
+    const auto n = static_cast<unsigned int>(solver.getNumIterations());
     const double norm = group.getNormF();
     const double scale = group.scale();
     report_.force = scale > 0. ? norm / scale : 0.;

@@ -59,34 +59,47 @@ def variant(text, changes):
     return "\n".join(lines) + "\n"
 
 
+def read_scene(path):
+    """The text of a scene file, with what it includes in place."""
+    lines = []
+    for line in path.read_text().splitlines():
+        included = re.match(r"\s*include\s+(\S+)", line)
+        lines.append(read_scene(path.parent / included.group(1)) if included else line)
+    return "\n".join(lines)
+
+
 def children_seconds():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
 
 class Run:
-    """A finished run: `converged`, `failure` (why not, in short), `times` and `forces` (on the whole billet, in kN,
-    from time 0 on), `steps`, `iterations` (with those of cut steps), `cuts`, `seconds` (user and system, of all ranks)."""
+    """A finished run: `converged`, `failure` (why not, in short), `times` and `forces` (on the whole body, in kN,
+    from time 0 on), `steps`, `iterations` (with those of cut steps), `cuts`, `seconds` (user and system, of all ranks),
+    `rows` of the history, what was `said` on the console. Results stay in `folder`, if there is one."""
 
-    def __init__(self, changes=None, ranks=1):
-        text = variant(SCENE.read_text(), {"Output/Format": "none", "Output/Verbosity": "quiet",
+    def __init__(self, changes=None, ranks=1, scene=SCENE, tool="die", folder=None):
+        text = variant(read_scene(scene), {"Output/Format": "none", "Output/Verbosity": "quiet",
                                            "Output/Folder": "results", **(changes or {})})
         command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
-        with tempfile.TemporaryDirectory() as folder:
-            Path(folder, "scene.prm").write_text(text)
+        with tempfile.TemporaryDirectory() as temporary:
+            place = Path(folder or temporary)
+            place.mkdir(parents=True, exist_ok=True)
+            (place / "scene.prm").write_text(text)
             before = children_seconds()
-            done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+            done = subprocess.run(command, cwd=place, capture_output=True, text=True)
             self.seconds = children_seconds() - before
             if done.returncode not in (0, 3):
                 sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
-            with open(Path(folder, "results/history.csv"), newline="") as file:
+            with open(place / "results/history.csv", newline="") as file:
                 rows = list(csv.DictReader(file))
         self.converged = done.returncode == 0
         self.failure = ("" if self.converged else "inside out" if "inadmissible" in done.stderr else
                         "no convergence" if re.search("no convergence|given up", done.stderr) else
                         done.stderr.strip())
         self.times = [0.0] + [float(row["time"]) for row in rows]
-        self.forces = [0.0] + [-4e-3 * float(row["die.force_z"]) for row in rows]
+        self.forces = [0.0] + [-4e-3 * float(row[tool + ".force_z"]) for row in rows]
+        self.rows, self.said = rows, done.stdout
         self.steps = len(rows)
         self.iterations = int(rows[-1]["total_iterations"]) if rows else 0
         self.cuts = int(rows[-1]["total_cuts"]) if rows else 0

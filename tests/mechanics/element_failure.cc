@@ -162,6 +162,6 @@ int main() {
   test_reference();
   check("elastic, keeps no history", make_block({steel, {}}, cube())->history_size() == 0);
   check("plastic, keeps two beats of C_p and alpha in eight points",
-        make_block({steel, linear}, cube())->history_size() == 2 * 8 * 7);
+        make_block({steel, linear}, cube())->history_size() == 112); // 2 · 8 · 7
   return exit_code();
 }

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Wagoner's hemispherical punch: tangents, quadratic convergence, elements through the thickness, friction, strain."""
+
+import math
+import re
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot
+import numpy
+from vtk import vtkXMLUnstructuredGridReader
+from vtk.util.numpy_support import vtk_to_numpy
+
+from billet_runs import ROOT, TANGENT, Run, arguments, number, percent, publish, table
+
+options = arguments("wagoner-punch")
+TRAVEL = 40.0
+MESH = "Bodies/blank/Mesh/"
+STEP = "Time stepping/"
+coarse = {MESH + "Refinements": 3}
+base = coarse if options.quick else {}
+LOOSE = {"Solver/Force tolerance": 1e-2, "Solver/Energy tolerance": 1e-4}
+PAPER = {"exact": "170 / 83", "consistent": "176 / 87", "continuum": "219 / 95"}
+SCENES = {0.3: "wagoner_punch", 0.15: "wagoner_punch_mu_015", 0.0: "wagoner_punch_mu_0"}
+
+
+def run(changes=None, friction=0.3, folder=None):
+    return Run({**base, "Output/Interval": 0, **(changes or {})}, options.ranks,
+               ROOT / "prm" / (SCENES[friction] + ".prm"), "punch", folder)
+
+
+def outcome(r):
+    if r.converged:
+        return f"{r.iterations} / {r.steps}"
+    return f"{TRAVEL * r.times[-1]:.2g} mm: {r.failure}"
+
+
+def tangents():
+    rows = []
+    for tangent in ("exact", "numerical", "consistent", "continuum"):
+        # A tangent that needs thousands of steps is no choice: it may give up.
+        changes = {**coarse, TANGENT: tangent, STEP + "Smallest step": 1e-4}
+        default, loose = run(changes), run({**changes, **LOOSE})
+        rows.append([tangent, outcome(default), default.cuts, outcome(loose), loose.cuts, PAPER.get(tangent, "–")])
+    return table(["tangent", "1e-6: iterations / steps", "cuts", "1e-2: iterations / steps", "cuts",
+                  "paper: iterations / steps"], rows)
+
+
+def residuals():
+    """Of the first step of 1.5 % of the travel that ends past a third of it."""
+    rows = []
+    for tangent in ("exact", "consistent"):
+        r = run({**coarse, TANGENT: tangent, STEP + "Largest step": 0.015, "Output/Verbosity": "iterations"})
+        forces, found = [], None
+        for line in r.said.splitlines():
+            iteration = re.match(r"\s*iteration\s+\d+\s+force (\S+)", line)
+            step = re.match(r"\s*\d+\s+(\S+)\s+(\S+)\s+\d+\s+(\S+)", line)
+            if iteration:
+                forces.append(float(iteration.group(1)))
+            elif step:
+                if float(step.group(1)) > 1 / 3 and abs(float(step.group(2)) - 0.015) < 1e-6 and found is None:
+                    found = [tangent, number(TRAVEL * float(step.group(1)))] + [f"{f:.1e}" for f in forces[1:]] + [
+                        f"{float(step.group(3)):.1e}"]
+                forces = []
+        rows.append(found or [tangent, "–"])
+    rows.append(["paper", "–", "1.7e-01", "2.3e-03", "1.1e-05", "2.4e-10"])
+    width = max(len(row) for row in rows)
+    return table(["tangent", "travel"] + [f"residual {i}" for i in range(1, width - 1)],
+                 [row + [""] * (width - len(row)) for row in rows])
+
+
+class Shape:
+    """The blank at the end of a run: `radii` where segments of the meridian y = 0 began, their logarithmic strains
+    `meridional`; plastic strain of the elements, the radius of its peak."""
+
+    def __init__(self, folder):
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(sorted(Path(folder, "results").glob("fields_*.0.vtu"))[-1]))
+        reader.Update()
+        grid = reader.GetOutput()
+        now = vtk_to_numpy(grid.GetPoints().GetData())
+        start = now - vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+        chains = []
+        for surface in (0.0, 1.0):
+            on_it = (abs(start[:, 1]) < 1e-3) & (abs(start[:, 2] - surface) < 1e-3)
+            places = {round(float(a[0]), 3): b for a, b in zip(start[on_it], now[on_it])}
+            chains.append((sorted(places), numpy.array([places[r] for r in sorted(places)])))
+        radii = numpy.array(chains[0][0])
+        middle = 0.5 * (chains[0][1] + chains[1][1])
+        lengths = numpy.linalg.norm(numpy.diff(middle, axis=0), axis=1)
+        self.radii = 0.5 * (radii[1:] + radii[:-1])
+        self.meridional = numpy.log(lengths / numpy.diff(radii))
+        strain = vtk_to_numpy(grid.GetPointData().GetArray("equivalent_plastic_strain"))
+        ring = numpy.hypot(start[:, 0], start[:, 1])
+        self.centre = float(strain[ring < 1e-3].mean())
+        peak = int(strain.argmax())
+        # The mean over all elements with a corner at about this radius.
+        self.peak, self.peak_radius = float(strain[peak]), float(ring[abs(strain - strain[peak]) < 1e-9].mean())
+
+
+def run_with_shape(changes, friction):
+    with tempfile.TemporaryDirectory() as folder:
+        r = run({"Output/Format": "vtu", "Output/Every steps": 0, **changes}, friction, folder)
+        return r, Shape(folder)
+
+
+def forces_at(r):
+    return [number(r.force(travel / TRAVEL), 4) for travel in (10, 20, 30, 40)]
+
+
+def row_of(label, r, shape):
+    return [label, f"{r.iterations} / {r.steps}", number(r.seconds)] + forces_at(r) + [
+        number(shape.peak), number(shape.peak_radius), number(shape.centre)]
+
+
+HEAD = ["iterations / steps", "CPU seconds", "10 mm", "20 mm", "30 mm", "40 mm", "peak strain", "at radius",
+        "at the centre"]
+
+
+def thickness():
+    rows = []
+    for layers in (1, 2) if options.quick else (1, 2, 4):
+        r, shape = run_with_shape({MESH + "Layers": layers}, 0.3)
+        rows.append(row_of(layers, r, shape))
+    return table(["elements"] + HEAD, rows)
+
+
+def friction():
+    rows = []
+    figure, axes = pyplot.subplots(figsize=(7, 4.5))
+    for mu in SCENES:
+        r, shape = run_with_shape({}, mu)
+        rows.append(row_of(number(mu), r, shape))
+        axes.plot(shape.radii, shape.meridional, marker=".", label=f"µ = {mu:g}")
+    axes.set(xlabel="initial radius [mm]", ylabel="logarithmic meridional strain", xlim=(0, 66), ylim=(0, None))
+    axes.grid(alpha=0.3)
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(ROOT / "doc/images/wagoner_strain.png", dpi=110)
+    return table(["µ"] + HEAD, rows)
+
+
+publish(
+    "wagoner-punch", "Wagoner's hemispherical punch", options,
+    "A clamped disc of radius 66 mm and thickness 1 mm over a punch of radius 50.8 mm, travel 40 mm, k = 1e5 N/mm³ "
+    "(Bittencourt & Creus 1998, example 9.2). Each run once. Forces are those on the whole punch, in kN; plastic strain is "
+    "that of the elements, radii are those before forming, in mm.",
+    "## Tangents\n\nµ = 0.3, 192 bricks, steps of half a millimetre at most; iterations count those of cut steps. "
+    "Beside the default tolerance (1e-6 of the forces) a loose one, 1e-2, with 1e-4 of the energy, which is about what "
+    "the paper's two iterations a step point to.",
+    tangents(),
+    "## A step of 0.6 mm\n\nResiduals relative to the forces, after each iteration, of a step past a third of the travel; "
+    "the paper's mean residue beside them (its table 5).",
+    residuals(),
+    f"## Elements through the thickness\n\nµ = 0.3, {'192' if options.quick else '768'} bricks in each layer.",
+    thickness(),
+    "## Friction\n\nMeridional strain at the end of the travel:\n\n![Meridional strain over radius](../images/wagoner_strain.png)",
+    friction())
