@@ -125,7 +125,7 @@ void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) 
   const Scene scene(parameters);
   const Discretization discretization(scene, communicator);
   QuasiStatic problem(scene, discretization);
-  StepControl control(parameters.time_stepping, parameters.output.interval);
+  StepControl control(parameters.time_stepping, parameters.output.interval, scene.stops());
 
   std::unique_ptr<HistoryFile> history;
   fail_together(communicator, [&] {

@@ -29,7 +29,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
       communicator_(discretization.communicator()), tangent_(tangent) {
   collect_facets(discretization);
   set_penalties(scene, discretization);
-  start_step(0., 0.);
+  placement_n_ = placement_ = tool_.placement(0.);
   states_.resize(nodes_.size());
   if (pair_.has_friction())
     friction_n_.resize(nodes_.size());
@@ -99,13 +99,24 @@ void RigidContact::set_penalties(const Scene &scene, const Discretization &discr
   }
 }
 
-void RigidContact::start_step(const double t_n, const double t) {
-  placement_n_ = tool_.placement(t_n);
-  placement_ = tool_.placement(t);
-  duration_ = t - t_n;
+void RigidContact::start_step(const Placement &from, const Placement &to, const double duration) {
+  placement_n_ = from;
+  placement_ = to;
+  duration_ = duration;
+}
+
+void RigidContact::remove_tool() {
+  is_removed_ = true;
+  for (auto &state : states_)
+    state = NodeState();
+  for (auto &history : friction_)
+    history = FrictionHistory();
+  friction_n_ = friction_;
 }
 
 void RigidContact::update(const Vector &displacements) {
+  if (is_removed_)
+    return;
   std::visit(
       [&](const auto &law) {
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -283,20 +294,26 @@ void RigidContact::add_tangent(const TangentSystem &system) const {
   dealii::FullMatrix<double> facet_matrix(12, 12);
   std::vector<DofIndex> dofs(12);
   for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (std::all_of(states.begin(), states.end(),
-                    [](const NodeState *state) { return state->status == ContactStatus::open; }))
+    if (!compute_facet_tangent(facet, facet_matrix))
       continue;
-    facet_matrix = 0.;
-    if (tangent_ == ContactTangent::numerical)
-      add_numerical_tangent(facet, facet_matrix);
-    else
-      add_closed_tangent(facet, facet_matrix);
     for (unsigned int a = 0; a < 4; ++a)
       for (unsigned int i = 0; i < 3; ++i)
         dofs[3 * a + i] = nodes_[facet.nodes[a]].dofs[i];
     system.add(facet_matrix, dofs);
   }
+}
+
+bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
+  const FacetStates states = states_of(facet);
+  if (std::all_of(states.begin(), states.end(),
+                  [](const NodeState *state) { return state->status == ContactStatus::open; }))
+    return false;
+  matrix = 0.;
+  if (tangent_ == ContactTangent::numerical)
+    add_numerical_tangent(facet, matrix);
+  else
+    add_closed_tangent(facet, matrix);
+  return true;
 }
 
 void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
@@ -339,8 +356,7 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
       pair_.friction);
 }
 
-void RigidContact::add_tool_push(const double t, Vector &forces) const {
-  const Placement after = tool_.placement(t);
+void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
   for (const auto &facet : facets_) {
     const FacetAreas areas = compute_areas(states_of(facet), false);
     for (unsigned int a = 0; a < 4; ++a) {
@@ -353,6 +369,54 @@ void RigidContact::add_tool_push(const double t, Vector &forces) const {
       forces.add(3, nodes_[facet.nodes[a]].dofs.data(), values.data());
     }
   }
+}
+
+double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, Vector &row) const {
+  double power_slope = 0.;
+  dealii::FullMatrix<double> K(12, 12);
+  for (const auto &facet : facets_) {
+    if (!compute_facet_tangent(facet, K))
+      continue;
+    const FacetAreas areas = compute_areas(states_of(facet), false);
+    std::array<Tensor<1, 3>, 4> v, F;
+    for (unsigned int a = 0; a < 4; ++a) {
+      const NodeState &state = states_[facet.nodes[a]];
+      v[a] = rate.translation +
+             dealii::cross_product_3d(rate.rotation, state.position - placement_.moved_centre());
+      F[a] = areas.areas[a] * state.traction;
+    }
+    for (unsigned int a = 0; a < 4; ++a) {
+      Tensor<1, 3> along = dealii::cross_product_3d(rate.rotation, F[a]); // ∂F_a/∂s
+      Tensor<1, 3> power = dealii::cross_product_3d(F[a], rate.rotation); // ∂P/∂u_a: ω × x · F = x · F × ω
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int b = 0; b < 4; ++b)
+          for (unsigned int j = 0; j < 3; ++j) {
+            along[i] += K(3 * a + i, 3 * b + j) * v[b][j];
+            power[i] -= v[b][j] * K(3 * b + j, 3 * a + i);
+          }
+      power_slope += v[a] * along;
+      // The arm turns with the tool about a centre that does not: ω × v adds nothing that is not there
+      // already.
+      const std::array<double, 3> column_values{-along[0], -along[1], -along[2]};
+      const std::array<double, 3> row_values{power[0], power[1], power[2]};
+      const auto &dofs = nodes_[facet.nodes[a]].dofs;
+      column.add(3, dofs.data(), column_values.data());
+      row.add(3, dofs.data(), row_values.data());
+    }
+  }
+  return power_slope;
+}
+
+double RigidContact::distance_to_touch(const Tensor<1, 3> &direction) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto &node : nodes_) {
+    const NodeState &state = states_[static_cast<std::size_t>(&node - nodes_.data())];
+    const auto projection = tool_.surface().project(placement_.to_tool(state.position), node.patch);
+    const double approach = placement_.rotation * projection.normal * direction;
+    if (!is_removed_ && projection.exists && approach > 1e-6)
+      least = std::min(least, projection.gap / approach);
+  }
+  return least;
 }
 
 void RigidContact::commit() {

@@ -43,7 +43,8 @@ bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces
   return true;
 }
 
-bool InternalForces::assemble_tangent(const Vector &displacements, const TangentSystem &system) {
+bool InternalForces::assemble_tangent(const Vector &displacements, const TangentSystem &system,
+                                      const double yield_slack) {
   ElementVectors force{};
   ElementMatrix tangent{};
   dealii::FullMatrix<double> cell_matrix(n_element_dofs, n_element_dofs);
@@ -51,7 +52,7 @@ bool InternalForces::assemble_tangent(const Vector &displacements, const Tangent
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto &elements = discretization_.elements(b);
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, &tangent))
+      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, &tangent, yield_slack))
         return false;
       std::copy(tangent.begin(), tangent.end(), &cell_matrix(0, 0));
       dofs.assign(elements[e].dofs.begin(), elements[e].dofs.end());

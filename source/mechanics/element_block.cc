@@ -26,7 +26,7 @@ public:
   std::size_t size() const override { return elements_.size(); }
 
   bool evaluate(const std::size_t element, const ElementVectors &displacements, ElementVectors &force,
-                ElementMatrix *matrix) override {
+                ElementMatrix *matrix, const double yield_slack) override {
     MeanDilatationKinematics kinematics;
     if (!compute_kinematics(elements_[element], displacements, kinematics))
       return false;
@@ -34,7 +34,8 @@ public:
     std::array<SpatialModuli, n_element_points> moduli;
     for (unsigned int q = 0; q < n_element_points; ++q)
       if (!law_.update(kinematics.F_bar[q], history_at(history_n_, element)[q],
-                       history_at(history_, element)[q], tau[q], matrix != nullptr ? &moduli[q] : nullptr))
+                       history_at(history_, element)[q], tau[q], matrix != nullptr ? &moduli[q] : nullptr,
+                       yield_slack))
         return false;
     force.fill(0.);
     add_internal_force(elements_[element], kinematics, tau, force);

@@ -34,6 +34,8 @@ void Amplitude::parse(Reader &reader) {
 
 void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(), "The scene runs from time 0 to here. [time]");
+  prm.declare_entry("Stops", "", Patterns::Anything(),
+                    "Times at which steps end besides, separated by commas. [time]");
   prm.declare_entry(
       "Step control", "automatic", Patterns::Selection("automatic|fixed"),
       "automatic: the step follows the iterations that the last one needed, and a failed step is cut and "
@@ -55,6 +57,10 @@ void TimeStepping::declare(ParameterHandler &prm) {
 
 void TimeStepping::parse(Reader &reader) {
   end_time = reader.positive("End time");
+  stops = reader.numbers("Stops");
+  for (const double stop : stops)
+    if (!(stop > 0. && stop <= end_time))
+      reader.reject("Stops", "numbers > 0, not above the end time");
   control = reader.text("Step control") == "automatic" ? Control::automatic : Control::fixed;
   initial_step = reader.positive("Initial step");
   if (initial_step > end_time)

@@ -6,6 +6,8 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <limits>
+
 namespace billet::parameters {
 
 using dealii::ParameterHandler;
@@ -20,6 +22,26 @@ void Motion::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Centre", "0, 0, 0", Patterns::Anything(),
       "A point on the axis before the motion; moments on the tool refer to where it has moved. [length]");
+  prm.declare_entry(
+      "Force", "", Patterns::Anything(),
+      "Expression of t and the names of amplitudes. Unless empty, the tool moves on from where its "
+      "translation takes it, along the force direction, until it presses on the bodies with this force. "
+      "[force]");
+  prm.declare_entry("Force direction", "", Patterns::Anything(),
+                    "Where a tool with a force, or a stop force, presses to.");
+  prm.declare_entry(
+      "Moment", "", Patterns::Anything(),
+      "The same for the rotation: it turns on about its axis until it twists the bodies with this moment. "
+      "[force length]");
+  prm.declare_entry(
+      "Stop force", "", Patterns::Anything(),
+      "Expression of t and the names of amplitudes. Unless empty, the tool stops for good where it presses "
+      "along the force direction with this force. [force]");
+  prm.declare_entry(
+      "Removed at", "", Patterns::Anything(),
+      "The tool is taken away at this time, so that the bodies spring back; empty: never. [time]");
+  prm.declare_entry("Release time", "0", Patterns::Double(),
+                    ">= 0, in which the forces of a removed tool fade. [time]");
 }
 
 void Motion::parse(Reader &reader) {
@@ -31,6 +53,34 @@ void Motion::parse(Reader &reader) {
   rotation_angle = reader.located("Rotation angle", reader.text("Rotation angle"));
   rotation_axis = reader.direction("Rotation axis");
   centre = reader.vector("Centre");
+  parse_control(reader);
+}
+
+void Motion::parse_control(Reader &reader) {
+  const std::vector<std::pair<std::string, Control>> controls = {
+      {"Force", Control::force}, {"Moment", Control::moment}, {"Stop force", Control::stop}};
+  for (const auto &[key, kind] : controls) {
+    if (reader.text(key).empty())
+      continue;
+    if (control != Control::motion)
+      reader.reject(key, "no value: a tool has one of 'Force', 'Moment' and 'Stop force'");
+    control = kind;
+    load = reader.located(key, reader.text(key));
+  }
+  if (control == Control::force || control == Control::stop)
+    direction = reader.direction("Force direction");
+  else if (reader.is_set("Force direction"))
+    reader.reject("Force direction", "no value: the tool has no force");
+
+  removal_time = reader.located("Removed at", std::numeric_limits<double>::infinity());
+  release_time = reader.not_negative("Release time");
+  if (!reader.text("Removed at").empty()) {
+    const auto times = reader.numbers("Removed at");
+    if (times.size() != 1 || !(times[0] > 0.))
+      reader.reject("Removed at", "a number > 0, or nothing");
+    removal_time.value = times[0];
+  } else if (reader.is_set("Release time"))
+    reader.reject("Release time", "no value: the tool is not removed");
 }
 
 namespace {

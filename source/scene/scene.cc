@@ -5,6 +5,7 @@
 #include "billet/parameters/reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -123,6 +124,10 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
       tools_.emplace_back(tool, parameters.amplitudes);
       tools_.back().placement(0.);
       tools_.back().placement(parameters.time_stepping.end_time);
+      if (tools_.back().control() != Tool::Control::motion) {
+        tools_.back().load(0.);
+        tools_.back().load(parameters.time_stepping.end_time);
+      }
     }
   });
   for (const auto &pair : parameters.pairs)
@@ -170,6 +175,15 @@ void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) 
   check_initial_penetration(mesh);
 }
 
+std::vector<double> Scene::stops() const {
+  std::vector<double> times;
+  for (const auto &tool : tools_)
+    for (const double time : {tool.removal_time(), tool.removal_time() + tool.release_time()})
+      if (time < parameters_.time_stepping.end_time)
+        times.push_back(time);
+  return times;
+}
+
 void Scene::describe(std::ostream &stream) const {
   const auto yes_no = [](const bool b) { return b ? "yes" : "no (neither allocated nor run)"; };
   stream << "Scene          " << parameters_.file_name << "\n";
@@ -188,8 +202,25 @@ void Scene::describe(std::ostream &stream) const {
            << ", " << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
            << " supports\n";
   }
-  for (const auto &tool : tools_)
-    stream << "Tool           " << tool.name() << ": rigid " << tool.shapes() << "\n";
+  for (const auto &tool : tools_) {
+    stream << "Tool           " << tool.name() << ": rigid " << tool.shapes();
+    switch (tool.control()) {
+    case Tool::Control::motion:
+      break;
+    case Tool::Control::force:
+      stream << ", with a force";
+      break;
+    case Tool::Control::moment:
+      stream << ", with a moment";
+      break;
+    case Tool::Control::stop:
+      stream << ", stops at a force";
+      break;
+    }
+    if (std::isfinite(tool.removal_time()))
+      stream << ", removed at time " << tool.removal_time();
+    stream << "\n";
+  }
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const ContactPair &pair = pairs_[p];
     stream << "Contact pair   " << pair.name << ": " << bodies_[pair.body].name << " on "

@@ -41,7 +41,12 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   round_off_force_ = 100. * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
                      discretization.radius();
 
-  state_.tool_loads.resize(scene.tools().size());
+  const std::size_t n_tools = scene.tools().size();
+  offsets_.assign(n_tools, 0.);
+  offsets_n_ = offsets_;
+  stopped_.resize(n_tools);
+  fading_forces_.resize(n_tools);
+  state_.tool_loads.resize(n_tools);
   for (const auto &tool : scene.tools())
     state_.placements.push_back(tool.placement(0.));
   // Prescribed displacements hold at time 0, too.
@@ -50,6 +55,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     supports_.at_time(scene.parameters().time_stepping.end_time);
   });
   state_.displacements = u_n_;
+  choose_unknown_tools({});
 }
 
 void QuasiStatic::build_matrix() {
@@ -77,8 +83,18 @@ bool QuasiStatic::all_ranks(const bool success) const {
 }
 
 void QuasiStatic::set_trial(const Epetra_Vector &x) {
-  as_epetra(trial_) = x;
+  Epetra_Vector &displacements = as_epetra(trial_);
+  std::copy(x.Values(), x.Values() + displacements.MyLength(), displacements.Values());
   trial_ghosted_ = trial_;
+  if (unknown_tools_.empty())
+    return;
+  std::vector<double> values(unknown_tools_.size());
+  if (dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0)
+    std::copy(x.Values() + displacements.MyLength(), x.Values() + x.MyLength(), values.begin());
+  values = dealii::Utilities::MPI::broadcast(discretization_.communicator(), values, 0);
+  for (std::size_t k = 0; k < unknown_tools_.size(); ++k)
+    offsets_[unknown_tools_[k]] = values[k] / unit_of(unknown_tools_[k]);
+  place_tools(time_);
 }
 
 void QuasiStatic::condense(Vector &forces) const {
@@ -117,9 +133,18 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
   support_forces_ = raw_contact_;
   force_scale_ = std::max(force_scale_, support_forces_.l2_norm());
   total += support_forces_;
+  for (std::size_t tool = 0; tool < fading_forces_.size(); ++tool)
+    if (fading_forces_[tool])
+      total.add(fading(time_, tool), *fading_forces_[tool]);
   support_forces_ = total;
   condense(total);
-  residual = as_epetra(total);
+  const Epetra_Vector &values = as_epetra(total);
+  std::copy(values.Values(), values.Values() + values.MyLength(), residual.Values());
+  for (std::size_t k = 0; k < unknown_tools_.size(); ++k) {
+    const double excess = excess_load(unknown_tools_[k], time_) / unit_of(unknown_tools_[k]);
+    if (values.MyLength() + static_cast<int>(k) < residual.MyLength()) // on the rank that has it
+      residual[values.MyLength() + static_cast<int>(k)] = excess;
+  }
   return std::isfinite(force_scale_);
 }
 
@@ -128,34 +153,47 @@ bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
   return assemble_tangent({supports_.homogeneous(), matrix_});
 }
 
-bool QuasiStatic::assemble_tangent(const TangentSystem &system) {
+bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yield_slack) {
   system.matrix = 0.;
-  if (!all_ranks(internal_.assemble_tangent(trial_ghosted_, system)))
+  if (!all_ranks(internal_.assemble_tangent(trial_ghosted_, system, yield_slack)))
     return false;
   for (auto &contact : contacts_) {
     contact.update(trial_ghosted_);
     contact.add_tangent(system);
   }
   system.matrix.compress(dealii::VectorOperation::add);
+  assemble_tool_tangent();
   return direct_->factorize();
 }
 
 bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx) {
-  if (!direct_->solve(residual, dx))
+  Vector r_u = discretization_.make_owned_vector(), du = r_u;
+  Epetra_Vector &r_values = as_epetra(r_u);
+  std::copy(residual.Values(), residual.Values() + r_values.MyLength(), r_values.Values());
+  std::vector<double> r_s(unknown_tools_.size()), ds(r_s);
+  if (residual.MyLength() > r_values.MyLength())
+    std::copy(residual.Values() + r_values.MyLength(), residual.Values() + residual.MyLength(), r_s.begin());
+  if (!r_s.empty())
+    r_s = dealii::Utilities::MPI::broadcast(discretization_.communicator(), r_s, 0);
+  if (!solve_with_tools(r_u, r_s, -1., du, ds)) // what Newton subtracts
     return false;
-  Vector correction = discretization_.make_owned_vector();
-  as_epetra(correction) = dx;
-  supports_.homogeneous().distribute(correction);
-  dx = as_epetra(correction);
-  return std::isfinite(correction.l2_norm());
+  const Epetra_Vector &values = as_epetra(du);
+  std::copy(values.Values(), values.Values() + values.MyLength(), dx.Values());
+  if (dx.MyLength() > values.MyLength())
+    std::copy(ds.begin(), ds.end(), dx.Values() + values.MyLength());
+  return std::isfinite(du.l2_norm());
 }
 
 bool QuasiStatic::continue_increment(const double t, const double previous_step) {
+  if (has_lost_pace_)
+    return false;
   const double ratio = (t - state_.time) / previous_step;
   // Where tools or supports do not go on as they went, the last increment says little.
   constexpr double largest_jump = 0.1;
   const double t_n = state_.time;
   for (const auto &tool : scene_.tools()) {
+    if (stopped_[static_cast<std::size_t>(&tool - scene_.tools().data())])
+      continue;
     const Placement before = tool.placement(t_n - previous_step), now = tool.placement(t_n),
                     after = tool.placement(t);
     // Six points of the tool about the scene.
@@ -173,6 +211,8 @@ bool QuasiStatic::continue_increment(const double t, const double previous_step)
   }
   trial_ = u_n_;
   trial_.add(ratio, last_increment_);
+  for (const std::size_t tool : unknown_tools_)
+    offsets_[tool] = offsets_n_[tool] + ratio * last_offset_increments_[tool];
   Vector jump = trial_, motion = trial_;
   supports_.at_time(t).distribute(trial_);
   jump -= trial_;
@@ -187,42 +227,70 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
   const double t_n = state_.time;
   bool supports_move = false;
   const Constraints change = supports_.change(t_n, t, supports_move);
-  for (auto &contact : contacts_)
-    contact.start_step(t_n, t_n);
+  for (auto &contact : contacts_) {
+    const Placement &now = state_.placements[contact.tool()];
+    contact.start_step(now, now, 0.);
+  }
+  offsets_ = offsets_n_;
   Vector correction = discretization_.make_owned_vector(), rhs = correction;
-  if (!compute_residual(as_epetra(u_n_), as_epetra(rhs)))
-    return false;
+  {
+    const std::vector<std::size_t> unknown = unknown_tools_;
+    unknown_tools_.clear(); // their tools stay where they are
+    const bool is_admissible = compute_residual(as_epetra(u_n_), as_epetra(rhs));
+    unknown_tools_ = unknown;
+    if (!is_admissible)
+      return false;
+  }
   rhs *= -1.;
+  std::vector<double> load_rhs, offset_changes(unknown_tools_.size());
+  for (const std::size_t tool : unknown_tools_)
+    load_rhs.push_back(-excess_load(tool, t) / unit_of(tool));
   Vector pushes = discretization_.make_additive_vector(), lift = pushes;
   for (const auto &contact : contacts_)
-    contact.add_tool_push(t, pushes);
+    contact.add_tool_push(place(contact.tool(), t, offsets_n_[contact.tool()]), pushes);
   pushes.compress(dealii::VectorOperation::add);
   Vector push = correction;
   push = pushes;
   condense(push);
   rhs += push;
-  if (!assemble_tangent({change, matrix_, &lift}))
+  // The bodies go on as they went, unless what pressed on them is gone.
+  if (!assemble_tangent({change, matrix_, &lift}, has_lost_pace_ ? 1e-9 : -1e-9))
     return false;
   lift.compress(dealii::VectorOperation::add);
   push = lift;
   rhs += push;
-  if (!direct_->solve(as_epetra(rhs), as_epetra(correction)))
+  if (!solve_with_tools(rhs, load_rhs, 1., correction, offset_changes))
     return false;
   iteration = {1., std::abs(rhs * correction), 1.};
   change.distribute(correction);
   trial_ = u_n_;
   trial_ += correction;
   supports_.at_time(t).distribute(trial_);
+  for (std::size_t k = 0; k < unknown_tools_.size(); ++k)
+    offsets_[unknown_tools_[k]] += offset_changes[k] / unit_of(unknown_tools_[k]);
   return std::isfinite(trial_.l2_norm());
 }
 
 void QuasiStatic::start_step(const double t) {
-  for (auto &contact : contacts_)
-    contact.start_step(state_.time, t);
+  time_ = t;
+  for (auto &contact : contacts_) {
+    const std::size_t tool = contact.tool();
+    contact.start_step(state_.placements[tool], place(tool, t, offsets_[tool]), t - state_.time);
+  }
 }
 
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   NewtonReport report;
+  time_ = t;
+  tool_failure_.clear();
+  offsets_ = offsets_n_;
+  std::vector<std::size_t> pressing;
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
+    const auto control = scene_.tools()[i].control();
+    if ((control == Tool::Control::force || control == Tool::Control::moment) && !fading_forces_[i])
+      pressing.push_back(i);
+  }
+  choose_unknown_tools(pressing);
   const bool may_continue =
       scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation &&
       previous_step > 0. && continue_increment(t, previous_step);
@@ -230,25 +298,67 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   const bool has_guess = may_continue || follow_tangent(t, linear_step);
   start_step(t);
   if (!has_guess) {
-    report.failure = direct_->failure().empty() ? "the first guess is not admissible" : direct_->failure();
+    report.failure = !tool_failure_.empty()        ? tool_failure_
+                     : !direct_->failure().empty() ? direct_->failure()
+                                                   : "the first guess is not admissible";
     return report;
   }
   Vector x = trial_;
-  report = solve_newton(*this, scene_.parameters().solver, as_epetra(u_n_), as_epetra(x));
+  std::vector<double> offsets = offsets_;
+  report = iterate(offsets, x);
   if (!may_continue)
     report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
+
+  // A tool that has gone too far is drawn back to where it presses with its stop force.
+  std::vector<std::size_t> stopping;
+  if (report.converged)
+    stopping = tools_to_stop(t);
+  if (!stopping.empty()) {
+    pressing.insert(pressing.end(), stopping.begin(), stopping.end());
+    choose_unknown_tools(pressing);
+    const NewtonReport again = iterate(offsets, x);
+    report.converged = again.converged;
+    report.failure = again.failure;
+    report.force = again.force;
+    report.iterations.insert(report.iterations.end(), again.iterations.begin(), again.iterations.end());
+  }
   if (report.converged) {
     // The line search may have looked further since: the histories have to be those of the accepted state.
-    Epetra_Vector residual(as_epetra(x));
-    compute_residual(as_epetra(x), residual);
+    const Epetra_Vector accepted = pack(x, offsets);
+    Epetra_Vector residual(accepted);
+    compute_residual(accepted, residual);
     commit(t);
+    has_lost_pace_ = has_lost_pace_ || !stopping.empty();
+    for (const std::size_t tool : stopping)
+      stopped_[tool] = std::make_unique<Placement>(state_.placements[tool]);
   }
   return report;
 }
 
+NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displacements) {
+  const Epetra_Vector x_n = pack(u_n_, offsets_n_);
+  Epetra_Vector x = pack(displacements, offsets);
+  NewtonReport report = solve_newton(*this, scene_.parameters().solver, x_n, x);
+  if (!tool_failure_.empty() && !report.converged)
+    report.failure = tool_failure_;
+  set_trial(x);
+  displacements = trial_;
+  offsets = offsets_;
+  return report;
+}
+
 void QuasiStatic::commit(const double t) {
+  has_lost_pace_ = false;
   last_increment_ = trial_;
   last_increment_ -= u_n_;
+  last_offset_increments_.resize(offsets_.size());
+  for (std::size_t i = 0; i < offsets_.size(); ++i)
+    last_offset_increments_[i] = offsets_[i] - offsets_n_[i];
+  offsets_n_ = offsets_;
+  for (std::size_t tool = 0; tool < fading_forces_.size(); ++tool)
+    if (fading_forces_[tool])
+      state_.energies.external -=
+          0.5 * (fading(t, tool) + fading(state_.time, tool)) * (*fading_forces_[tool] * last_increment_);
   u_n_ = trial_;
   internal_.commit();
 
@@ -269,7 +379,9 @@ void QuasiStatic::commit(const double t) {
   for (std::size_t i = 0; i < state_.tool_loads.size(); ++i) {
     const ContactLoad &load = state_.tool_loads[i];
     Placement &placement = state_.placements[i];
-    placement = scene_.tools()[i].placement(t);
+    placement = place(i, t, offsets_[i]);
+    if (fading_forces_[i]) // it is gone, and does no work
+      continue;
     const double turn = placement.rotation_angle - placements_n[i].rotation_angle;
     state_.energies.external +=
         0.5 * ((load.force + loads_n[i].force) * (placement.translation - placements_n[i].translation) +
@@ -282,6 +394,171 @@ void QuasiStatic::commit(const double t) {
   const auto energies = internal_.compute_energies(state_.displacements);
   state_.energies.elastic = energies.elastic;
   state_.energies.plastic = energies.plastic;
+  remove_tools(t);
+}
+
+void QuasiStatic::choose_unknown_tools(const std::vector<std::size_t> &tools) {
+  unknown_tools_ = tools;
+  const Epetra_BlockMap &dofs = as_epetra(u_n_).Map();
+  std::vector<int> indices(dofs.MyGlobalElements(), dofs.MyGlobalElements() + dofs.NumMyElements());
+  if (dofs.Comm().MyPID() == 0)
+    for (std::size_t k = 0; k < tools.size(); ++k)
+      indices.push_back(dofs.NumGlobalElements() + static_cast<int>(k));
+  map_ = std::make_unique<Epetra_Map>(-1, static_cast<int>(indices.size()), indices.data(), 0, dofs.Comm());
+}
+
+Epetra_Vector QuasiStatic::pack(const Vector &displacements, const std::vector<double> &offsets) const {
+  Epetra_Vector x(*map_);
+  const Epetra_Vector &values = *displacements.trilinos_vector()(0);
+  std::copy(values.Values(), values.Values() + values.MyLength(), x.Values());
+  for (int i = values.MyLength(); i < x.MyLength(); ++i) {
+    const std::size_t tool = unknown_tools_[static_cast<std::size_t>(i - values.MyLength())];
+    x[i] = offsets[tool] * unit_of(tool);
+  }
+  return x;
+}
+
+Epetra_Vector QuasiStatic::unknowns() const { return pack(u_n_, offsets_n_); }
+
+Placement QuasiStatic::place(const std::size_t tool, const double t, const double offset) const {
+  return stopped_[tool] ? *stopped_[tool] : scene_.tools()[tool].placement(t, offset);
+}
+
+void QuasiStatic::place_tools(const double t) {
+  for (auto &contact : contacts_)
+    contact.set_placement(place(contact.tool(), t, offsets_[contact.tool()]));
+}
+
+double QuasiStatic::unit_of(const std::size_t tool) const {
+  return scene_.tools()[tool].control() == Tool::Control::moment ? discretization_.radius() : 1.;
+}
+
+RigidContact::ToolRate QuasiStatic::rate_of(const std::size_t tool) const {
+  if (scene_.tools()[tool].control() == Tool::Control::moment)
+    return {{}, scene_.tools()[tool].rotation_axis() / unit_of(tool)};
+  return {scene_.tools()[tool].force_direction(), {}};
+}
+
+double QuasiStatic::excess_load(const std::size_t tool, const double t) const {
+  ContactLoad load;
+  for (const auto &contact : contacts_)
+    if (contact.tool() == tool)
+      load += contact.compute_load();
+  const Tool &which = scene_.tools()[tool];
+  return (which.control() == Tool::Control::moment ? load.moment * which.rotation_axis()
+                                                   : load.force * which.force_direction()) -
+         which.load(t);
+}
+
+void QuasiStatic::assemble_tool_tangent() {
+  const std::size_t n = unknown_tools_.size();
+  tool_columns_.assign(n, discretization_.make_owned_vector());
+  tool_rows_ = tool_columns_;
+  tool_block_.reinit(n, n);
+  for (std::size_t k = 0; k < n; ++k) {
+    Vector column = discretization_.make_additive_vector(), row = column;
+    double slope = 0.;
+    for (const auto &contact : contacts_)
+      if (contact.tool() == unknown_tools_[k])
+        slope += contact.add_tool_derivatives(rate_of(unknown_tools_[k]), column, row);
+    column.compress(dealii::VectorOperation::add);
+    row.compress(dealii::VectorOperation::add);
+    tool_columns_[k] = column;
+    tool_rows_[k] = row;
+    condense(tool_columns_[k]);
+    tool_block_(k, k) = dealii::Utilities::MPI::sum(slope, discretization_.communicator());
+  }
+}
+
+bool QuasiStatic::solve_with_tools(const Vector &r_u, const std::vector<double> &r_s, const double sense,
+                                   Vector &du, std::vector<double> &ds) {
+  const auto solve = [this](const Vector &rhs, Vector &solution) {
+    if (!direct_->solve(*rhs.trilinos_vector()(0), as_epetra(solution)))
+      return false;
+    supports_.homogeneous().distribute(solution);
+    return true;
+  };
+  if (!solve(r_u, du))
+    return false;
+  const std::size_t n = unknown_tools_.size();
+  if (n == 0)
+    return true;
+  std::vector<Vector> Y(n, discretization_.make_owned_vector());
+  dealii::FullMatrix<double> S(tool_block_);
+  dealii::Vector<double> rhs(n), solution(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    if (!solve(tool_columns_[j], Y[j]))
+      return false;
+    for (std::size_t i = 0; i < n; ++i)
+      S(i, j) -= tool_rows_[i] * Y[j];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    rhs(i) = r_s[i] - tool_rows_[i] * du;
+    if (tool_block_(i, i) != 0.)
+      continue;
+    // It touches nothing, and goes on until it does.
+    const double way = distance_to_touch(unknown_tools_[i]);
+    if (!std::isfinite(way)) {
+      tool_failure_ = "tool '" + scene_.tools()[unknown_tools_[i]].name() +
+                      "' has a force or moment, but touches nothing that it could exert it on";
+      return false;
+    }
+    S(i, i) = 1.;
+    rhs(i) = sense * way;
+  }
+  S.gauss_jordan();
+  S.vmult(solution, rhs);
+  for (std::size_t j = 0; j < n; ++j) {
+    ds[j] = solution(j);
+    du.add(-ds[j], Y[j]);
+  }
+  return true;
+}
+
+double QuasiStatic::distance_to_touch(const std::size_t tool) const {
+  double way = std::numeric_limits<double>::infinity();
+  if (scene_.tools()[tool].control() != Tool::Control::moment)
+    for (const auto &contact : contacts_)
+      if (contact.tool() == tool)
+        way = std::min(way, contact.distance_to_touch(scene_.tools()[tool].force_direction()));
+  way = dealii::Utilities::MPI::min(way, discretization_.communicator());
+  // A little more, so that it does.
+  return way + 1e-6 * discretization_.radius();
+}
+
+std::vector<std::size_t> QuasiStatic::tools_to_stop(const double t) const {
+  std::vector<std::size_t> result;
+  const double tolerance = scene_.parameters().solver.force_tolerance;
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
+    if (scene_.tools()[i].control() == Tool::Control::stop && !stopped_[i] && !fading_forces_[i] &&
+        excess_load(i, t) > -tolerance * scene_.tools()[i].load(t))
+      result.push_back(i);
+  return result;
+}
+
+double QuasiStatic::fading(const double t, const std::size_t tool) const {
+  const Tool &gone = scene_.tools()[tool];
+  return gone.release_time() > 0. ? std::max(0., 1. - (t - gone.removal_time()) / gone.release_time()) : 0.;
+}
+
+void QuasiStatic::remove_tools(const double t) {
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
+    if (t < scene_.tools()[i].removal_time() || fading_forces_[i])
+      continue;
+    Vector forces = discretization_.make_additive_vector();
+    for (auto &contact : contacts_)
+      if (contact.tool() == i) {
+        contact.add_forces(forces);
+        contact.remove_tool();
+      }
+    forces.compress(dealii::VectorOperation::add);
+    fading_forces_[i] = std::make_unique<Vector>(discretization_.make_owned_vector());
+    *fading_forces_[i] = forces;
+    // What its penalty springs held goes with it.
+    state_.energies.external -= state_.tool_loads[i].stored_energy;
+    state_.energies.contact -= state_.tool_loads[i].stored_energy;
+    has_lost_pace_ = true;
+  }
 }
 
 } // namespace billet

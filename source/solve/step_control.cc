@@ -11,19 +11,24 @@ namespace {
 constexpr double slack = 1e-8;
 } // namespace
 
-StepControl::StepControl(const parameters::TimeStepping &parameters, const double interval)
-    : parameters_(parameters), interval_(interval), step_(parameters.initial_step) {}
+StepControl::StepControl(const parameters::TimeStepping &parameters, const double interval,
+                         std::vector<double> stops)
+    : parameters_(parameters), interval_(interval), stops_(std::move(stops)), step_(parameters.initial_step) {
+  stops_.insert(stops_.end(), parameters.stops.begin(), parameters.stops.end());
+  std::sort(stops_.begin(), stops_.end());
+}
 
 double StepControl::target() const {
-  if (interval_ == 0.)
-    return parameters_.end_time;
-  return std::min(parameters_.end_time,
-                  (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_);
+  double target = parameters_.end_time;
+  if (interval_ > 0.)
+    target = std::min(target, (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_);
+  const auto next = std::upper_bound(stops_.begin(), stops_.end(), time_);
+  return next == stops_.end() ? target : std::min(target, *next);
 }
 
 double StepControl::next_time() const {
   const double remaining = target() - time_;
-  if (parameters_.control == parameters::TimeStepping::Control::fixed && interval_ == 0.) {
+  if (parameters_.control == parameters::TimeStepping::Control::fixed && interval_ == 0. && stops_.empty()) {
     // The n-th step ends at n times the step, so that a thousand of them add no round-off.
     const double end = (n_steps_ + 1) * step_;
     return end >= parameters_.end_time - slack * step_ ? parameters_.end_time : end;

@@ -18,7 +18,7 @@ class SceneRun {
 public:
   explicit SceneRun(const parameters::Scene &parameters)
       : scene(parameters), discretization(scene, MPI_COMM_WORLD), problem(scene, discretization),
-        control(parameters.time_stepping, parameters.output.interval) {}
+        control(parameters.time_stepping, parameters.output.interval, scene.stops()) {}
 
   /// One accepted step, with cuts if need be. Throws where that is impossible.
   NewtonReport advance() {

@@ -42,8 +42,13 @@ public:
 
   std::size_t tool() const { return pair_.tool; }
 
-  /// The tool moves from where it is at t_n to where it is at t.
-  void start_step(double t_n, double t);
+  /// The tool moves in this time from one placement to the other.
+  void start_step(const Placement &from, const Placement &to, double duration);
+  /// Changes where it moves to.
+  void set_placement(const Placement &to) { placement_ = to; }
+
+  /// The tool is gone: from now on no node touches it.
+  void remove_tool();
 
   /// Computes gaps and tractions at `displacements` (ghosted).
   void update(const Vector &displacements);
@@ -54,9 +59,24 @@ public:
   /// Adds −∂F_c/∂u [force/length], after update().
   void add_tangent(const TangentSystem &system) const;
 
-  /// Adds the force by which the tool, once it moves on to where it is at time t, would push the nodes that
-  /// touch it now if they stayed behind, to first order. After update().
-  void add_tool_push(double t, Vector &forces) const;
+  /// Adds the force by which the tool, once it moves on to `after`, would push the nodes that touch it now if
+  /// they stayed behind, to first order. After update().
+  void add_tool_push(const Placement &after, Vector &forces) const;
+
+  /// A rigid motion of the tool: x moves by translation + rotation × (x − moved centre).
+  struct ToolRate {
+    dealii::Tensor<1, 3> translation, rotation;
+  };
+  /// What a rate of the tool does to the residual, and to the power that the tool exerts by that rate, P = Σ
+  /// F·v: ∂R/∂s into `column`, ∂P/∂u into `row` (additive vectors), ∂P/∂s returned, of this rank. By the
+  /// invariance of F_c under rigid motions of node and tool together, from K = −∂F_c/∂u: with v_b the rate at
+  /// node b and ω its rotation,
+  ///   ∂F_a/∂s = ω × F_a + Σ_b K_ab v_b,   ∂P/∂u_b = −Σ_a v_a·K_ab + ω × F_b·,   ∂P/∂s = Σ_a v_a·∂F_a/∂s.
+  double add_tool_derivatives(const ToolRate &rate, Vector &column, Vector &row) const;
+
+  /// How far the tool has to go along `direction` (unit) until it touches a node, at the last update();
+  /// infinite if it cannot. On this rank.
+  double distance_to_touch(const dealii::Tensor<1, 3> &direction) const;
 
   /// The state of the last update() becomes the start of the next step.
   void commit();
@@ -134,6 +154,8 @@ private:
                       FrictionHistory &history) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
+  /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
+  bool compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
 
@@ -147,6 +169,7 @@ private:
   std::vector<Facet> facets_;
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
+  bool is_removed_ = false;
 };
 
 } // namespace billet

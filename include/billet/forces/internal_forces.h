@@ -23,8 +23,8 @@ public:
   /// admissible.
   bool assemble_forces(const Vector &displacements, Vector &forces);
 
-  /// Adds the tangent [force/length]. False as above.
-  bool assemble_tangent(const Vector &displacements, const TangentSystem &system);
+  /// Adds the tangent [force/length]. False as above. `yield_slack`: see HenckyPlasticity::update().
+  bool assemble_tangent(const Vector &displacements, const TangentSystem &system, double yield_slack = 0.);
 
   /// The state of the last assembly becomes the start of the next step.
   void commit();

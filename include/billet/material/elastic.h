@@ -25,7 +25,7 @@ public:
 
   /// Stress (and, if `moduli` is given, tangent) at deformation gradient F; see HenckyPlasticity::update().
   bool update(const dealii::Tensor<2, 3> &F, const History &, History &, dealii::SymmetricTensor<2, 3> &tau,
-              SpatialModuli *moduli) const {
+              SpatialModuli *moduli, double = 0.) const {
     PrincipalElasticState state;
     PrincipalResponse response;
     if (!respond(F, state, response))

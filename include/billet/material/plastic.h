@@ -52,13 +52,15 @@ public:
   /// From the deformation gradient F at the end of a step and the history at its start: Kirchhoff stress
   /// `tau` [stress], the history at its end, and, if `moduli` is given, the consistent tangent. `history_n`
   /// and `history` may not be the same object. False where F is not admissible (not finite, singular): the
-  /// step has to be cut.
+  /// step has to be cut. A point yields where q > σ_y (1 + `yield_slack`): in a state that has just yielded,
+  /// where round-off would decide, 1e-9 gives the tangent of unloading, −1e-9 that of further loading.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
-              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli) const {
+              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli,
+              const double yield_slack = 0.) const {
     PrincipalElasticState trial;
     PrincipalResponse response;
     double delta_alpha = 0.;
-    if (!respond(F, history_n, trial, response, delta_alpha))
+    if (!respond(F, history_n, yield_slack, trial, response, delta_alpha))
       return false;
     tau = compute_kirchhoff_stress(trial, response);
     if (moduli != nullptr)
@@ -85,7 +87,8 @@ public:
     PrincipalElasticState trial;
     PrincipalResponse response;
     double delta_alpha = 0.;
-    return respond(F, history, trial, response, delta_alpha) ? compute_elastic_energy(elastic_, trial) : 0.;
+    return respond(F, history, 0., trial, response, delta_alpha) ? compute_elastic_energy(elastic_, trial)
+                                                                 : 0.;
   }
 
   double plastic_work(const History &history) const {
@@ -96,8 +99,8 @@ public:
   }
 
 private:
-  bool respond(const dealii::Tensor<2, 3> &F, const History &history_n, PrincipalElasticState &trial,
-               PrincipalResponse &response, double &delta_alpha) const {
+  bool respond(const dealii::Tensor<2, 3> &F, const History &history_n, const double yield_slack,
+               PrincipalElasticState &trial, PrincipalResponse &response, double &delta_alpha) const {
     const dealii::Tensor<2, 3> C_p_inverse = history_n.inverse_plastic_metric;
     const double J = dealii::determinant(F);
     if (!(J > 0.) ||
@@ -115,9 +118,10 @@ private:
 
     delta_alpha = 0.;
     const double alpha_n = history_n.equivalent_plastic_strain;
-    if (q > hardening_.stress(alpha_n)) {
+    const double yield_stress = hardening_.stress(alpha_n);
+    if (q > yield_stress * (1. + yield_slack)) {
       const double three_g = 3. * elastic_.shear;
-      delta_alpha = solve_consistency(hardening_, q, three_g, alpha_n);
+      delta_alpha = q > yield_stress ? solve_consistency(hardening_, q, three_g, alpha_n) : 0.;
       const double reduction = three_g * delta_alpha / q;
       response.beta = 1. - reduction;
       response.gamma = three_g / (three_g + hardening_.slope(alpha_n + delta_alpha)) - reduction;

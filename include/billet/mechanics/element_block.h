@@ -41,9 +41,9 @@ public:
   virtual std::size_t size() const = 0;
 
   /// Overwrites `force` [force] and, if given, `matrix` [force/length]. False if the state is not admissible
-  /// (det F ≤ 0, not finite): the step has to be cut.
+  /// (det F ≤ 0, not finite): the step has to be cut. `yield_slack`: see HenckyPlasticity::update().
   virtual bool evaluate(std::size_t element, const ElementVectors &displacements, ElementVectors &force,
-                        ElementMatrix *matrix) = 0;
+                        ElementMatrix *matrix, double yield_slack = 0.) = 0;
 
   virtual void commit() = 0;
 

@@ -22,6 +22,7 @@ struct Amplitude {
 struct TimeStepping {
   enum class Control { automatic, fixed };
 
+  std::vector<double> stops;
   double end_time;
   Control control;
   double initial_step, smallest_step, largest_step;

@@ -17,9 +17,20 @@ struct Motion {
   Located<std::string> rotation_angle;             ///< expression of t and the amplitudes, radians
   dealii::Tensor<1, 3> rotation_axis;
   dealii::Tensor<1, 3> centre;
+  /// What the tool does besides: nothing; moves on along `direction` until it presses with `load`; turns on
+  /// until it twists with `load`; stops where it presses with `load`.
+  enum class Control { motion, force, moment, stop };
+  Control control = Control::motion;
+  Located<std::string> load;      ///< expression of t and the amplitudes [force, or force length]
+  dealii::Tensor<1, 3> direction; ///< unit; of force and stop
+  Located<double> removal_time;   ///< infinite: never
+  double release_time;            ///< in which the forces of a removed tool fade
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
+
+private:
+  void parse_control(Reader &reader);
 };
 
 /// One named subsection of Tools.

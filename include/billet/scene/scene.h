@@ -78,6 +78,9 @@ public:
   /// The scene's choice, `automatic` resolved.
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
+  /// Times at which something begins or ends, so that a step has to end there.
+  std::vector<double> stops() const;
+
   /// Builds the meshes of all bodies in one; see merge_bodies(). Then checks what needs a mesh: boundary ids,
   /// nodes on symmetry planes, supports, initial penetration. Throws InputError. Serial.
   void build_mesh(MeshDetail detail, dealii::Triangulation<3> &mesh) const;

@@ -21,7 +21,17 @@ public:
   const RigidSurface &surface() const { return *surface_; }
   /// In words.
   const std::string &shapes() const { return shapes_; }
-  Placement placement(double t) const;
+  /// Where the prescribed motion takes it, moved on by `offset`: along the force direction [length], or, of a
+  /// tool with a moment, about its axis [radians].
+  Placement placement(double t, double offset = 0.) const;
+  using Control = parameters::Motion::Control;
+  Control control() const { return control_; }
+  /// Of a tool with a force or a stop force; unit.
+  const dealii::Tensor<1, 3> &force_direction() const { return force_direction_; }
+  /// The force or moment with which it presses, or stops.
+  double load(double t) const { return load_->value(t); }
+  double removal_time() const { return removal_time_; }
+  double release_time() const { return release_time_; }
   /// Of the motion; moments and turns are about it.
   const dealii::Tensor<1, 3> &rotation_axis() const { return axis_; }
 
@@ -31,6 +41,10 @@ private:
   std::vector<Expression> translation_;
   Expression angle_;
   dealii::Tensor<1, 3> axis_, centre_;
+  Control control_;
+  std::unique_ptr<Expression> load_; ///< none where the motion is all
+  dealii::Tensor<1, 3> force_direction_;
+  double removal_time_, release_time_;
 };
 
 } // namespace billet

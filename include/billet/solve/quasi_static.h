@@ -7,6 +7,9 @@
 #include "billet/solve/direct_solver.h"
 #include "billet/solve/newton.h"
 
+#include <Epetra_Map.h>
+#include <Epetra_Vector.h>
+
 #include <memory>
 #include <vector>
 
@@ -45,6 +48,9 @@ public:
   /// Moves the tools to where they are at `t`; residuals and tangents are those of the step that ends there.
   void start_step(double t);
 
+  /// The unknowns, displacements and travels of tools that press with a force, at the start of the step.
+  Epetra_Vector unknowns() const;
+
   const SolutionState &state() const { return state_; }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
@@ -68,10 +74,32 @@ private:
   // has no solution:
   bool follow_tangent(double t, NewtonIteration &iteration);
 
-  bool assemble_tangent(const TangentSystem &system);
+  bool assemble_tangent(const TangentSystem &system, double yield_slack = 0.);
   bool all_ranks(bool success) const;
   void set_trial(const Epetra_Vector &x);
   void commit(double t);
+
+  // Tools whose travel is unknown. The unknown of a tool that turns, and its equation, are scaled by the
+  // scene's radius to a length and a force.
+  void choose_unknown_tools(const std::vector<std::size_t> &tools);
+  Epetra_Vector pack(const Vector &displacements, const std::vector<double> &offsets) const;
+  Placement place(std::size_t tool, double t, double offset) const;
+  void place_tools(double t);
+  double unit_of(std::size_t tool) const;
+  /// What the tool exerts along its direction, or about its axis, less what it should: zero in equilibrium.
+  double excess_load(std::size_t tool, double t) const;
+  RigidContact::ToolRate rate_of(std::size_t tool) const;
+  void assemble_tool_tangent();
+  /// K du + B ds = r_u, C du + D ds = r_s by elimination of du. A tool that touches nothing goes on until it
+  /// does. `sense` is 1 where the solution is what is added to the unknowns, −1 where it is what is
+  /// subtracted.
+  bool solve_with_tools(const Vector &r_u, const std::vector<double> &r_s, double sense, Vector &du,
+                        std::vector<double> &ds);
+  double distance_to_touch(std::size_t tool) const;
+  std::vector<std::size_t> tools_to_stop(double t) const;
+  NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
+  double fading(double t, std::size_t tool) const;
+  void remove_tools(double t);
   /// Folds forces on constrained dofs into those that they depend on, and empties them.
   void condense(Vector &forces) const;
 
@@ -88,6 +116,18 @@ private:
   Vector raw_internal_, raw_contact_;        ///< additive
   Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
   double force_scale_ = 0., round_off_force_ = 0.;
+
+  double time_ = 0.;                        ///< end of the step that is tried
+  std::vector<double> offsets_, offsets_n_; ///< of all tools, beyond their prescribed motion
+  std::vector<double> last_offset_increments_;
+  bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
+  std::string tool_failure_;
+  std::vector<std::size_t> unknown_tools_;             ///< those whose offset is unknown in this step
+  std::unique_ptr<Epetra_Map> map_;                    ///< of displacements and unknown offsets
+  std::vector<std::unique_ptr<Placement>> stopped_;    ///< where tools have stopped for good
+  std::vector<Vector> tool_columns_, tool_rows_;       ///< B, condensed; C
+  dealii::FullMatrix<double> tool_block_;              ///< D
+  std::vector<std::unique_ptr<Vector>> fading_forces_; ///< residual of a removed tool's forces, as they were
   SolutionState state_;
 };
 

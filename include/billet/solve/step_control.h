@@ -4,18 +4,20 @@
 
 #include "billet/parameters/control.h"
 
+#include <vector>
+
 namespace billet {
 
 /// Chooses the step: fixed, or by the iterations that the last one needed. Knows nothing of what is solved.
 class StepControl {
 public:
-  /// Steps also end at multiples of `interval`, unless it is 0.
-  StepControl(const parameters::TimeStepping &parameters, double interval);
+  /// Steps also end at the `stops`, and at multiples of `interval`, unless it is 0.
+  StepControl(const parameters::TimeStepping &parameters, double interval, std::vector<double> stops = {});
 
   double time() const { return time_; }
   bool is_finished() const { return time_ >= parameters_.end_time; }
 
-  /// Length of the step to try next from time(); ends exactly at the end time and at output times.
+  /// Length of the step to try next from time(); ends exactly at the end time, at stops and at output times.
   double next_step() const;
   /// End of that step; exact where it is the end time or an output time.
   double next_time() const;
@@ -33,6 +35,7 @@ private:
 
   parameters::TimeStepping parameters_;
   double interval_;
+  std::vector<double> stops_; ///< ascending
   double time_ = 0.;
   double step_;
   unsigned int n_steps_ = 0, n_cuts_ = 0;
