@@ -59,11 +59,11 @@ SurfaceType plane_type() {
 SurfaceType rectangle_type() {
   return {"rectangle",
           "A rectangle.",
-          {{"Centre", "0, 0, 0", Kind::text, "[length]"},
+          {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
            normal_parameter,
            {"Direction", "1, 0, 0", Kind::text,
             "Of the sides that have the length; its part along the normal is left out."},
-           {"Length", "1", Kind::number, "> 0. [length]"},
+           {"Length", "1", Kind::number, "> 0, its size. [length]"},
            {"Width", "1", Kind::number, "> 0, of the other sides. [length]"}},
           [](const SurfaceInput &input) {
             const auto normal = input.direction("Normal"), direction = input.direction("Direction");
@@ -84,9 +84,9 @@ SurfaceType rectangle_type() {
 SurfaceType disc_type() {
   return {"disc",
           "A disc, or a ring.",
-          {{"Centre", "0, 0, 0", Kind::text, "[length]"},
+          {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
            normal_parameter,
-           {"Radius", "1", Kind::number, "> 0. [length]"},
+           {"Radius", "1", Kind::number, "> 0, its size. [length]"},
            {"Inner radius", "0", Kind::number, ">= 0; of the hole. [length]"}},
           [](const SurfaceInput &input) {
             const double radius = input.positive("Radius"), inner = input.not_negative("Inner radius");

@@ -67,8 +67,8 @@ SurfaceType sphere_type() {
   return {
       "sphere", "A sphere, or a zone of it.",
       with_sector(
-          {{"Centre", "0, 0, 0", Kind::text, "[length]"},
-           {"Radius", "1", Kind::number, "> 0. [length]"},
+          {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
+           {"Radius", "1", Kind::number, "> 0, its size. [length]"},
            axis_parameter,
            {"From latitude", "-90", Kind::number, "Where the zone begins, -90 at the pole below. [degrees]"},
            {"To latitude", "90", Kind::number, "Where it ends, 90 at the pole above. [degrees]"}}),
@@ -88,7 +88,7 @@ SurfaceType cylinder_type() {
           with_sector(
               {{"Point", "0, 0, 0", Kind::text, "A point of the axis, in the middle of the length. [length]"},
                axis_parameter,
-               {"Radius", "1", Kind::number, "> 0. [length]"},
+               {"Radius", "1", Kind::number, "> 0, its size. [length]"},
                {"Length", "", Kind::text, "> 0; empty: infinite. [length]"}}),
           [](const SurfaceInput &input) {
             const double radius = input.positive("Radius");
@@ -108,7 +108,7 @@ SurfaceType cylinder_type() {
 SurfaceType cone_type() {
   return {
       "cone", "A cone, or a part of it between two circles.",
-      with_sector({{"Apex", "0, 0, 0", Kind::text, "[length]"},
+      with_sector({{"Apex", "0, 0, 0", Kind::text, "The cone's tip. [length]"},
                    {"Axis", "0, 0, 1", Kind::text, "Direction of the axis, from the apex into the cone."},
                    {"Half angle", "45", Kind::number, "> 0 and < 90, between axis and surface. [degrees]"},
                    {"From height", "0", Kind::number, ">= 0, along the axis from the apex. [length]"},
@@ -132,7 +132,7 @@ SurfaceType torus_type() {
               {{"Centre", "0, 0, 0", Kind::text, "Of the ring. [length]"},
                axis_parameter,
                {"Ring radius", "2", Kind::number, "> 0, of the circle in the tube's middle. [length]"},
-               {"Tube radius", "1", Kind::number, "> 0. [length]"},
+               {"Tube radius", "1", Kind::number, "> 0, its size. [length]"},
                {"From angle", "0", Kind::number,
                 "Where the part begins in the tube's section: 0 away from the axis, 90 along it. [degrees]"},
                {"To angle", "360", Kind::number, "Where it ends, up to 360 further on. [degrees]"}}),

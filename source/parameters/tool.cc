@@ -175,7 +175,7 @@ void ContactPair::declare(ParameterHandler &prm) {
       "exp(-c v), v the slip rate; pressure dependent: mu (p/p_0)^(e-1) p.");
   prm.declare_entry("Friction coefficient", "0", Patterns::Double(),
                     "mu >= 0; at rest, or at the reference pressure. 0: no friction.");
-  prm.declare_entry("Largest shear stress", "0", Patterns::Double(), "> 0. [stress]");
+  prm.declare_entry("Largest shear stress", "0", Patterns::Double(), "> 0, whatever the pressure. [stress]");
   prm.declare_entry("Kinetic friction coefficient", "0", Patterns::Double(), "mu_k > 0, not above mu.");
   prm.declare_entry("Decay", "0", Patterns::Double(), "c >= 0. [time/length]");
   prm.declare_entry("Reference pressure", "0", Patterns::Double(), "p_0 > 0. [stress]");
