@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A rigid sphere on an elastic half-space: force, contact radius and pressure against Hertz, over mesh and penalty."""
+
+import math
+import tempfile
+from pathlib import Path
+
+import numpy
+from vtk import vtkXMLUnstructuredGridReader
+from vtk.util.numpy_support import vtk_to_numpy
+
+from billet_runs import ROOT, Run, arguments, number, publish, table
+
+options = arguments("hertz-contact")
+E, NU, R, A = 1000.0, 0.3, 10.0, 0.1  # and so the travel is A²/R
+EFFECTIVE = E / (1 - NU**2)
+FORCE, PRESSURE = 4 / 3 * EFFECTIVE * A**3 / R, 2 * EFFECTIVE * A / (math.pi * R)
+
+
+def grid(n, far):
+    """n elements over the contact radius and a half, then each longer than the last, `far` contact radii in all."""
+    x, step, growth = [0.0], A / n, 1.45 ** (6 / n)
+    while x[-1] < 1.49 * A:
+        x.append(x[-1] + step)
+    while x[-1] < far * A:
+        step *= growth
+        x.append(x[-1] + step)
+    return x
+
+
+def write_mesh(path, x):
+    """A quarter of the half-space as a Gmsh file; boundary 1: x = 0, 2: y = 0, 3: top, 4: far away."""
+    n, m = len(x), len(x) - 1
+
+    def node(i, j, k):
+        return 1 + i + n * (j + n * k)
+
+    with open(path, "w") as out:
+        out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{n**3}\n")
+        for k in range(n):
+            for j in range(n):
+                for i in range(n):
+                    out.write(f"{node(i, j, k)} {x[i]!r} {x[j]!r} {-x[k]!r}\n")
+        elements = []
+        for p in range(m):
+            for q in range(m):
+                for kind, at in ((1, lambda a, b: node(0, a, b)), (4, lambda a, b: node(m, a, b)),
+                                 (2, lambda a, b: node(a, 0, b)), (4, lambda a, b: node(a, m, b)),
+                                 (3, lambda a, b: node(a, b, 0)), (4, lambda a, b: node(a, b, m))):
+                    corners = at(p, q), at(p + 1, q), at(p + 1, q + 1), at(p, q + 1)
+                    elements.append(f"3 2 {kind} {kind} " + " ".join(map(str, corners)))
+        for k in range(m):
+            for j in range(m):
+                for i in range(m):
+                    corners = [node(i + a, j + b, k + c) for c in (1, 0) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                    elements.append("5 2 0 0 " + " ".join(map(str, corners)))
+        out.write(f"$EndNodes\n$Elements\n{len(elements)}\n")
+        out.writelines(f"{i + 1} {text}\n" for i, text in enumerate(elements))
+        out.write("$EndElements\n")
+
+
+def contact(folder):
+    """Radius and largest pressure, from p² = p_0² (1 − r²/a²) over the nodes well inside."""
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(sorted(Path(folder, "results").glob("fields_*.0.vtu"))[-1]))
+    reader.Update()
+    data = reader.GetOutput()
+    start = vtk_to_numpy(data.GetPoints().GetData()) - vtk_to_numpy(data.GetPointData().GetArray("displacement"))
+    pressure = vtk_to_numpy(data.GetPointData().GetArray("contact_pressure"))
+    square = start[:, 0] ** 2 + start[:, 1] ** 2
+    inside = (pressure > 0) & (square < 0.7 * A**2)
+    places = dict(zip(zip(start[inside, 0].round(6), start[inside, 1].round(6)), zip(square[inside], pressure[inside] ** 2)))
+    r2, p2 = numpy.array(list(places.values())).T
+    slope, top = numpy.polyfit(r2, p2, 1)
+    return math.sqrt(top / -slope), math.sqrt(top)
+
+
+def row(n, far, penalty):
+    x = grid(n, far)
+    with tempfile.TemporaryDirectory() as folder:
+        write_mesh(Path(folder, "half_space.msh"), x)
+        r = Run({"Output/Format": "vtu", "Output/Every steps": 0, "Contact pairs/pair/Normal penalty": penalty},
+                options.ranks, ROOT / "tests/scenes/hertz.prm", "sphere", folder)
+        radius, pressure = contact(folder)
+    force = 1e3 * r.forces[-1]  # four quarters, in units of the scene
+
+    def error(value, exact):
+        return f"{100 * (value / exact - 1):+.2f}"
+
+    return [n, far, penalty, (len(x) - 1) ** 3, r.iterations, number(r.seconds), error(force, FORCE), error(radius, A),
+            error(pressure, PRESSURE)]
+
+
+HEAD = ["elements over the radius", "extent / radius", "penalty factor", "bricks", "iterations", "CPU seconds", "force [%]",
+        "contact radius [%]", "largest pressure [%]"]
+meshes = (4, 6, 8) if options.quick else (4, 6, 8, 10)
+publish(
+    "hertz-contact", "Hertz: a rigid sphere on an elastic half-space", options,
+    "Without friction, travel a²/R, largest pressure 0.7 % of E; errors against Hertz's closed form. The penalty lets the "
+    "half-space in by p/k, the far border stiffens it: mesh, extent and penalty have to go together. Each run once.",
+    "## Mesh, with a hundred times the default penalty factor and 120 contact radii in extent\n\n" +
+    table(HEAD, [row(n, 120, 1000) for n in meshes]),
+    "## Penalty factor; 10 is the default\n\n" + table(HEAD, [row(6, 120, k) for k in (1, 10, 100, 1000)]),
+    "## Extent\n\n" + table(HEAD, [row(6, far, 10) for far in (15, 30, 60, 120)]))
