@@ -96,6 +96,27 @@ int main(int argc, char *argv[]) {
   check("pulled over a plane: friction is mu N", pulled.sum, 1e-10);
   check("pulled over a plane: against the velocity", pulled.direction, 1e-9);
 
+  // The same over a floor of tiles, whose seams the nodes cross.
+  auto plane_scene = make_scene({"plane", ""}, z, 0., 0.4, 0.1), tiled_scene = plane_scene;
+  std::vector<testing::SurfacePart> tiles;
+  for (int i = -2; i < 8; ++i)
+    for (int j = -2; j < 6; ++j)
+      tiles.push_back({"rectangle",
+                       "set Length = 0.37\nset Width = 0.29\nset Centre = " + std::to_string(0.37 * i + 0.1) +
+                           ", " + std::to_string(0.29 * j) + ", 0"});
+  tiled_scene.tools[0].surface = testing::make_surface(tiles);
+  SceneRun on_plane(plane_scene), on_tiles(tiled_scene);
+  testing::WorstError seams;
+  while (!on_plane.control.is_finished()) {
+    on_plane.advance();
+    on_tiles.advance();
+    seams.add((on_plane.load().force - on_tiles.load().force).norm() / on_plane.load().force.norm());
+    const auto one = on_plane.problem.contacts()[0].report(), other = on_tiles.problem.contacts()[0].report();
+    for (std::size_t i = 0; i < one.size(); ++i)
+      seams.add((one[i].traction - other[i].traction).norm() / on_plane.load().force.norm());
+  }
+  check("a floor of tiles is a floor", seams.value(), 1e-10);
+
   auto on_cylinder = make_scene({"cylinder", "set Point = 0.5, 0.5, -8\nset Axis = 0, 1, 0\nset Radius = 8"},
                                 y, 0.05, 0., 0.1);
   on_cylinder.tools[0].motion.centre = Tensor<1, 3>({0.5, 0.5, -8.});

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Wagoner's punch, on a coarse mesh, to 40 mm with three tangents: one force curve; the sheet strains most
+// where it stops sticking to the punch, not at its centre; punch and die and clamp balance; residuals fall
+// quadratically.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+struct Result {
+  double punch = 0., peak_radius = 0., peak = 0., centre = 0., drift = 1.;
+  double iterations_per_step = 0., order = 0.;
+};
+
+Result press(const parameters::ContactTangent tangent, const double tolerance) {
+  parameters::Scene parameters = testing::read_shipped_scene("wagoner_punch.prm");
+  parameters.bodies[0].mesh.refinements = 2;
+  parameters.time_stepping.largest_step = 0.025;
+  parameters.output.interval = 0.;
+  parameters.solver.contact_tangent = tangent;
+  parameters.solver.force_tolerance = tolerance;
+  parameters.solver.energy_tolerance = tolerance * 1e-2;
+  SceneRun run(parameters);
+  std::vector<double> orders;
+  run.finish([&](const NewtonReport &report) {
+    const auto &i = report.iterations;
+    const std::size_t n = i.size();
+    if (n > 2 && i[n - 1].force < 1e-2)
+      orders.push_back(std::log(report.force / i[n - 1].force) / std::log(i[n - 1].force / i[n - 2].force));
+  });
+  Result result;
+  result.punch = run.load(0).force[2];
+  const auto summaries = run.problem.internal_forces().summarize(0, run.problem.state().displacements);
+  const auto &elements = run.discretization.elements(0);
+  double nearest = 1e9;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto centre = elements[e].cell->center();
+    const double radius = std::hypot(centre[0], centre[1]), strain = summaries[e].equivalent_plastic_strain;
+    if (strain > result.peak) {
+      result.peak = strain;
+      result.peak_radius = radius;
+    }
+    if (radius < nearest) {
+      nearest = radius;
+      result.centre = strain;
+    }
+  }
+  const EnergyLedger &energies = run.problem.state().energies;
+  result.drift = std::abs(energies.drift() / energies.external);
+  result.iterations_per_step = static_cast<double>(run.n_iterations) / run.control.n_steps();
+  std::sort(orders.begin(), orders.end());
+  result.order = orders.empty() ? 0. : orders[orders.size() / 2];
+  return result;
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  using parameters::ContactTangent;
+  const Result exact = press(ContactTangent::exact, 1e-6),
+               consistent = press(ContactTangent::consistent, 1e-6),
+               continuum = press(ContactTangent::continuum, 1e-2);
+  check("exact and consistent tangent: one force", std::abs(consistent.punch / exact.punch - 1.), 0.01);
+  check("continuum tangent, at a loose tolerance: about the same",
+        std::abs(continuum.punch / exact.punch - 1.), 0.02);
+  check("the punch pushes down", exact.punch < -15e3);
+  check("strain peaks between 15 and 40 mm", exact.peak_radius > 15. && exact.peak_radius < 40.);
+  check("... at twice that of the centre, at least", exact.peak > 2. * exact.centre);
+  check("energies add up", exact.drift, 0.01);
+  check("iterations a step", exact.iterations_per_step < 8. && consistent.iterations_per_step < 8.);
+  check("exact tangent: median order of the residual's fall is near 2", exact.order > 1.6);
+  return billet::testing::exit_code();
+}
