@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: pvpython picture.py SCENE.pvd PICTURE.png
 
-The last state of one eighth of a body, mirrored to all of it but one quarter, so that its inside is seen: equivalent
-plastic strain, element edges, the tools half transparent, and the body's outline at time 0.
+The last state of a quarter or an eighth of a body, mirrored to all of it but one quarter, so that its inside is seen:
+equivalent plastic strain, element edges, the tools half transparent, and the body's outline at time 0. It is an eighth
+where scene.prm beside the scene has a symmetry plane z = 0.
 """
 
 import sys
@@ -15,6 +16,8 @@ from paraview.simple import (AppendDatasets, CellDatatoPointData, CleantoGrid, C
 
 FIELD, TITLE = "equivalent_plastic_strain", "Equivalent plastic strain"
 scene_file, picture_file = Path(sys.argv[1]), sys.argv[2]
+is_eighth = any(line.strip().startswith("set Symmetry planes") and "z = 0" in line
+                for line in (scene_file.parent / "scene.prm").read_text().splitlines())
 
 
 def files(part):
@@ -47,7 +50,8 @@ def three_quarters(quarter):
 
 
 def body_at(file):
-    return three_quarters(mirrored(XMLPartitionedUnstructuredGridReader(FileName=[file]), "Z"))
+    body = XMLPartitionedUnstructuredGridReader(FileName=[file])
+    return three_quarters(mirrored(body, "Z") if is_eighth else body)
 
 
 def tool_at(file):
@@ -102,17 +106,19 @@ show_plain(start, [0.5, 0.55, 0.6], 0.10)
 show_plain(FeatureEdges(Input=start, FeatureAngle=50), [0.5, 0.54, 0.6], 1.0, 1.6)
 
 start.UpdatePipeline()
-size = start.GetDataInformation().GetBounds()[5]
+bounds = start.GetDataInformation().GetBounds()
+size = bounds[5] if is_eighth else 0.6 * bounds[1]
 
 # The tools, a hair's breadth off the body, which their penalty lets in a little.
 tool = tool_at(files("tools")[-1])
-for plate, side in ((three_quarters(tool), 1), (all_around(image(tool, "Z")), -1)):
+plates = ((three_quarters(tool), 1), (all_around(image(tool, "Z")), -1)) if is_eighth else ((three_quarters(tool), 0),)
+for plate, side in plates:
     border = FeatureEdges(Input=ExtractSurface(Input=plate), FeatureEdges=0, NonManifoldEdges=0)
     for source, opacity in ((plate, 0.18), (border, 1.0)):
         show_plain(source, [0.42, 0.48, 0.57], opacity, 1.6).Position = [0.0, 0.0, 0.007 * size * side]
 
-view.CameraFocalPoint = [0.0, 0.0, -0.16 * size]
-view.CameraPosition = [x * size for x in (3.3, -4.15, 2.35)]
+view.CameraFocalPoint = [0.0, 0.0, -0.16 * size if is_eighth else -0.25 * size]
+view.CameraPosition = [x * size for x in ((3.3, -4.15, 2.35) if is_eighth else (3.0, -3.8, 1.7))]
 view.CameraViewUp = [0.0, 0.0, 1.0]
 view.CameraViewAngle = 27
 SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
