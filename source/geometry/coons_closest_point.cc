@@ -45,29 +45,28 @@ struct Quadratic {
   }
 };
 
-struct Step {
-  double u, v;
-};
+/// In lengths.
+using Pair = std::array<double, 2>;
 
 /// Where a convex quadratic is least between `low` and `high`: inside, or on one of the four sides.
-Step minimum(const Quadratic &q, const Step &low, const Step &high) {
+Pair minimum(const Quadratic &q, const Pair &low, const Pair &high) {
   const double determinant = q.uu * q.vv - q.uv * q.uv;
-  const Step inside{(q.uv * q.g_v - q.vv * q.g_u) / determinant, (q.uv * q.g_u - q.uu * q.g_v) / determinant};
-  if (inside.u >= low.u && inside.u <= high.u && inside.v >= low.v && inside.v <= high.v)
+  const Pair inside{(q.uv * q.g_v - q.vv * q.g_u) / determinant, (q.uv * q.g_u - q.uu * q.g_v) / determinant};
+  if (inside[0] >= low[0] && inside[0] <= high[0] && inside[1] >= low[1] && inside[1] <= high[1])
     return inside;
-  Step best{0., 0.};
+  Pair best{0., 0.};
   double least = infinity;
-  const auto consider = [&](const Step &step) {
-    const double value = q.value(step.u, step.v);
+  const auto consider = [&](const double u, const double v) {
+    const double value = q.value(u, v);
     if (value < least) {
       least = value;
-      best = step;
+      best = {u, v};
     }
   };
-  for (const double u : {low.u, high.u})
-    consider({u, std::clamp(-(q.g_v + q.uv * u) / q.vv, low.v, high.v)});
-  for (const double v : {low.v, high.v})
-    consider({std::clamp(-(q.g_u + q.uv * v) / q.uu, low.u, high.u), v});
+  for (const double u : {low[0], high[0]})
+    consider(u, std::clamp(-(q.g_v + q.uv * u) / q.vv, low[1], high[1]));
+  for (const double v : {low[1], high[1]})
+    consider(std::clamp(-(q.g_u + q.uv * v) / q.uu, low[0], high[0]), v);
   return best;
 }
 
@@ -109,8 +108,8 @@ bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const d
 /// with 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`; d·X_αβ is that in the foot, and a change
 /// bounded by third derivatives. All in lengths a, b instead of u, v.
 bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block) const {
-  const Cell &low = cells_[block.low_i * n_v_ + block.low_j],
-             &high = cells_[block.high_i * n_v_ + block.high_j];
+  const Range &low = cells_[block.low_i * n_v_ + block.low_j].range,
+              &high = cells_[block.high_i * n_v_ + block.high_j].range;
   const double a = length_u_ * std::max(foot.u - low.low_u, high.high_u - foot.u),
                b = length_v_ * std::max(foot.v - low.low_v, high.high_v - foot.v);
   double bend_u = 0., bend_v = 0., change_u = 0., change_v = 0.;
@@ -136,36 +135,47 @@ bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block
   return std::min(towards.largest_eigenvalue(), distance * std::max(bend_u, bend_v)) <= left * left;
 }
 
-/// Newton's method from `foot` downhill to a minimum of the distance in the range of a cell, on
+/// A step of Newton's method on
 ///   (X − x)·X_u = 0,  (X − x)·X_v = 0
-/// (Bittencourt & Creus 1998, eqs. (10), (11)): each step minimises the second-order model within the range,
-/// made convex where it is not, and damped as Marquardt did where the distance would grow.
-CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Cell &range) const {
+/// (Bittencourt & Creus 1998, eqs. (10), (11)): to the minimum, within the range, of the second-order model
+/// of |X − x|²/2, which is made convex where it is not, and damped as Marquardt did.
+CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const Range &range,
+                                         const double damping) const {
+  const Jet &jet = foot.jet;
+  const Point r = jet.position - x;
+  Quadratic model{r * jet.u / length_u_, r * jet.v / length_v_,
+                  (jet.u * jet.u + r * jet.uu) / (length_u_ * length_u_),
+                  (jet.u * jet.v + r * jet.uv) / (length_u_ * length_v_),
+                  (jet.v * jet.v + r * jet.vv) / (length_v_ * length_v_)};
+  // On a border that the way down leads across, the other parameter is alone.
+  const bool is_held_u = model.g_u > 0. ? foot.u == range.low_u : model.g_u < 0. && foot.u == range.high_u,
+             is_held_v = model.g_v > 0. ? foot.v == range.low_v : model.g_v < 0. && foot.v == range.high_v;
+  if (is_held_u || is_held_v)
+    model.uv = 0.;
+  if (is_held_u) {
+    model.g_u = 0.;
+    model.uu = 1.;
+  }
+  if (is_held_v) {
+    model.g_v = 0.;
+    model.vv = 1.;
+  }
+  const double least = 1e-10 * (std::abs(model.uu) + std::abs(model.vv) + 1.);
+  const bool is_convex = model.least_eigenvalue() > least;
+  if (!is_convex)
+    model.make_convex(least);
+  model.uu *= 1. + damping;
+  model.vv *= 1. + damping;
+  const auto [u, v] = minimum(model, {(range.low_u - foot.u) * length_u_, (range.low_v - foot.v) * length_v_},
+                              {(range.high_u - foot.u) * length_u_, (range.high_v - foot.v) * length_v_});
+  return {u, v, is_convex && damping == 0.};
+}
+
+/// Newton's method from `foot` downhill to a minimum of the distance in the range.
+CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &range) const {
   double damping = 0., last_length = infinity;
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
-    const Jet &jet = foot.jet;
-    const Point r = jet.position - x;
-    Quadratic model{r * jet.u / length_u_, r * jet.v / length_v_,
-                    (jet.u * jet.u + r * jet.uu) / (length_u_ * length_u_),
-                    (jet.u * jet.v + r * jet.uv) / (length_u_ * length_v_),
-                    (jet.v * jet.v + r * jet.vv) / (length_v_ * length_v_)};
-    // On a border that the way down leads across, the other parameter is alone.
-    const bool is_held_u = model.g_u > 0. ? foot.u == range.low_u : model.g_u < 0. && foot.u == range.high_u,
-               is_held_v = model.g_v > 0. ? foot.v == range.low_v : model.g_v < 0. && foot.v == range.high_v;
-    if (is_held_u || is_held_v)
-      model.uv = 0.;
-    if (is_held_u)
-      model.g_u = 0., model.uu = 1.;
-    if (is_held_v)
-      model.g_v = 0., model.vv = 1.;
-    const double scale = std::abs(model.uu) + std::abs(model.vv) + 1.;
-    const bool is_convex = model.least_eigenvalue() > 1e-10 * scale;
-    if (!is_convex)
-      model.make_convex(1e-10 * scale);
-    model.uu *= 1. + damping;
-    model.vv *= 1. + damping;
-    const Step step = minimum(model, {(range.low_u - foot.u) * length_u_, (range.low_v - foot.v) * length_v_},
-                              {(range.high_u - foot.u) * length_u_, (range.high_v - foot.v) * length_v_});
+    const Step step = newton_step(x, foot, range, damping);
     const double length = std::max(std::abs(step.u), std::abs(step.v));
     if (length <= round_off * size_)
       return foot;
@@ -176,18 +186,16 @@ CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Cell &range
               0.};
     next.jet = at(next.u, next.v);
     next.square = (next.jet.position - x).norm_square();
-    const double noise = 16. * round_off * std::sqrt(foot.square) * (r.norm() + jet.position.norm() + size_);
+    const double distance = std::sqrt(foot.square);
+    const double noise = 16. * round_off * distance * (distance + foot.jet.position.norm() + size_);
     if (!(next.square <= foot.square + noise)) {
       damping = std::max(8. * damping, 0.1);
       continue;
     }
     foot = next;
-    // The next Newton step would be below round-off, or steps are made of round-off only.
-    const bool is_settled =
-        is_convex && damping == 0. &&
-        (length <= 1e-10 * size_ || (length <= 1e-6 * size_ && length > 0.5 * last_length));
     damping = damping > 0.1 ? damping / 8. : 0.;
-    if (is_settled)
+    // The next Newton step would be below round-off, or steps are made of round-off only.
+    if (step.is_newton && (length <= 1e-10 * size_ || (length <= 1e-6 * size_ && length > 0.5 * last_length)))
       return foot;
     last_length = length;
   }
@@ -196,7 +204,7 @@ CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Cell &range
 
 /// On a side that has shrunk to a point the parameter along it leads nowhere, but decides in which direction
 /// the patch goes on. Moves `foot` off such a point, nearer to x, if it can.
-bool CoonsPatch::leave_pole(const Point &x, const Cell &range, Foot &foot) const {
+bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) const {
   const bool at_low_v = foot.v == 0. && is_pole_[0], at_high_u = foot.u == 1. && is_pole_[1],
              at_high_v = foot.v == 1. && is_pole_[2], at_low_u = foot.u == 0. && is_pole_[3];
   if (!(at_low_v || at_high_u || at_high_v || at_low_u))
@@ -248,7 +256,7 @@ bool CoonsPatch::leave_pole(const Point &x, const Cell &range, Foot &foot) const
 }
 
 /// From `foot` downhill to a minimum of the distance in the range of a cell.
-CoonsPatch::Foot CoonsPatch::descend(const Point &x, Foot foot, const Cell &range) const {
+CoonsPatch::Foot CoonsPatch::descend(const Point &x, Foot foot, const Range &range) const {
   foot = newton(x, foot, range);
   for (unsigned int i = 0; i < 10 && leave_pole(x, range, foot); ++i)
     foot = newton(x, foot, range);
@@ -256,9 +264,11 @@ CoonsPatch::Foot CoonsPatch::descend(const Point &x, Foot foot, const Cell &rang
 }
 
 CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
+  const Range whole{0., 1., 0., 1.};
   const auto start = [&](const std::size_t cell, const double square) {
-    const Cell &c = cells_[cell];
-    return Foot{0.5 * (c.low_u + c.high_u), 0.5 * (c.low_v + c.high_v), c.middle, square};
+    const Range &range = cells_[cell].range;
+    return Foot{0.5 * (range.low_u + range.high_u), 0.5 * (range.low_v + range.high_v), cells_[cell].middle,
+                square};
   };
   std::array<double, most_cells * most_cells> squares; // of the distances to the middles
   const std::size_t n = balls_.size();
@@ -270,7 +280,7 @@ CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
   // Of a point that is not a number none is the nearest.
   const std::size_t found = std::find(squares.begin(), squares.begin() + n, least_square) - squares.begin();
   const std::size_t nearest = found < n ? found : 0;
-  Foot best = descend(x, start(nearest, least_square), whole_);
+  Foot best = descend(x, start(nearest, least_square), whole);
 
   double distance = std::sqrt(best.square);
   const auto may_be_nearer = [&](const std::size_t cell) {
@@ -291,10 +301,10 @@ CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
 
   for (std::size_t cell = 0; cell < n; ++cell)
     if (may_be_nearer(cell)) {
-      const Foot candidate = descend(x, start(cell, squares[cell]), cells_[cell]);
+      const Foot candidate = descend(x, start(cell, squares[cell]), cells_[cell].range);
       const double least = distance - not_nearer * (distance + size_);
       if (least > 0. && candidate.square < least * least) {
-        best = descend(x, candidate, whole_);
+        best = descend(x, candidate, whole);
         distance = std::sqrt(best.square);
       }
     }

@@ -65,14 +65,13 @@ Point largest(const Point &a, const Point &b) {
 
 } // namespace
 
-CoonsPatch::CoonsPatch(const std::array<CurveSketch, 4> &round) : size_(size_of(round)), whole_{} {
+CoonsPatch::CoonsPatch(const std::array<CurveSketch, 4> &round) : size_(size_of(round)) {
   const std::array<CurveSketch, 4> sketches = joined(round, size_);
   for (unsigned int i = 0; i < 4; ++i) {
     curves_.push_back(make_curve(i < 2 ? sketches[i] : sketches[i].reversed(), i + 1));
     is_pole_[i] = sketches[i].kind == Kind::point;
     corners_[i] = sketches[i].points.front();
   }
-  whole_.high_u = whole_.high_v = 1.;
   measure();
   make_cells();
   refuse_folds();
@@ -152,20 +151,17 @@ void CoonsPatch::make_cells() {
 CoonsPatch::Cell CoonsPatch::make_cell(const unsigned int i, const unsigned int j) const {
   const double h_u = 1. / n_u_, h_v = 1. / n_v_;
   Cell cell{};
-  cell.low_u = i * h_u;
-  cell.high_u = i + 1 < n_u_ ? (i + 1) * h_u : 1.;
-  cell.low_v = j * h_v;
-  cell.high_v = j + 1 < n_v_ ? (j + 1) * h_v : 1.;
+  cell.range = {i * h_u, i + 1 < n_u_ ? (i + 1) * h_u : 1., j * h_v, j + 1 < n_v_ ? (j + 1) * h_v : 1.};
+  const auto &[low_u, high_u, low_v, high_v] = cell.range;
   cell.middle = at((i + 0.5) * h_u, (j + 0.5) * h_v);
-  cell.arms = {at(cell.low_u, cell.low_v).position - cell.middle.position,
-               at(cell.high_u, cell.low_v).position - cell.middle.position,
-               at(cell.high_u, cell.high_v).position - cell.middle.position,
-               at(cell.low_u, cell.high_v).position - cell.middle.position};
+  cell.arms = {
+      at(low_u, low_v).position - cell.middle.position, at(high_u, low_v).position - cell.middle.position,
+      at(high_u, high_v).position - cell.middle.position, at(low_u, high_v).position - cell.middle.position};
   // X_uu and X_vv are means of the curves'.
-  const Point uu = largest(curves_[0].largest_second(cell.low_u, cell.high_u),
-                           curves_[2].largest_second(cell.low_u, cell.high_u)),
-              vv = largest(curves_[1].largest_second(cell.low_v, cell.high_v),
-                           curves_[3].largest_second(cell.low_v, cell.high_v));
+  const Point uu =
+                  largest(curves_[0].largest_second(low_u, high_u), curves_[2].largest_second(low_u, high_u)),
+              vv =
+                  largest(curves_[1].largest_second(low_v, high_v), curves_[3].largest_second(low_v, high_v));
   cell.slack = h_u * h_u / 8. * uu + h_v * h_v / 8. * vv;
   // X_uuv = c_1'' − c_0'' and X_uvv = d_1'' − d_0'' change with the curves' third derivatives.
   const auto third = [](const Curve &a, const Curve &b, const double from, const double to) {
@@ -173,18 +169,16 @@ CoonsPatch::Cell CoonsPatch::make_cell(const unsigned int i, const unsigned int 
     const double change = a.largest_third(from, to) + b.largest_third(from, to);
     return (a.at(middle).second - b.at(middle).second).norm() + 0.5 * (to - from) * change;
   };
-  const double uuv = third(curves_[2], curves_[0], cell.low_u, cell.high_u),
-               uvv = third(curves_[1], curves_[3], cell.low_v, cell.high_v);
+  const double uuv = third(curves_[2], curves_[0], low_u, high_u),
+               uvv = third(curves_[1], curves_[3], low_v, high_v);
   const double uv = (cell.middle.uv.norm() + 0.5 * (h_u * uuv + h_v * uvv)) / (length_u_ * length_v_);
   cell.bend_u = uu.norm() / (length_u_ * length_u_) + uv;
   cell.bend_v = vv.norm() / (length_v_ * length_v_) + uv;
-  cell.uuu = std::max(curves_[0].largest_third(cell.low_u, cell.high_u),
-                      curves_[2].largest_third(cell.low_u, cell.high_u)) /
+  cell.uuu = std::max(curves_[0].largest_third(low_u, high_u), curves_[2].largest_third(low_u, high_u)) /
              std::pow(length_u_, 3);
   cell.uuv = uuv / (length_u_ * length_u_ * length_v_);
   cell.uvv = uvv / (length_u_ * length_v_ * length_v_);
-  cell.vvv = std::max(curves_[1].largest_third(cell.low_v, cell.high_v),
-                      curves_[3].largest_third(cell.low_v, cell.high_v)) /
+  cell.vvv = std::max(curves_[1].largest_third(low_v, high_v), curves_[3].largest_third(low_v, high_v)) /
              std::pow(length_v_, 3);
   return cell;
 }

@@ -39,11 +39,14 @@ public:
   Point normal(const Jet &jet, double u, double v) const;
 
 private:
-  static constexpr unsigned int fewest_cells = 3, most_cells = 64; ///< along a side
+  static constexpr std::size_t fewest_cells = 3, most_cells = 64; ///< along a side
 
+  struct Range {
+    double low_u, high_u, low_v, high_v;
+  };
   /// Part of the patch that is looked at as a whole in the search for closest points.
   struct Cell {
-    double low_u, high_u, low_v, high_v;
+    Range range;
     Jet middle;
     std::array<Point, 4> arms; ///< from the middle to the corners
     Point slack; ///< by component, how far the cell is at most from its corners' bilinear surface
@@ -61,6 +64,10 @@ private:
     Jet jet;
     double square; ///< of the distance
   };
+  struct Step {
+    double u, v;    ///< in lengths
+    bool is_newton; ///< undamped, from a convex model
+  };
   struct Block;
 
   void measure();
@@ -71,20 +78,20 @@ private:
   Foot foot(const Point &x) const;
   bool may_be_nearer(std::size_t cell, const Point &arm, double square, double distance) const;
   bool is_nearest(const Foot &foot, const Point &x, const Block &block) const;
-  Foot descend(const Point &x, Foot foot, const Cell &range) const;
-  Foot newton(const Point &x, Foot foot, const Cell &range) const;
-  bool leave_pole(const Point &x, const Cell &range, Foot &foot) const;
+  Foot descend(const Point &x, Foot foot, const Range &range) const;
+  Foot newton(const Point &x, Foot foot, const Range &range) const;
+  Step newton_step(const Point &x, const Foot &foot, const Range &range, double damping) const;
+  bool leave_pole(const Point &x, const Range &range, Foot &foot) const;
   dealii::Tensor<2, 3> turning(const Foot &foot, const Point &normal, double gap) const;
 
   std::vector<Curve> curves_;            ///< c_0, d_1, c_1, d_0
   std::array<bool, 4> is_pole_;          ///< whether the curve has shrunk to a point
   std::array<Point, 4> corners_;         ///< P_00, P_10, P_11, P_01
-  double size_ = 0.;                     ///< greatest distance of the points of the sketch
+  double size_ = 0.;                     ///< greatest distance of the curves' points from the first
   double length_u_ = 0., length_v_ = 0.; ///< means of |X_u|, |X_v|
   unsigned int n_u_ = 0, n_v_ = 0;       ///< cells
   std::vector<Cell> cells_;
   std::vector<Ball> balls_; ///< that hold the cells
-  Cell whole_;
   BoundingBox box_;
 };
 
