@@ -24,6 +24,16 @@ namespace {
 /// Up to so many patches are looked at one after the other.
 constexpr std::size_t few_patches = 4;
 
+/// A move of x by δ moves its foot on a curved edge by (e·δ)/(1 − (x − foot)·k) e with the edge's curvature
+/// vector k, of which both surfaces know a part, n_i·k = −e·W_i e: W_i is their turning on the edge.
+double slide_along_edge(const Tensor<1, 3> &arm, const Tensor<1, 3> &e, const ClosestPoint &first,
+                        const ClosestPoint &second) {
+  const double cosine = first.normal * second.normal, square_of_sine = 1. - cosine * cosine;
+  const double along_first = (arm * first.normal - cosine * (arm * second.normal)) / square_of_sine,
+               along_second = (arm * second.normal - cosine * (arm * first.normal)) / square_of_sine;
+  return 1. / (1. + along_first * (e * (first.turning * e)) + along_second * (e * (second.turning * e)));
+}
+
 } // namespace
 
 RigidSurface::RigidSurface(std::vector<std::unique_ptr<const SurfacePatch>> patches)
@@ -101,6 +111,7 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   const double reach = distance + tolerance_;
   Tensor<1, 3> normals = nearest.normal, edge;
   Tensor<2, 3> turning = nearest.turning;
+  unsigned int sharpest = patch; // the neighbour across the sharpest edge
   unsigned int n_neighbours = 0;
   double sharpness = 0.;
   if (patches_.size() > 1)
@@ -117,6 +128,7 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
       if (across.norm() > sharpness) {
         sharpness = across.norm();
         edge = across / sharpness;
+        sharpest = i;
       }
     });
   if (n_neighbours == 0)
@@ -140,7 +152,9 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
   projection.turning = identity - dealii::outer_product(projection.normal, projection.normal);
   if (std::abs(arm * edge) <= 1e-6 * distance)
-    projection.turning -= dealii::outer_product(edge, edge);
+    projection.turning -= slide_along_edge(arm, edge, patches_[patch]->closest_point(nearest.position),
+                                           patches_[sharpest]->closest_point(nearest.position)) *
+                          dealii::outer_product(edge, edge);
   else if (n_neighbours == 1) // past the edge's end; three patches make a corner
     return {false, nearest.normal, distance, {}, patch};
   projection.turning /= projection.gap;

@@ -12,12 +12,15 @@ SurfaceType cone_type();
 SurfaceType torus_type();
 SurfaceType revolved_profile_type();
 SurfaceType extruded_profile_type();
+SurfaceType coons_patch_type();
+SurfaceType coons_patches_type();
 
 const std::vector<SurfaceType> &surface_types() {
   static const std::vector<SurfaceType> types{
-      plane_type(),  rectangle_type(),        disc_type(),
-      sphere_type(), cylinder_type(),         cone_type(),
-      torus_type(),  revolved_profile_type(), extruded_profile_type()};
+      plane_type(),       rectangle_type(),        disc_type(),
+      sphere_type(),      cylinder_type(),         cone_type(),
+      torus_type(),       revolved_profile_type(), extruded_profile_type(),
+      coons_patch_type(), coons_patches_type()};
   return types;
 }
 

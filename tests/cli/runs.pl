@@ -164,6 +164,8 @@ same 'a symmetry plane for a support', 'block: Symmetry planes = x = 0 ; y = 0 ;
 same 'an expression for an amplitude', 'Motion: Translation = 0 ; 0 ; -0.1*t';
 same 'the die turned over', 'Plane: Normal = 0, 0, 1 & Motion: Rotation axis = 1, 0, 0 & Motion: Rotation angle = pi'
   . ' & Motion: Centre = 0, 0, 2';
+same 'the die as Coons patches on 2 ranks', 'Plane: - Point & Plane: - Normal & Plane: Shape = coons patches'
+  . ' & Plane: File = patches.txt', ranks => 2;
 same 'the penalty in stress per length', 'top on die: Penalty unit = absolute & top on die: Normal penalty = 10e3';
 same 'the same tangential penalty', 'top on die: Tangential penalty = 10';
 same 'linear hardening as a table', $no_law . 'table & Material: Table = 0 : 10, 0.5 : 35, 1 : 60';

@@ -144,6 +144,16 @@ int main() {
              alone = make_surface({floor});
   check_surface("corner of floor and wall", *corner, origin, 4.);
   check_surface("ridge of floor and side", *ridge, origin, 4.);
+  // Edges that are round: of a disc and a cylinder or cone.
+  check_surface("puck",
+                *make_surface({{"disc", "set Centre = 0, 0, 1\nset Radius = 2"},
+                               {"cylinder", "set Radius = 2\nset Length = 2"}}),
+                origin, 3.);
+  check_surface("funnel",
+                *make_surface({{"disc", "set Centre = 0, 0, 1\nset Radius = 4\nset Inner radius = 2"},
+                               {"cone", "set Side = inside\nset Apex = 0, 0, -1\nset From height = 1\nset "
+                                        "To height = 2"}}),
+                origin, 3.);
   check_gap("in the corner, nearer to the floor", *corner, Tensor<1, 3>({0.3, 0., 0.2}), 0.2);
   check_gap("behind the corner", *corner, Tensor<1, 3>({-0.3, 0., -0.4}), -0.5);
   check_gap("before the ridge", *ridge, Tensor<1, 3>({-0.3, 0., 0.4}), 0.5);

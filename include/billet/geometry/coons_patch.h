@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_COONS_PATCH_H
+#define BILLET_GEOMETRY_COONS_PATCH_H
+
+#include "billet/geometry/curve.h"
+#include "billet/geometry/surface_patch.h"
+
+#include <array>
+
+namespace billet {
+
+/// The surface that four curves span, bilinearly blended (Coons, MIT report MAC-TR-41, 1967): with c_0, c_1
+/// at v = 0, 1 and d_0, d_1 at u = 0, 1, which meet in the corners P_ij at u = i, v = j,
+///   X(u, v) = (1 − v) c_0(u) + v c_1(u) + (1 − u) d_0(v) + u d_1(v)
+///             − (1 − u)(1 − v) P_00 − u (1 − v) P_10 − (1 − u) v P_01 − u v P_11.
+/// It contains the curves; its normal is along X_u × X_v.
+class CoonsPatch final : public SurfacePatch {
+public:
+  using Point = dealii::Tensor<1, 3>;
+
+  /// The curves run round the patch, each from where the one before ends: c_0, d_1, c_1 backwards, d_0
+  /// backwards. That is counter-clockwise for one who looks against the normal. Sides may have shrunk to a
+  /// point, but not two neighbours. Throws std::invalid_argument, with the reason, where the curves do not
+  /// meet or the patch folds over or has no area.
+  explicit CoonsPatch(const std::array<CurveSketch, 4> &round);
+
+  ClosestPoint closest_point(const Point &x) const override;
+  BoundingBox bounding_box() const override { return box_; }
+  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+
+  /// Position and derivatives with respect to u and v.
+  struct Jet {
+    Point position, u, v, uu, uv, vv;
+  };
+  Jet at(double u, double v) const;
+
+  /// Unit normal where `jet` was taken at u, v. Where X_u × X_v vanishes, as on a side that has shrunk to a
+  /// point, its limit from the middle of the patch; 0 if there is none.
+  Point normal(const Jet &jet, double u, double v) const;
+
+private:
+  static constexpr std::size_t fewest_cells = 3, most_cells = 64; ///< along a side
+
+  struct Range {
+    double low_u, high_u, low_v, high_v;
+  };
+  /// Part of the patch that is looked at as a whole in the search for closest points.
+  struct Cell {
+    Range range;
+    Jet middle;
+    std::array<Point, 4> arms; ///< from the middle to the corners
+    Point slack; ///< by component, how far the cell is at most from its corners' bilinear surface
+    /// Not less than |X_uu| + |X_uv| and |X_vv| + |X_uv|, in lengths instead of u and v. [1/length]
+    double bend_u, bend_v;
+    /// Not less than the third derivatives |X_uuu|, |X_uuv|, |X_uvv|, |X_vvv|, likewise. [1/length²]
+    double uuu, uuv, uvv, vvv;
+  };
+  struct Ball {
+    Point centre;
+    double radius;
+  };
+  struct Foot {
+    double u, v;
+    Jet jet;
+    double square; ///< of the distance
+  };
+  struct Step {
+    double u, v;    ///< in lengths
+    bool is_newton; ///< undamped, from a convex model
+  };
+  struct Block;
+
+  void measure();
+  void make_cells();
+  Cell make_cell(unsigned int i, unsigned int j) const;
+  void refuse_folds() const;
+
+  Foot foot(const Point &x) const;
+  bool may_be_nearer(std::size_t cell, const Point &arm, double square, double distance) const;
+  bool is_nearest(const Foot &foot, const Point &x, const Block &block) const;
+  Foot descend(const Point &x, Foot foot, const Range &range) const;
+  Foot newton(const Point &x, Foot foot, const Range &range) const;
+  Step newton_step(const Point &x, const Foot &foot, const Range &range, double damping) const;
+  bool leave_pole(const Point &x, const Range &range, Foot &foot) const;
+  dealii::Tensor<2, 3> turning(const Foot &foot, const Point &normal, double gap) const;
+
+  std::vector<Curve> curves_;            ///< c_0, d_1, c_1, d_0
+  std::array<bool, 4> is_pole_;          ///< whether the curve has shrunk to a point
+  std::array<Point, 4> corners_;         ///< P_00, P_10, P_11, P_01
+  double size_ = 0.;                     ///< greatest distance of the curves' points from the first
+  double length_u_ = 0., length_v_ = 0.; ///< means of |X_u|, |X_v|
+  unsigned int n_u_ = 0, n_v_ = 0;       ///< cells
+  std::vector<Cell> cells_;
+  std::vector<Ball> balls_; ///< that hold the cells
+  BoundingBox box_;
+};
+
+} // namespace billet
+
+#endif

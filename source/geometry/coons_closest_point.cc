@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The closest point of a Coons patch: Newton's method from the nearest middle of a cell, then from every cell
+// that may still hold a nearer point.
+#include "billet/geometry/coons_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace billet {
+
+using dealii::Tensor;
+using Point = CoonsPatch::Point;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double round_off = std::numeric_limits<double>::epsilon();
+// Parts of the distance and the patch's size: less is not nearer; farther aside is not straight above.
+constexpr double not_nearer = 1e-13, straight_above = 1e-10;
+
+/// g·s + s·H s/2 over s = (s_u, s_v), in lengths.
+struct Quadratic {
+  double g_u, g_v, uu, uv, vv;
+
+  double least_eigenvalue() const { return 0.5 * (uu + vv) - half_difference(); }
+  double largest_eigenvalue() const { return 0.5 * (uu + vv) + half_difference(); }
+  double half_difference() const { return std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv); }
+  /// With the sizes of the eigenvalues λ_1, λ_2 of H in their place, (H² + |λ_1 λ_2| I)/(|λ_1| + |λ_2|), not
+  /// less than `least`.
+  void make_convex(const double least) {
+    const double first = std::abs(least_eigenvalue()), second = std::abs(largest_eigenvalue());
+    if (first + second > 0.) {
+      const Quadratic h = *this;
+      uu = (h.uu * h.uu + h.uv * h.uv + first * second) / (first + second);
+      uv = h.uv * (h.uu + h.vv) / (first + second);
+      vv = (h.vv * h.vv + h.uv * h.uv + first * second) / (first + second);
+    }
+    const double shift = std::max(0., least - std::min(first, second));
+    uu += shift;
+    vv += shift;
+  }
+  double value(const double u, const double v) const {
+    return g_u * u + g_v * v + 0.5 * (uu * u * u + vv * v * v) + uv * u * v;
+  }
+};
+
+/// In lengths.
+using Pair = std::array<double, 2>;
+
+/// Where a convex quadratic is least between `low` and `high`: inside, or on one of the four sides.
+Pair minimum(const Quadratic &q, const Pair &low, const Pair &high) {
+  const double determinant = q.uu * q.vv - q.uv * q.uv;
+  const Pair inside{(q.uv * q.g_v - q.vv * q.g_u) / determinant, (q.uv * q.g_u - q.uu * q.g_v) / determinant};
+  if (inside[0] >= low[0] && inside[0] <= high[0] && inside[1] >= low[1] && inside[1] <= high[1])
+    return inside;
+  Pair best{0., 0.};
+  double least = infinity;
+  const auto consider = [&](const double u, const double v) {
+    const double value = q.value(u, v);
+    if (value < least) {
+      least = value;
+      best = {u, v};
+    }
+  };
+  for (const double u : {low[0], high[0]})
+    consider(u, std::clamp(-(q.g_v + q.uv * u) / q.vv, low[1], high[1]));
+  for (const double v : {low[1], high[1]})
+    consider(std::clamp(-(q.g_u + q.uv * v) / q.uu, low[0], high[0]), v);
+  return best;
+}
+
+/// u + step, at the end of the range to the last bit if it is there.
+double moved(const double u, const double step, const double low, const double high) {
+  const double there = u + step;
+  return there - low < 1e-14 ? low : high - there < 1e-14 ? high : there;
+}
+
+} // namespace
+
+/// A rectangle of cells.
+struct CoonsPatch::Block {
+  unsigned int low_i, high_i, low_j, high_j;
+
+  void add(const unsigned int i, const unsigned int j) {
+    low_i = std::min(low_i, i);
+    high_i = std::max(high_i, i);
+    low_j = std::min(low_j, j);
+    high_j = std::max(high_j, j);
+  }
+};
+
+/// Whether the cell may hold a point that is nearer to x than `distance`, by the hull of its corners with the
+/// slack around it, seen along `arm`, from the cell's middle to x, whose square is given.
+bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const double square,
+                               const double distance) const {
+  double towards = -infinity;
+  for (const auto &corner : cells_[cell].arms)
+    towards = std::max(towards, corner * arm);
+  for (unsigned int c = 0; c < 3; ++c)
+    towards += cells_[cell].slack[c] * std::abs(arm[c]);
+  return square == 0. || square - towards < distance * std::sqrt(square);
+}
+
+/// Whether no point of the block is nearer to x than `foot`, a minimum in it: for X = foot + X_α δ^α + B,
+/// where d = x − foot makes no acute angle with X_α δ^α,
+///   |X − x|² − d² >= (|X_α δ^α| − |B|)² − 2 d·B,
+/// with 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`; d·X_αβ is that in the foot, and a change
+/// bounded by third derivatives. All in lengths a, b instead of u, v.
+bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block) const {
+  const Range &low = cells_[block.low_i * n_v_ + block.low_j].range,
+              &high = cells_[block.high_i * n_v_ + block.high_j].range;
+  const double a = length_u_ * std::max(foot.u - low.low_u, high.high_u - foot.u),
+               b = length_v_ * std::max(foot.v - low.low_v, high.high_v - foot.v);
+  double bend_u = 0., bend_v = 0., change_u = 0., change_v = 0.;
+  for (unsigned int i = block.low_i; i <= block.high_i; ++i)
+    for (unsigned int j = block.low_j; j <= block.high_j; ++j) {
+      const Cell &cell = cells_[i * n_v_ + j];
+      bend_u = std::max(bend_u, cell.bend_u);
+      bend_v = std::max(bend_v, cell.bend_v);
+      const double change_uv = a * cell.uuv + b * cell.uvv;
+      change_u = std::max(change_u, a * cell.uuu + b * cell.uuv + change_uv);
+      change_v = std::max(change_v, a * cell.uvv + b * cell.vvv + change_uv);
+    }
+  const double scale_u = 1. / length_u_, scale_v = 1. / length_v_;
+  const Point u = scale_u * foot.jet.u, v = scale_v * foot.jet.v;
+  const double stretch = std::sqrt(std::max(0., Quadratic{0., 0., u * u, u * v, v * v}.least_eigenvalue()));
+  const double left =
+      std::max(0., stretch - 0.5 * std::sqrt(bend_u * bend_u * a * a + bend_v * bend_v * b * b));
+  const Point d = x - foot.jet.position;
+  const double distance = std::sqrt(foot.square);
+  const Quadratic towards{0., 0., scale_u * scale_u * (d * foot.jet.uu) + distance * change_u,
+                          scale_u * scale_v * (d * foot.jet.uv),
+                          scale_v * scale_v * (d * foot.jet.vv) + distance * change_v};
+  return std::min(towards.largest_eigenvalue(), distance * std::max(bend_u, bend_v)) <= left * left;
+}
+
+/// A step of Newton's method on
+///   (X − x)·X_u = 0,  (X − x)·X_v = 0
+/// (Bittencourt & Creus 1998, eqs. (10), (11)): to the minimum, within the range, of the second-order model
+/// of |X − x|²/2, which is made convex where it is not, and damped as Marquardt did.
+CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const Range &range,
+                                         const double damping) const {
+  const Jet &jet = foot.jet;
+  const Point r = jet.position - x;
+  Quadratic model{r * jet.u / length_u_, r * jet.v / length_v_,
+                  (jet.u * jet.u + r * jet.uu) / (length_u_ * length_u_),
+                  (jet.u * jet.v + r * jet.uv) / (length_u_ * length_v_),
+                  (jet.v * jet.v + r * jet.vv) / (length_v_ * length_v_)};
+  // On a border that the way down leads across, the other parameter is alone.
+  const bool is_held_u = model.g_u > 0. ? foot.u == range.low_u : model.g_u < 0. && foot.u == range.high_u,
+             is_held_v = model.g_v > 0. ? foot.v == range.low_v : model.g_v < 0. && foot.v == range.high_v;
+  if (is_held_u || is_held_v)
+    model.uv = 0.;
+  if (is_held_u) {
+    model.g_u = 0.;
+    model.uu = 1.;
+  }
+  if (is_held_v) {
+    model.g_v = 0.;
+    model.vv = 1.;
+  }
+  const double least = 1e-10 * (std::abs(model.uu) + std::abs(model.vv) + 1.);
+  const bool is_convex = model.least_eigenvalue() > least;
+  if (!is_convex)
+    model.make_convex(least);
+  model.uu *= 1. + damping;
+  model.vv *= 1. + damping;
+  const auto [u, v] = minimum(model, {(range.low_u - foot.u) * length_u_, (range.low_v - foot.v) * length_v_},
+                              {(range.high_u - foot.u) * length_u_, (range.high_v - foot.v) * length_v_});
+  return {u, v, is_convex && damping == 0.};
+}
+
+/// Newton's method from `foot` downhill to a minimum of the distance in the range.
+CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &range) const {
+  double damping = 0., last_length = infinity;
+  for (unsigned int iteration = 0; iteration < 100; ++iteration) {
+    const Step step = newton_step(x, foot, range, damping);
+    const double length = std::max(std::abs(step.u), std::abs(step.v));
+    if (length <= round_off * size_)
+      return foot;
+
+    Foot next{moved(foot.u, step.u / length_u_, range.low_u, range.high_u),
+              moved(foot.v, step.v / length_v_, range.low_v, range.high_v),
+              {},
+              0.};
+    next.jet = at(next.u, next.v);
+    next.square = (next.jet.position - x).norm_square();
+    const double distance = std::sqrt(foot.square);
+    const double noise = 16. * round_off * distance * (distance + foot.jet.position.norm() + size_);
+    if (!(next.square <= foot.square + noise)) {
+      damping = std::max(8. * damping, 0.1);
+      continue;
+    }
+    foot = next;
+    damping = damping > 0.1 ? damping / 8. : 0.;
+    // The next Newton step would be below round-off, or steps are made of round-off only.
+    if (step.is_newton && (length <= 1e-10 * size_ || (length <= 1e-6 * size_ && length > 0.5 * last_length)))
+      return foot;
+    last_length = length;
+  }
+  return foot;
+}
+
+/// On a side that has shrunk to a point the parameter along it leads nowhere, but decides in which direction
+/// the patch goes on. Moves `foot` off such a point, nearer to x, if it can.
+bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) const {
+  const bool at_low_v = foot.v == 0. && is_pole_[0], at_high_u = foot.u == 1. && is_pole_[1],
+             at_high_v = foot.v == 1. && is_pole_[2], at_low_u = foot.u == 0. && is_pole_[3];
+  if (!(at_low_v || at_high_u || at_high_v || at_low_u))
+    return false;
+  const bool along_v = at_low_u || at_high_u;
+  const double inwards = at_low_u || at_low_v ? 1. : -1.;
+  const double low = along_v ? range.low_v : range.low_u, high = along_v ? range.high_v : range.high_u;
+  const Point r = foot.jet.position - x;
+  const auto at_pole = [&](const double t) { return along_v ? at(foot.u, t) : at(t, foot.v); };
+  const auto slope = [&](const Jet &jet) { return inwards * (r * (along_v ? jet.u : jet.v)); };
+
+  // The steepest way down: among samples, then where the slope's own derivative vanishes, by bisection.
+  constexpr unsigned int n = 16;
+  unsigned int steepest = 0;
+  double least = infinity;
+  for (unsigned int i = 0; i <= n; ++i) {
+    const double here = slope(at_pole(low + i * (high - low) / n));
+    if (here < least) {
+      least = here;
+      steepest = i;
+    }
+  }
+  double before = low + (std::max(1u, steepest) - 1) * (high - low) / n,
+         after = low + std::min(n, steepest + 1) * (high - low) / n;
+  while (after - before > 1e-9) {
+    const double middle = 0.5 * (before + after);
+    (inwards * (r * at_pole(middle).uv) > 0. ? after : before) = middle;
+  }
+  const double t = 0.5 * (before + after);
+  const Jet jet = at_pole(t);
+  const double down = -slope(jet);
+  if (!(down > round_off * (r.norm() + size_) * (along_v ? length_u_ : length_v_)))
+    return false;
+
+  const double bend = along_v ? jet.u * jet.u + r * jet.uu : jet.v * jet.v + r * jet.vv;
+  const double room = along_v ? range.high_u - range.low_u : range.high_v - range.low_v;
+  for (double depth = bend * room > down ? down / bend : room; depth > round_off; depth *= 0.5) {
+    Foot next = foot;
+    (along_v ? next.v : next.u) = t;
+    (along_v ? next.u : next.v) += inwards * depth;
+    next.jet = at(next.u, next.v);
+    next.square = (next.jet.position - x).norm_square();
+    if (next.square < foot.square) {
+      foot = next;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// From `foot` downhill to a minimum of the distance in the range of a cell.
+CoonsPatch::Foot CoonsPatch::descend(const Point &x, Foot foot, const Range &range) const {
+  foot = newton(x, foot, range);
+  for (unsigned int i = 0; i < 10 && leave_pole(x, range, foot); ++i)
+    foot = newton(x, foot, range);
+  return foot;
+}
+
+CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
+  const Range whole{0., 1., 0., 1.};
+  const auto start = [&](const std::size_t cell, const double square) {
+    const Range &range = cells_[cell].range;
+    return Foot{0.5 * (range.low_u + range.high_u), 0.5 * (range.low_v + range.high_v), cells_[cell].middle,
+                square};
+  };
+  std::array<double, most_cells * most_cells> squares; // of the distances to the middles
+  const std::size_t n = balls_.size();
+  double least_square = infinity;
+  for (std::size_t cell = 0; cell < n; ++cell) {
+    squares[cell] = (x - balls_[cell].centre).norm_square();
+    least_square = std::min(least_square, squares[cell]);
+  }
+  // Of a point that is not a number none is the nearest.
+  const std::size_t found = std::find(squares.begin(), squares.begin() + n, least_square) - squares.begin();
+  const std::size_t nearest = found < n ? found : 0;
+  Foot best = descend(x, start(nearest, least_square), whole);
+
+  double distance = std::sqrt(best.square);
+  const auto may_be_nearer = [&](const std::size_t cell) {
+    const double than = distance - not_nearer * (distance + size_), reach = than + balls_[cell].radius;
+    return squares[cell] < reach * reach &&
+           this->may_be_nearer(cell, x - balls_[cell].centre, squares[cell], than);
+  };
+  const auto index = [](const double u, const unsigned int n) {
+    return std::min(static_cast<unsigned int>(u * n), n - 1);
+  };
+  const unsigned int i = index(best.u, n_u_), j = index(best.v, n_v_);
+  Block block{i, i, j, j};
+  for (std::size_t cell = 0; cell < n; ++cell)
+    if (may_be_nearer(cell))
+      block.add(static_cast<unsigned int>(cell) / n_v_, static_cast<unsigned int>(cell) % n_v_);
+  if (is_nearest(best, x, block))
+    return best;
+
+  for (std::size_t cell = 0; cell < n; ++cell)
+    if (may_be_nearer(cell)) {
+      const Foot candidate = descend(x, start(cell, squares[cell]), cells_[cell].range);
+      const double least = distance - not_nearer * (distance + size_);
+      if (least > 0. && candidate.square < least * least) {
+        best = descend(x, candidate, whole);
+        distance = std::sqrt(best.square);
+      }
+    }
+  return best;
+}
+
+/// W (I + gap W)⁻¹ with the shape operator W = ∂n/∂X on the tangent plane: from the second fundamental form
+/// b_αβ = n·X_αβ and X_α = e_k J_kα with orthonormal e_k, W = −J⁻ᵀ b J⁻¹.
+Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const Point &normal, const double gap) const {
+  Jet jet = foot.jet;
+  // Where the parameters degenerate, W is that of a point a little inside.
+  if (dealii::cross_product_3d(jet.u, jet.v).norm() < 1e-4 * length_u_ * length_v_)
+    jet = at(foot.u + 2e-4 * (0.5 - foot.u), foot.v + 2e-4 * (0.5 - foot.v));
+  Point e = jet.u - (jet.u * normal) * normal;
+  e /= e.norm();
+  const Point f = dealii::cross_product_3d(normal, e);
+  const double ue = jet.u * e, ve = jet.v * e, vf = jet.v * f;
+  // J⁻¹ = (1/ue, −ve/(ue vf); 0, 1/vf)
+  const double a = 1. / ue, b = -ve / (ue * vf), c = 1. / vf;
+  const double b_uu = normal * jet.uu, b_uv = normal * jet.uv, b_vv = normal * jet.vv;
+  const double w_ee = -a * a * b_uu, w_ef = -a * (b * b_uu + c * b_uv),
+               w_ff = -(b * b * b_uu + 2. * b * c * b_uv + c * c * b_vv);
+  // W (I + gap W)⁻¹ = (W + gap det W I)/det(I + gap W)
+  const double determinant = w_ee * w_ff - w_ef * w_ef;
+  const double scale = 1. / (1. + gap * (w_ee + w_ff) + gap * gap * determinant);
+  return scale * ((w_ee + gap * determinant) * dealii::outer_product(e, e) +
+                  (w_ff + gap * determinant) * dealii::outer_product(f, f) +
+                  w_ef * (dealii::outer_product(e, f) + dealii::outer_product(f, e)));
+}
+
+ClosestPoint CoonsPatch::closest_point(const Point &x) const {
+  const Foot nearest = foot(x);
+  ClosestPoint result;
+  result.position = nearest.jet.position;
+  result.normal = normal(nearest.jet, nearest.u, nearest.v);
+  const Point arm = x - result.position;
+  result.gap = arm * result.normal;
+  result.turning = turning(nearest, result.normal, result.gap);
+  const bool is_on_border = nearest.u == 0. || nearest.u == 1. || nearest.v == 0. || nearest.v == 1.;
+  result.is_beyond_border = is_on_border && (arm - result.gap * result.normal).norm() >
+                                                straight_above * size_ + 10. * round_off * arm.norm();
+  return result;
+}
+
+} // namespace billet

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Coons patches as a user writes them: one in the scene file, or many in a file of their own.
+#include "billet/geometry/coons_patch.h"
+#include "billet/geometry/surface_type.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace billet {
+
+namespace {
+
+using Kind = SurfaceParameter::Kind;
+using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
+using Sketch = std::array<CurveSketch, 4>;
+
+const std::string curves_meaning =
+    "four curves that run round the patch, separated by semicolons, each from where the one before ends; "
+    "counter-clockwise for one who looks at it from the bodies: so runs a thumb up the normal. A curve is "
+    "'line: x, y, z to x, y, z', 'arc: x, y, z via x, y, z to x, y, z', 'spline: x, y, z via x, y, z via ... "
+    "to x, y, z' (a natural cubic one), or 'point: x, y, z' where a side has shrunk to a point. [length]";
+
+Sketch read_curves(const std::vector<std::string> &parts) {
+  if (parts.size() != 4)
+    throw std::invalid_argument("four curves, separated by semicolons; these are " +
+                                std::to_string(parts.size()));
+  Sketch curves;
+  std::transform(parts.begin(), parts.end(), curves.begin(), read_curve);
+  return curves;
+}
+
+/// Parts between semicolons, empty ones left out.
+std::vector<std::string> split(const std::string &line) {
+  std::vector<std::string> parts;
+  std::istringstream stream(line);
+  std::string part;
+  while (std::getline(stream, part, ';')) {
+    const auto begin = part.find_first_not_of(" \t\r");
+    if (begin != std::string::npos)
+      parts.push_back(part.substr(begin, part.find_last_not_of(" \t\r") + 1 - begin));
+  }
+  return parts;
+}
+
+/// A side of a patch of a set: neighbours run along it in opposite directions.
+struct Side {
+  dealii::Tensor<1, 3> start, middle, end;
+  unsigned int line; ///< of the file
+};
+
+void add_sides(const Sketch &curves, const unsigned int line, std::vector<Side> &sides) {
+  for (const auto &sketch : curves)
+    if (sketch.kind != CurveSketch::Kind::point)
+      sides.push_back({sketch.points.front(), Curve(sketch).at(0.5).position, sketch.points.back(), line});
+}
+
+/// Throws std::invalid_argument where neighbours do not face the same way.
+void check_sides(std::vector<Side> sides) {
+  BoundingBox box = BoundingBox::empty();
+  for (const auto &side : sides) {
+    box.add(side.start);
+    box.add(side.middle);
+  }
+  const double tolerance = 1e-7 * (box.high - box.low).norm();
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const Side &a, const Side &b) { return a.middle[0] < b.middle[0]; });
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].middle[0] - sides[i].middle[0] <= tolerance; ++j)
+      if ((sides[j].middle - sides[i].middle).norm() <= tolerance &&
+          (sides[j].start - sides[i].start).norm() <= tolerance &&
+          (sides[j].end - sides[i].end).norm() <= tolerance)
+        throw std::invalid_argument(
+            "the patches of lines " + std::to_string(std::min(sides[i].line, sides[j].line)) + " and " +
+            std::to_string(std::max(sides[i].line, sides[j].line)) +
+            " run the same way along the side that they share, from " + print(sides[i].start) + " to " +
+            print(sides[i].end) + ": their normals oppose each other");
+}
+
+Patches read_patches(std::istream &stream, const std::string &name) {
+  Patches patches;
+  std::vector<Side> sides;
+  std::string line;
+  for (unsigned int number = 1; std::getline(stream, line); ++number) {
+    const auto parts = split(line.substr(0, line.find('#')));
+    if (parts.empty())
+      continue;
+    try {
+      const Sketch curves = read_curves(parts);
+      patches.push_back(std::make_unique<CoonsPatch>(curves));
+      add_sides(curves, number, sides);
+    } catch (const std::invalid_argument &error) {
+      throw std::invalid_argument(name + ":" + std::to_string(number) + ": " + error.what());
+    }
+  }
+  if (patches.empty())
+    throw std::invalid_argument(name + ": it has none");
+  try {
+    check_sides(sides);
+  } catch (const std::invalid_argument &error) {
+    throw std::invalid_argument(name + ": " + error.what());
+  }
+  return patches;
+}
+
+} // namespace
+
+SurfaceType coons_patch_type() {
+  return {"coons patch",
+          "The surface that four curves span, bilinearly blended.",
+          {{"Curves", "", Kind::text, "The " + curves_meaning}},
+          [](const SurfaceInput &input) {
+            Patches patches;
+            try {
+              patches.push_back(std::make_unique<CoonsPatch>(read_curves(input.parts("Curves"))));
+            } catch (const std::invalid_argument &error) {
+              input.reject("Curves", std::string("a Coons patch; ") + error.what());
+            }
+            return patches;
+          }};
+}
+
+SurfaceType coons_patches_type() {
+  return {"coons patches",
+          "Coons patches from a file; where they meet the surface goes on.",
+          {{"File", "", Kind::text,
+            "Name of a text file, relative to the scene file, with a patch a line and comments after '#'. Of "
+            "each patch the " +
+                curves_meaning}},
+          [](const SurfaceInput &input) {
+            const std::string name = input.file("File");
+            std::ifstream stream(name);
+            Patches patches;
+            try {
+              patches = read_patches(stream, name);
+            } catch (const std::invalid_argument &error) {
+              input.reject("File", std::string("a file of Coons patches; ") + error.what());
+            }
+            return patches;
+          }};
+}
+
+} // namespace billet
