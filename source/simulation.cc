@@ -153,8 +153,10 @@ void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) 
       control.accept(static_cast<unsigned int>(report.newton.iterations.size()));
       continued = report.length;
       report.step = control.n_steps();
-      if (is_first)
-        history->write(report, problem.state());
+      fail_together(communicator, [&] {
+        if (is_first)
+          history->write(report, problem.state());
+      });
       progress.accept(report, problem.state());
       snapshots.after_step(control.n_steps(), problem);
       continue;

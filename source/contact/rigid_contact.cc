@@ -141,9 +141,9 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const auto projection = tool_.surface().project(on_tool, node.patch);
   state.gap = projection.gap;
   state.patch = projection.patch;
-  // A node that starts exactly on the tool counts as touching: its stiffness may be all that holds the
-  // body.
-  const bool touches = projection.exists && (state.gap < 0. || (state.gap == 0. && node.gap_n <= 0.));
+  // A node that starts on the tool counts as touching: its stiffness may be all that holds the body.
+  const double on_it = touching_gap * node.size;
+  const bool touches = projection.exists && (state.gap < 0. || (state.gap <= on_it && node.gap_n <= on_it));
   if (touches) {
     state.normal = placement_.rotation * projection.normal;
     state.turning = placement_.rotation * projection.turning * dealii::transpose(placement_.rotation);
@@ -193,7 +193,7 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
   // A node that enters within the step has slid along the tool for the part φ = g/(g − g_n) of it only.
   ContactStiffness stiffness = node.stiffness;
   double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ
-  if (!history_n.is_active && node.gap_n > 0.) {
+  if (!history_n.is_active && node.gap_n > touching_gap * node.size && state.gap < 0.) {
     fraction = state.gap / (state.gap - node.gap_n);
     stiffness.tangential *= fraction;
     relative_slope = node.gap_n / (state.gap * (node.gap_n - state.gap));

@@ -9,7 +9,7 @@ namespace billet {
 FrameTraction compute_frictionless_traction(const double normal_stiffness, const double gap) {
   FrameTraction traction{};
   traction.status = ContactStatus::slip;
-  traction.pressure = -normal_stiffness * gap;
+  traction.pressure = std::max(0., -normal_stiffness * gap);
   traction.tangent[2][2] = normal_stiffness;
   return traction;
 }

@@ -144,7 +144,7 @@ Constraints Supports::at_time(const double t) const {
                 << redundancy.position << ") is held by " << redundancy.holds
                 << ", and they contradict each other by " << std::abs(sum)
                 << ". Allowed are prescribed displacements that agree where their boundaries meet";
-        throw InputError(message.str());
+        throw SolutionFailure(message.str()); // bad input, when it shows at the start
       }
     }
   });

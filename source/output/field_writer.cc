@@ -163,18 +163,26 @@ void FieldWriter::write(const QuasiStatic &problem) {
   Snapshot snapshot;
   snapshot.time = state.time;
   snapshot.tools = numbered("tools", n_written_, ".vtp");
-  if (format == Format::vtu) {
-    data_out.write_vtu_with_pvtu_record(folder_ + "/", "fields", n_written_, communicator, 5, 1);
-    snapshot.fields = numbered("fields", n_written_, ".pvtu");
-  } else {
-    // Vertices are not merged: cell data would be smeared over body interfaces.
-    dealii::DataOutBase::DataOutFilter filter(dealii::DataOutBase::DataOutFilterFlags(false, true));
-    data_out.write_filtered_data(filter);
-    const std::string name = numbered("fields", n_written_, ".h5");
-    data_out.write_hdf5_parallel(filter, folder_ + "/" + name, communicator);
-    xdmf_entries_.push_back(data_out.create_xdmf_entry(filter, name, state.time, communicator));
-    data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator);
+  snapshot.fields = numbered("fields", n_written_, format == Format::vtu ? ".pvtu" : ".h5");
+  std::string failure;
+  try {
+    if (format == Format::vtu)
+      data_out.write_vtu_with_pvtu_record(folder_ + "/", "fields", n_written_, communicator, 5, 1);
+    else {
+      // Vertices are not merged: cell data would be smeared over body interfaces.
+      dealii::DataOutBase::DataOutFilter filter(dealii::DataOutBase::DataOutFilterFlags(false, true));
+      data_out.write_filtered_data(filter);
+      data_out.write_hdf5_parallel(filter, folder_ + "/" + snapshot.fields, communicator);
+      xdmf_entries_.push_back(data_out.create_xdmf_entry(filter, snapshot.fields, state.time, communicator));
+      data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator);
+    }
+  } catch (const std::exception &) { // of deal.II's many kinds
+    failure = folder_ + "/" + snapshot.fields + " cannot be written: is the disk full?";
   }
+  fail_together(communicator, [&failure] {
+    if (!failure.empty())
+      throw SolutionFailure(failure);
+  });
   snapshots_.push_back(snapshot);
   ++n_written_;
   fail_together(communicator, [&] {
@@ -227,7 +235,7 @@ void FieldWriter::write_tools(const SolutionState &state, const std::string &nam
   out << "\n</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
   out.close();
   if (!out)
-    throw SolutionFailure(folder_ + "/" + name + " cannot be written");
+    throw SolutionFailure(folder_ + "/" + name + " cannot be written: is the disk full?");
 }
 
 void FieldWriter::write_index() const {

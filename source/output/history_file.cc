@@ -19,10 +19,10 @@ std::string column_name(std::string name) {
 
 } // namespace
 
-HistoryFile::HistoryFile(const Scene &scene, const std::string &folder) : stream_(folder + "/history.csv") {
+HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
+    : name_(folder + "/history.csv"), stream_(name_) {
   if (!stream_)
-    throw InputError(scene.parameters().output.folder.origin + ": '" + folder +
-                     "/history.csv' cannot be written");
+    throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be written");
   stream_ << "step,time,step_length,iterations,residual,total_iterations,total_cuts";
   for (const auto &tool : scene.tools())
     for (const char *quantity :
@@ -52,6 +52,8 @@ void HistoryFile::write(const StepReport &report, const SolutionState &state) {
   const EnergyLedger &energies = state.energies;
   stream_ << "," << energies.elastic << "," << energies.plastic << "," << energies.contact << ","
           << energies.friction << "," << energies.external << "," << energies.drift() << std::endl;
+  if (!stream_)
+    throw SolutionFailure(name_ + " cannot be written: is the disk full?");
 }
 
 } // namespace billet

@@ -13,10 +13,10 @@ void Amplitude::declare(ParameterHandler &prm) {
   prm.declare_entry("Times", "0, 1", Patterns::Anything(),
                     "Strictly increasing; constant before the first and after the last. [time]");
   prm.declare_entry("Values", "0, 1", Patterns::Anything(), "As many as there are times. [any]");
-  prm.declare_entry(
-      "Interpolation", "linear", Patterns::Selection("linear|smooth"),
-      "Between the times: straight lines, or quintic steps with vanishing first and second derivative at "
-      "each time.");
+  prm.declare_entry("Interpolation", "linear", Patterns::Selection("linear|smooth"),
+                    "linear: straight lines between the times; smooth: quintic steps with vanishing first "
+                    "and second derivative at "
+                    "each time.");
 }
 
 void Amplitude::parse(Reader &reader) {
@@ -190,8 +190,9 @@ void Output::declare(ParameterHandler &prm) {
                     "Write the equivalent plastic strain, if a body is plastic.");
   prm.declare_entry("Contact", "true", Patterns::Bool(),
                     "Write contact pressure, traction, gap, slip and status, if there is contact.");
-  prm.declare_entry("Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"),
-                    "What the console shows.");
+  prm.declare_entry(
+      "Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"),
+      "quiet: the console shows nothing; steps: a line for each; iterations: their residuals, too.");
 }
 
 void Output::parse(Reader &reader) {

@@ -123,7 +123,7 @@ void declare_surface(ParameterHandler &prm, const std::string &shape) {
     case Kind::choice:
       prm.declare_entry(parameter.key, parameter.default_value,
                         Patterns::Selection(parameter.meaning.substr(0, colon)),
-                        dealii::Utilities::trim(parameter.meaning.substr(colon + 1)));
+                        parameter.meaning.substr(0, colon) + ":" + parameter.meaning.substr(colon + 1));
       break;
     }
   }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -92,6 +93,75 @@ struct RigidMotionGram {
   }
 };
 
+/// Rows that resist a motion one way only: contact pushes, but does not pull.
+class OneSidedRows {
+public:
+  /// `free`: the motions that are not held both ways.
+  explicit OneSidedRows(const std::vector<std::array<double, 6>> &free) : free_(free) {}
+
+  void add(const Tensor<1, 3> &n, const Tensor<1, 3> &arm) {
+    const Tensor<1, 3> m = dealii::cross_product_3d(arm, n);
+    const std::array<double, 6> row{n[0], n[1], n[2], m[0], m[1], m[2]};
+    std::vector<double> part(free_.size(), 0.);
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      for (unsigned int i = 0; i < 6; ++i)
+        part[k] += row[i] * free_[k][i];
+    rows_.push_back(part);
+  }
+
+  /// A motion that no row resists, if there is one. All motions are held if the rows r_i span the space with
+  /// factors λ_i >= 0, that is, if minus their sum is among Σ λ_i r_i; else what is left over is such a
+  /// motion (Farkas). Found by coordinate descent.
+  std::vector<std::array<double, 6>> free_motions() const {
+    const std::size_t n = free_.size();
+    if (n == 0)
+      return {};
+    std::vector<double> rest(n, 0.);
+    double size = 0.;
+    for (const auto &row : rows_)
+      for (std::size_t k = 0; k < n; ++k) {
+        rest[k] += row[k];
+        size += row[k] * row[k];
+      }
+    // Motions across all rows are free whatever their signs.
+    for (std::size_t k = 0; k < n; ++k) {
+      double held = 0.;
+      for (const auto &row : rows_)
+        held += row[k] * row[k];
+      if (held <= 1e-12 * (1. + size))
+        return {free_[k]};
+    }
+    const double whole = std::sqrt(std::inner_product(rest.begin(), rest.end(), rest.begin(), 0.));
+    std::vector<double> factors(rows_.size(), 0.);
+    for (unsigned int sweep = 0; sweep < 1000; ++sweep)
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const auto &row = rows_[i];
+        const double square = std::inner_product(row.begin(), row.end(), row.begin(), 0.);
+        if (square <= 0.)
+          continue;
+        const double along = std::inner_product(row.begin(), row.end(), rest.begin(), 0.) / square;
+        const double change = std::max(-factors[i], -along);
+        factors[i] += change;
+        for (std::size_t k = 0; k < n; ++k)
+          rest[k] += change * row[k];
+      }
+    const double left = std::sqrt(std::inner_product(rest.begin(), rest.end(), rest.begin(), 0.));
+    if (left <= 1e-2 * whole || left <= 1e-6 * std::sqrt(size))
+      return {};
+    std::array<double, 6> motion{};
+    for (std::size_t k = 0; k < n; ++k)
+      for (unsigned int i = 0; i < 6; ++i)
+        motion[i] += rest[k] / left * free_[k][i];
+    for (double &component : motion)
+      component = std::abs(component) < 1e-2 ? 0. : component;
+    return {motion};
+  }
+
+private:
+  std::vector<std::array<double, 6>> free_;
+  std::vector<std::vector<double>> rows_;
+};
+
 } // namespace
 
 void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail detail) const {
@@ -122,7 +192,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const dealii::Point<3> centre = box.center();
     const double size = (box.get_boundary_points().second - box.get_boundary_points().first).norm();
 
-    RigidMotionGram supported, supported_or_touching;
+    RigidMotionGram supported;
+    std::vector<std::pair<Tensor<1, 3>, Tensor<1, 3>>> touching; // normal and arm
     std::vector<bool> used(bodies_[b].holds.size(), false);
     for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
       if (body != b)
@@ -137,15 +208,17 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
         if (pair.body == b && std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(),
                                         face->boundary_id()) != pair.boundary_ids.end()) {
           const Placement start = tools_[pair.tool].placement(0.);
+          const double facet_size = std::sqrt(face->measure());
           for (const unsigned int v : face->vertex_indices()) {
-            const Tensor<1, 3> n =
-                start.rotation * tools_[pair.tool].surface().project(start.to_tool(face->vertex(v))).normal;
-            const Frame frame = Frame::from_normal(n);
+            const auto projection = tools_[pair.tool].surface().project(start.to_tool(face->vertex(v)));
+            if (!projection.exists || projection.gap > touching_gap * facet_size)
+              continue;
+            const Frame frame = Frame::from_normal(start.rotation * projection.normal);
             const Tensor<1, 3> arm = (face->vertex(v) - centre) / size;
-            supported_or_touching.add(n, arm);
+            touching.emplace_back(frame.n, arm);
             if (pair.has_friction()) {
-              supported_or_touching.add(frame.q, arm);
-              supported_or_touching.add(frame.r, arm);
+              supported.add(frame.q, arm);
+              supported.add(frame.r, arm);
             }
           }
         }
@@ -156,19 +229,19 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
                          bodies_[b].holds[h].name.substr(std::string("symmetry plane ").size()) +
                          "', allowed are planes that hold boundary faces of body '" + bodies_[b].name +
                          "'; none lies in it");
-    for (unsigned int i = 0; i < 6; ++i)
-      for (unsigned int j = 0; j < 6; ++j)
-        supported_or_touching.values[i][j] += supported.values[i][j];
-    const auto free = supported_or_touching.free_motions();
+    OneSidedRows contacts(supported.free_motions());
+    for (const auto &[normal, arm] : touching)
+      contacts.add(normal, arm);
+    const auto free = contacts.free_motions();
     if (!free.empty()) {
       const auto &motion = free.front();
-      throw InputError(
-          parameters_.bodies[b].origin + ": the body is without support: " + std::to_string(free.size()) +
-          " of its 6 rigid motions are held neither by supports, nor by symmetry planes, nor by contact; one "
-          "of them has "
-          "translation " +
-          print(Tensor<1, 3>({motion[0], motion[1], motion[2]})) + " and rotation " +
-          print(Tensor<1, 3>({motion[3], motion[4], motion[5]})) + ". Allowed in a static scene: none");
+      throw InputError(parameters_.bodies[b].origin +
+                       ": the body is without support: at the start neither supports, nor symmetry planes, "
+                       "nor tools that it touches "
+                       "hold its rigid motion with translation " +
+                       print(Tensor<1, 3>({motion[0], motion[1], motion[2]})) + " and rotation " +
+                       print(Tensor<1, 3>({motion[3], motion[4], motion[5]})) +
+                       ". Allowed in a static scene: none that is free");
     }
   }
 }

@@ -185,6 +185,9 @@ def publish(name, title, options, *parts):
     ranks = "one rank" if options.ranks == 1 else f"{options.ranks} ranks"
     page = "\n\n".join([f"# {title}", f"Written by `{command}`, on {ranks}."] + [part for part in parts if part]) + "\n"
     print(page)
+    if options.quick:
+        print(f"A quick run: doc/results/{name}.md stays as it is.")
+        return
     path = ROOT / "doc/results" / f"{name}.md"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(page)

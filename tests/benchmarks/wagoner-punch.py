@@ -139,7 +139,8 @@ def friction():
     axes.grid(alpha=0.3)
     axes.legend()
     figure.tight_layout()
-    figure.savefig(ROOT / "doc/images/wagoner_strain.png", dpi=110)
+    if not options.quick:
+        figure.savefig(ROOT / "doc/images/wagoner_strain.png", dpi=110)
     return table(["µ"] + HEAD, rows)
 
 

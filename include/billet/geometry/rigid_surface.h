@@ -8,6 +8,9 @@
 
 namespace billet {
 
+/// A node that is no farther from a tool than this part of the facets around it touches it.
+constexpr double touching_gap = 1e-9;
+
 /// The surface of a rigid tool in the tool's own coordinates: patches, of which the nearest counts. Where
 /// patches meet the surface goes on: on a smooth seam nothing shows; in a concave edge the gap is the
 /// distance to the edge; beyond a border that no other patch shares there is no surface.

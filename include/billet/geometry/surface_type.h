@@ -40,7 +40,7 @@ struct SurfaceParameter {
   std::string key;
   std::string default_value;
   Kind kind;
-  std::string meaning; ///< with the unit at its end; of a choice, the choices come first: "a|b: meaning"
+  std::string meaning; ///< with the unit at its end; of a choice, the choices come first, "a|b: meaning"
 };
 
 /// A kind of surface that a scene file can name. A new one is a file in source/geometry/ with a function that

@@ -13,7 +13,7 @@ namespace billet {
 //   stress(a)   yield stress at equivalent plastic strain a >= 0        [stress]
 //   slope(a)    its derivative, from the right where it has a kink      [stress]
 //   work(a)     plastic work per reference volume up to a, ∫ stress     [stress]
-// A new law is one more such type and one line in make_element_block() (mechanics/element_block.cc).
+// A new law is one more such type and an alternative of MaterialLaw.
 
 /// σ_y + H a. H = 0 is perfect plasticity.
 struct LinearHardening {

@@ -25,6 +25,7 @@ public:
   void write(const StepReport &report, const SolutionState &state);
 
 private:
+  std::string name_;
   std::ofstream stream_;
 };
 
