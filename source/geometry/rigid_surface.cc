@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/rigid_surface.h"
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/numerics/rtree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,70 +11,41 @@ namespace billet {
 
 using dealii::Tensor;
 
-/// Boxes of bounded patches in an R-tree; unbounded ones aside.
-struct RigidSurface::Tree {
-  using Entry = std::pair<dealii::BoundingBox<3>, unsigned int>;
-  dealii::RTree<Entry> bounded;
-  std::vector<unsigned int> unbounded;
-};
-
 namespace {
 
-/// Up to so many patches are looked at one after the other.
-constexpr std::size_t few_patches = 4;
+constexpr double far_round_off = 1e-7; // of closest points of far points, over the distance
+constexpr double smooth = 1e-6;        // sine of an angle between normals that counts as none
+constexpr double along_edge = 1e-4;    // sine of an angle by which an arm may lean along an edge
 
-/// A move of x by δ moves its foot on a curved edge by (e·δ)/(1 − (x − foot)·k) e with the edge's curvature
-/// vector k, of which both surfaces know a part, n_i·k = −e·W_i e: W_i is their turning on the edge.
-double slide_along_edge(const Tensor<1, 3> &arm, const Tensor<1, 3> &e, const ClosestPoint &first,
-                        const ClosestPoint &second) {
-  const double cosine = first.normal * second.normal, square_of_sine = 1. - cosine * cosine;
-  const double along_first = (arm * first.normal - cosine * (arm * second.normal)) / square_of_sine,
-               along_second = (arm * second.normal - cosine * (arm * first.normal)) / square_of_sine;
-  return 1. / (1. + along_first * (e * (first.turning * e)) + along_second * (e * (second.turning * e)));
+/// Whether a corner's normal lies among those of its patches, or about as near to their mean: else it points
+/// beyond a border that ends in the corner.
+bool is_between(const Tensor<1, 3> &normal, const std::vector<Tensor<1, 3>> &normals,
+                const Tensor<1, 3> &mean) {
+  constexpr double slack = 0.1; // radians
+  double widest = 0.;
+  for (const auto &other : normals)
+    widest = std::max(widest, std::acos(std::clamp(other * mean, -1., 1.)));
+  return std::acos(std::clamp(normal * mean, -1., 1.)) <= 2. * widest + slack;
+}
+
+std::vector<BoundingBox> boxes_of(const std::vector<std::unique_ptr<const SurfacePatch>> &patches) {
+  std::vector<BoundingBox> boxes;
+  boxes.reserve(patches.size());
+  for (const auto &patch : patches)
+    boxes.push_back(patch->bounding_box());
+  return boxes;
 }
 
 } // namespace
 
 RigidSurface::RigidSurface(std::vector<std::unique_ptr<const SurfacePatch>> patches)
-    : patches_(std::move(patches)), box_(BoundingBox::empty()) {
-  auto tree = std::make_unique<Tree>();
-  std::vector<Tree::Entry> entries;
-  for (unsigned int i = 0; i < patches_.size(); ++i) {
-    boxes_.push_back(patches_[i]->bounding_box());
-    const BoundingBox &box = boxes_.back();
+    : patches_(std::move(patches)), tree_(boxes_of(patches_)), box_(BoundingBox::empty()) {
+  for (const auto &patch : patches_) {
+    const BoundingBox box = patch->bounding_box();
     box_.add(box);
     const double size = (box.high - box.low).norm();
-    if (!std::isfinite(size)) {
-      tree->unbounded.push_back(i);
-      continue;
-    }
-    tolerance_ = std::max(tolerance_, 1e-7 * size);
-    entries.push_back({dealii::BoundingBox<3>({dealii::Point<3>(box.low), dealii::Point<3>(box.high)}), i});
-  }
-  if (patches_.size() > few_patches)
-    tree->bounded = dealii::pack_rtree(entries);
-  tree_ = std::move(tree);
-}
-
-RigidSurface::~RigidSurface() = default;
-
-template <class Visit>
-void RigidSurface::visit_near(const Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const {
-  if (patches_.size() <= few_patches) {
-    for (unsigned int i = 0; i < patches_.size(); ++i)
-      if (boxes_[i].distance_square(x) <= largest_square)
-        visit(i);
-    return;
-  }
-  for (const unsigned int i : tree_->unbounded)
-    visit(i);
-  namespace index = boost::geometry::index;
-  const auto size = static_cast<unsigned int>(tree_->bounded.size());
-  for (auto entry = tree_->bounded.qbegin(index::nearest(dealii::Point<3>(x), size));
-       entry != tree_->bounded.qend(); ++entry) {
-    if (boxes_[entry->second].distance_square(x) > largest_square)
-      break;
-    visit(entry->second);
+    if (std::isfinite(size))
+      tolerance_ = std::max({tolerance_, 1e-7 * size, 2. * patch->border_accuracy()});
   }
 }
 
@@ -85,8 +55,8 @@ RigidSurface::Projection RigidSurface::project(const Tensor<1, 3> &x, const unsi
   if (patches_.size() > 1) {
     double nearest_square = (x - nearest.position).norm_square();
     // Of patches that are equally near, the first in the set counts, whatever the guess.
-    visit_near(x, nearest_square, [&](const unsigned int i) {
-      if (i == nearest_patch)
+    tree_.visit_near(x, nearest_square, [&](const unsigned int i) {
+      if (i == nearest_patch || patches_[i]->is_farther(x, nearest_square))
         return;
       const ClosestPoint point = patches_[i]->closest_point(x);
       const double square = (x - point.position).norm_square();
@@ -108,57 +78,81 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
                                                              const unsigned int patch) const {
   const Tensor<1, 3> arm = x - nearest.position;
   const double distance = arm.norm();
-  const double reach = distance + tolerance_;
-  Tensor<1, 3> normals = nearest.normal, edge;
+  const double tolerance = tolerance_ + far_round_off * distance;
+  const double reach = distance + tolerance;
+  std::vector<Tensor<1, 3>> normals{nearest.normal};
+  Tensor<1, 3> sum = nearest.normal;
   Tensor<2, 3> turning = nearest.turning;
-  unsigned int sharpest = patch; // the neighbour across the sharpest edge
-  unsigned int n_neighbours = 0;
+  unsigned int sharpest = patch, straight_below = patch;
+  Tensor<1, 3> edge, sharpest_normal;
+  ClosestPoint below;
   double sharpness = 0.;
   if (patches_.size() > 1)
-    visit_near(x, reach * reach, [&](const unsigned int i) {
-      if (i == patch)
+    tree_.visit_near(x, reach * reach, [&](const unsigned int i) {
+      if (i == patch || patches_[i]->is_farther(x, reach * reach))
         return;
       const ClosestPoint point = patches_[i]->closest_point(x);
-      if ((point.position - nearest.position).norm() > tolerance_)
+      if ((point.position - nearest.position).norm() > tolerance)
         return;
-      ++n_neighbours;
-      normals += point.normal;
+      if (!point.is_beyond_border && i < straight_below) {
+        straight_below = i;
+        below = point;
+      }
+      normals.push_back(point.normal);
+      sum += point.normal;
       turning += point.turning;
       const Tensor<1, 3> across = dealii::cross_product_3d(nearest.normal, point.normal);
       if (across.norm() > sharpness) {
         sharpness = across.norm();
         edge = across / sharpness;
         sharpest = i;
+        sharpest_normal = point.normal;
       }
     });
-  if (n_neighbours == 0)
-    return {false, nearest.normal, distance, {}, patch};
+  const Projection none{false, nearest.normal, distance, {}, patch};
+  if (normals.size() == 1)
+    return none;
+  if (straight_below != patch) // as near by round-off
+    return {true, below.normal, below.gap, below.turning, straight_below};
 
   // The surface goes on beyond the seam. Seen from there it is an edge: outside of the tool where that is
   // convex, inside where it is concave; the gap is the distance to it, of the sign that the mean normal
   // tells.
-  normals = normals.norm() > 1e-6 ? normals / normals.norm() : nearest.normal; // of a knife's edge: any
-  Projection projection{true, normals, arm * normals, turning / (1. + n_neighbours), patch};
-  constexpr double smooth =
-      1e-3; // sine of an angle that counts as none: patches that meet within their accuracy
-  if (sharpness < smooth || distance <= tolerance_) {
-    const double aside = (arm - projection.gap * normals).norm();
-    if (aside > 2. * smooth * distance + tolerance_) // past the seam's end
-      return {false, nearest.normal, distance, {}, patch};
-    return projection;
+  const Tensor<1, 3> mean = sum.norm() > 1e-6 ? sum / sum.norm() : nearest.normal; // of a knife's edge: any
+  Projection projection{true, mean, arm * mean, turning / double(normals.size()), patch};
+  if (sharpness < smooth || sharpness * distance <= tolerance_) {
+    const double aside = (arm - projection.gap * mean).norm();
+    return aside > 2. * smooth * distance + tolerance_ ? none : projection; // or past the seam's end
   }
   projection.gap = projection.gap < 0. ? -distance : distance;
   projection.normal = arm / projection.gap;
   const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
-  projection.turning = identity - dealii::outer_product(projection.normal, projection.normal);
-  if (std::abs(arm * edge) <= 1e-6 * distance)
-    projection.turning -= slide_along_edge(arm, edge, patches_[patch]->closest_point(nearest.position),
-                                           patches_[sharpest]->closest_point(nearest.position)) *
+  projection.turning =
+      (identity - dealii::outer_product(projection.normal, projection.normal)) / projection.gap;
+  if (std::abs(arm * edge) <= along_edge * distance + tolerance_)
+    projection.turning += turning_along_edge(projection, nearest, patch, sharpest, sharpest_normal, edge) *
                           dealii::outer_product(edge, edge);
-  else if (n_neighbours == 1) // past the edge's end; three patches make a corner
-    return {false, nearest.normal, distance, {}, patch};
-  projection.turning /= projection.gap;
+  else if (normals.size() == 2 || !is_between(projection.normal, normals, mean))
+    return none; // past the edge's end; three patches make a corner
   return projection;
+}
+
+double RigidSurface::turning_along_edge(const Projection &projection, const ClosestPoint &nearest,
+                                        const unsigned int patch, const unsigned int neighbour,
+                                        const Tensor<1, 3> &neighbour_normal,
+                                        const Tensor<1, 3> &edge) const {
+  // Both patches tell the edge's curvature vector k in the plane across the edge: on the surface itself
+  // e·∂n/∂x·e = −k·n. With n = a n_1 + b n_2, the same of n is κ = a κ_1 + b κ_2.
+  const auto curvature = [&](const unsigned int i) {
+    return edge * patches_[i]->closest_point(nearest.position).turning * edge;
+  };
+  const double cosine = nearest.normal * neighbour_normal;
+  const double first = projection.normal * nearest.normal, second = projection.normal * neighbour_normal;
+  const double kappa =
+      ((first - cosine * second) * curvature(patch) + (second - cosine * first) * curvature(neighbour)) /
+      (1. - cosine * cosine);
+  const double stretch = 1. + kappa * projection.gap; // 0 in the centre of curvature
+  return (std::abs(stretch) > 1e-12 ? kappa / stretch : 0.) - 1. / projection.gap;
 }
 
 SurfacePicture RigidSurface::picture(const PictureRegion &region) const {

@@ -14,13 +14,14 @@ SurfaceType revolved_profile_type();
 SurfaceType extruded_profile_type();
 SurfaceType coons_patch_type();
 SurfaceType coons_patches_type();
+SurfaceType stl_type();
 
 const std::vector<SurfaceType> &surface_types() {
   static const std::vector<SurfaceType> types{
       plane_type(),       rectangle_type(),        disc_type(),
       sphere_type(),      cylinder_type(),         cone_type(),
       torus_type(),       revolved_profile_type(), extruded_profile_type(),
-      coons_patch_type(), coons_patches_type()};
+      coons_patch_type(), coons_patches_type(),    stl_type()};
   return types;
 }
 

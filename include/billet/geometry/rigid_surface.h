@@ -2,7 +2,7 @@
 #ifndef BILLET_GEOMETRY_RIGID_SURFACE_H
 #define BILLET_GEOMETRY_RIGID_SURFACE_H
 
-#include "billet/geometry/surface_patch.h"
+#include "billet/geometry/box_tree.h"
 
 #include <memory>
 
@@ -17,7 +17,6 @@ constexpr double touching_gap = 1e-9;
 class RigidSurface {
 public:
   explicit RigidSurface(std::vector<std::unique_ptr<const SurfacePatch>> patches);
-  ~RigidSurface();
 
   struct Projection {
     bool exists;                 ///< whether the surface lies before the point; else only the gap is set
@@ -36,17 +35,15 @@ public:
   SurfacePicture picture(const PictureRegion &region) const;
 
 private:
-  struct Tree; ///< boxes of the patches
   Projection project_beyond_border(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
                                    unsigned int patch) const;
-  /// Calls visit(patch) for patches whose box is no farther from x than the root of `largest_square`, which
-  /// visit() may lower, nearest boxes first.
-  template <class Visit>
-  void visit_near(const dealii::Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const;
+  /// e·∂n/∂x·e beside the edge along e between two patches, less that of a point, 1/gap.
+  double turning_along_edge(const Projection &projection, const ClosestPoint &nearest, unsigned int patch,
+                            unsigned int neighbour, const dealii::Tensor<1, 3> &neighbour_normal,
+                            const dealii::Tensor<1, 3> &edge) const;
 
   std::vector<std::unique_ptr<const SurfacePatch>> patches_;
-  std::vector<BoundingBox> boxes_;
-  std::unique_ptr<const Tree> tree_;
+  BoxTree tree_;
   BoundingBox box_;
   double tolerance_ = 0.; ///< patches that come nearer than this to each other meet [length]
 };

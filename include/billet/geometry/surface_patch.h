@@ -77,8 +77,16 @@ public:
   /// of a torus), always the same one of them.
   virtual ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const = 0;
 
+  /// Whether the whole patch is surely farther from x than the root of `square`: something quick to spare a
+  /// closest point; false if that takes long to tell.
+  virtual bool is_farther(const dealii::Tensor<1, 3> & /*x*/, const double /*square*/) const { return false; }
+
   /// Contains the surface.
   virtual BoundingBox bounding_box() const = 0;
+
+  /// How far its border may be from that of a neighbour that it meets, by rounding or by what its file allows
+  /// itself [length].
+  virtual double border_accuracy() const { return 0.; }
 
   /// Adds facets to the picture.
   virtual void draw(const PictureRegion &region, SurfacePicture &picture) const = 0;

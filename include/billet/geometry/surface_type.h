@@ -18,6 +18,7 @@ public:
 
   virtual bool is_set(const std::string &key) const = 0;
   virtual std::string text(const std::string &key) const = 0;
+  virtual bool flag(const std::string &key) const = 0;
   virtual double number(const std::string &key) const = 0;
   virtual double positive(const std::string &key) const = 0;
   virtual double not_negative(const std::string &key) const = 0;

@@ -41,7 +41,7 @@ public:
   std::vector<std::string> names() const { return file_.names_below(path_); }
 
   std::string text(const std::string &key) const override;
-  bool flag(const std::string &key) const;
+  bool flag(const std::string &key) const override;
   double number(const std::string &key) const override;
   double positive(const std::string &key) const override;
   double not_negative(const std::string &key) const override;

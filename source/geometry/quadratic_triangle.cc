@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/geometry/quadratic_triangle.h"
+
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+/// How the weight of corner i changes with (u, v).
+double weight_change(const unsigned int i, const double u, const double v) {
+  return i == 0 ? -u - v : i == 1 ? u : v;
+}
+
+double weight(const unsigned int i, const double u, const double v) {
+  return i == 0 ? 1. - u - v : i == 1 ? u : v;
+}
+
+/// Direction of the edge opposite to corner i in (u, v).
+constexpr std::array<std::array<double, 2>, 3> edge_direction{{{-1., 1.}, {0., 1.}, {1., 0.}}};
+
+constexpr std::array<bool, 3> nowhere{false, false, false};
+
+} // namespace
+
+QuadraticTriangle::QuadraticTriangle(const std::array<Point, 3> &corners, const std::array<Point, 3> &bends)
+    : origin_(corners[0]), u_(corners[1] - corners[0] - bends[0]), v_(corners[2] - corners[0] - bends[2]),
+      uu_(bends[0]), uv_(bends[0] + bends[2] - bends[1]), vv_(bends[2]) {}
+
+QuadraticTriangle::Point QuadraticTriangle::area_normal(const double u, const double v) const {
+  return dealii::cross_product_3d(Point(u_ + 2. * u * uu_ + v * uv_), Point(v_ + 2. * v * vv_ + u * uv_));
+}
+
+bool QuadraticTriangle::is_farther(const Point &x, const double square) const {
+  constexpr double third = 1. / 3.;
+  const Point arm = x - origin_, view = x - position(third, third);
+  // Control points from the first corner.
+  const double u = u_ * view, v = v_ * view, uu = uu_ * view, uv = uv_ * view, vv = vv_ * view;
+  const double farthest = std::max({0., 0.5 * u, 0.5 * v, u + uu, v + vv, 0.5 * (u + v + uv)});
+  const double least = arm * view - farthest;
+  return least > 0. && least * least > square * view.norm_square() * (1. + 1e-12);
+}
+
+BoundingBox QuadraticTriangle::bounding_box() const {
+  BoundingBox box = BoundingBox::empty();
+  box.add(origin_);
+  box.add(position(1., 0.));
+  box.add(position(0., 1.));
+  box.add(origin_ + 0.5 * u_);
+  box.add(origin_ + 0.5 * v_);
+  box.add(origin_ + 0.5 * (u_ + v_ + uv_));
+  return box;
+}
+
+QuadraticTriangle::Iterate QuadraticTriangle::at(const Point &x, const double u, const double v,
+                                                 const std::array<bool, 3> &at) const {
+  Iterate point{at[1] ? 0. : u, at[2] ? 0. : v, at, {}, {}, {}, 0.};
+  if (at[0])
+    point.v = 1. - point.u;
+  point.arm = x - position(point.u, point.v);
+  point.p_u = u_ + 2. * point.u * uu_ + point.v * uv_;
+  point.p_v = v_ + 2. * point.v * vv_ + point.u * uv_;
+  point.square = point.arm.norm_square();
+  return point;
+}
+
+double QuadraticTriangle::convexity() const {
+  constexpr double third = 1. / 3.;
+  constexpr std::array<std::array<double, 2>, 7> samples{
+      {{0., 0.}, {1., 0.}, {0., 1.}, {0.5, 0.5}, {0., 0.5}, {0.5, 0.}, {third, third}}};
+  const Iterate centre = at(origin_, third, third, nowhere);
+  const Matrix g = metric(centre.p_u, centre.p_v);
+  const double det_g = determinant(g);
+  double least = 1.;
+  for (const auto &[u, v] : samples) {
+    const Iterate here = at(origin_, u, v, nowhere);
+    const Matrix metric_here = metric(here.p_u, here.p_v);
+    const Matrix bending_here = bending(centre.arm - here.arm);
+    const Matrix m{metric_here.uu + bending_here.uu, metric_here.uv + bending_here.uv,
+                   metric_here.vv + bending_here.vv};
+    // The smaller root k of det(m − k g) = 0.
+    const double half = 0.5 * (m.uu * g.vv + m.vv * g.uu - 2. * m.uv * g.uv);
+    const double root = std::sqrt(std::max(0., half * half - det_g * determinant(m)));
+    least = std::min(least, (half - root) / det_g);
+  }
+  return least;
+}
+
+bool QuadraticTriangle::has_one_minimum(const Point &x, const double convexity) const {
+  constexpr double third = 1. / 3.;
+  constexpr double safety = 0.9; // the least value between the samples
+  const Iterate centre = at(x, third, third, nowhere);
+  const Matrix g = metric(centre.p_u, centre.p_v), b = bending(centre.arm);
+  const double k = safety * convexity;
+  const double uu = k * g.uu - b.uu, uv = k * g.uv - b.uv, vv = k * g.vv - b.vv;
+  return uu > 0. && uu * vv - uv * uv > 0.;
+}
+
+/// The foot on the plane of the corners, moved into the triangle.
+QuadraticTriangle::Iterate QuadraticTriangle::start_below(const Point &x) const {
+  const Point a = u_ + uu_, b = v_ + vv_, arm = x - origin_; // along the chords
+  const double aa = a * a, ab = a * b, bb = b * b, xa = arm * a, xb = arm * b;
+  const double det = aa * bb - ab * ab;
+  double u = (bb * xa - ab * xb) / det, v = (aa * xb - ab * xa) / det;
+  std::array<bool, 3> edges = nowhere;
+  if (u < 0. || v < 0. || u + v > 1.) {
+    u = std::max(u, 0.);
+    v = std::max(v, 0.);
+    const double sum = std::max(1., u + v);
+    u /= sum;
+    v /= sum;
+    edges = {sum > 1., u == 0., v == 0.};
+  }
+  return at(x, u, v, edges);
+}
+
+QuadraticTriangle::Step QuadraticTriangle::choose_step(const Iterate &here) const {
+  const Matrix g = metric(here.p_u, here.p_v), b = bending(here.arm);
+  const Matrix newton{g.uu - b.uu, g.uv - b.uv, g.vv - b.vv};
+  const double slope_u = -(here.arm * here.p_u), slope_v = -(here.arm * here.p_v);
+  const auto leaves = [&here](const Step &step, const unsigned int except) {
+    bool result = false;
+    for (unsigned int i = 0; i < 3; ++i)
+      result = result || (i != except && here.at[i] && weight_change(i, step.u, step.v) < 0.);
+    return result;
+  };
+
+  // Where no minimum is near, the metric alone leads downwards.
+  Step step;
+  step.is_newton = newton.uu > 0. && determinant(newton) > 1e-10 * g.uu * g.vv;
+  const Matrix &h = step.is_newton ? newton : g;
+  step.u = -(h.vv * slope_u - h.uv * slope_v) / determinant(h);
+  step.v = -(h.uu * slope_v - h.uv * slope_u) / determinant(h);
+  step.slope = slope_u * step.u + slope_v * step.v;
+  if (!leaves(step, 3))
+    return step;
+
+  // It would leave the triangle: the best step along an edge, if there is one.
+  Step best;
+  best.is_possible = false;
+  for (unsigned int i = 0; i < 3; ++i) {
+    if (!here.at[i])
+      continue;
+    const auto [u, v] = edge_direction[i];
+    const double slope = slope_u * u + slope_v * v;
+    const double convex = newton.along(u, v), metric = g.along(u, v);
+    Step edge;
+    edge.is_newton = convex > 1e-10 * metric;
+    const double length = -slope / (edge.is_newton ? convex : metric);
+    edge.u = length * u;
+    edge.v = length * v;
+    edge.slope = slope * length;
+    edge.along = i;
+    if (!leaves(edge, i) && (!best.is_possible || edge.slope < best.slope))
+      best = edge;
+  }
+  return best;
+}
+
+/// Newton's method with line search inside the triangle: at an edge it goes along the edge until the way
+/// inwards is open again. Ends at a minimum over the triangle.
+QuadraticTriangle::Iterate QuadraticTriangle::descend(const Point &x, Iterate here) const {
+  constexpr unsigned int most_steps = 60;
+  for (unsigned int n = 0; n < most_steps; ++n) {
+    const Step step = choose_step(here);
+    if (!step.is_possible)
+      break;
+    double part = 1.;
+    std::array<bool, 3> edges = nowhere;
+    if (step.along < 3)
+      edges[step.along] = true;
+    unsigned int hit = 3;
+    for (unsigned int i = 0; i < 3; ++i) {
+      const double change = weight_change(i, step.u, step.v);
+      const double left = here.at[i] ? 0. : std::max(0., weight(i, here.u, here.v));
+      if (!edges[i] && change < 0. && left + part * change < 0.) {
+        part = left / -change;
+        hit = i;
+      }
+    }
+    const double largest = std::max(std::abs(step.u), std::abs(step.v));
+    const double round_off = 1e-15 * (1. + std::sqrt(here.square / here.p_u.norm_square()));
+    // Newton's method doubles the number of right digits.
+    const bool is_last = hit == 3 && largest < (step.is_newton ? 1e-8 : 1e-13) + round_off;
+    Iterate next = here;
+    for (unsigned int cut = 0; cut < 40; ++cut, part *= 0.5, hit = 3) {
+      auto edges_there = edges;
+      if (hit < 3)
+        edges_there[hit] = true;
+      next = at(x, here.u + part * step.u, here.v + part * step.v, edges_there);
+      if (is_last || largest * part < 1e-7 || next.square <= here.square + 2e-4 * part * step.slope)
+        break;
+    }
+    here = next;
+    if (is_last)
+      break;
+  }
+  return here;
+}
+
+/// The point t of the edge opposite to corner i, which runs from 0 to 1.
+QuadraticTriangle::Iterate QuadraticTriangle::at_edge(const Point &x, const unsigned int i,
+                                                      const double t) const {
+  constexpr std::array<unsigned int, 3> start{1, 0, 0}, end{2, 2, 1};
+  std::array<bool, 3> edges{i == 0, i == 1, i == 2};
+  if (t == 0. || t == 1.) {
+    edges = {true, true, true};
+    edges[t == 0. ? start[i] : end[i]] = false;
+  }
+  const auto [u, v] = edge_direction[i];
+  return at(x, (i == 0 ? 1. : 0.) + t * u, t * v, edges);
+}
+
+/// The nearest point of the edge opposite to corner i: the derivative of the squared distance along it is
+/// cubic, and rises or falls throughout between the roots of its own derivative.
+QuadraticTriangle::Iterate QuadraticTriangle::nearest_on_edge(const Point &x, const unsigned int i) const {
+  const auto [u, v] = edge_direction[i];
+  const double start = i == 0 ? 1. : 0.; // of u
+  const Point arm = x - position(start, 0.);
+  const Point b = u * (u_ + 2. * start * uu_) + v * (v_ + start * uv_);
+  const Point c = u * (u * uu_ + v * uv_) + v * v * vv_;
+  // p = ... + b t + c t²; a quarter of the derivative over t, with its own: k_0 + k_1 t + k_2 t² + k_3 t³.
+  const double k_0 = -0.5 * (arm * b), k_1 = 0.5 * (b * b) - arm * c, k_2 = 1.5 * (b * c), k_3 = c * c;
+  const auto slope = [&](const double t) { return k_0 + t * (k_1 + t * (k_2 + t * k_3)); };
+  std::array<double, 4> ends{0., 0., 0., 1.};
+  const double turn = k_2 * k_2 - 3. * k_3 * k_1;
+  if (turn > 0. && k_3 > 0.) {
+    const double root = std::sqrt(turn);
+    ends[1] = std::clamp((-k_2 - root) / (3. * k_3), 0., 1.);
+    ends[2] = std::clamp((-k_2 + root) / (3. * k_3), 0., 1.);
+  }
+  Iterate best = at_edge(x, i, 0.);
+  const auto consider = [&](const double t) {
+    const Iterate other = at_edge(x, i, t);
+    if (other.square < best.square)
+      best = other;
+  };
+  for (unsigned int piece = 0; piece < 3; ++piece) {
+    double low = ends[piece], high = ends[piece + 1];
+    if (slope(low) < 0. && slope(high) > 0.) { // a minimum; else a maximum or none
+      for (unsigned int n = 0; n < 50; ++n) {
+        const double middle = 0.5 * (low + high);
+        (slope(middle) < 0. ? low : high) = middle;
+      }
+      consider(0.5 * (low + high));
+    }
+  }
+  consider(1.);
+  return best;
+}
+
+/// The least of the minima on the edges and of those reached from every point of a grid that is nearer than
+/// its neighbours there.
+QuadraticTriangle::Iterate QuadraticTriangle::descend_from_all(const Point &x) const {
+  Iterate best = descend(x, start_below(x));
+  const auto consider = [&](const Iterate &start) {
+    const Iterate other = descend(x, start);
+    if (other.square < best.square * (1. - 1e-14))
+      best = other;
+  };
+  for (unsigned int i = 0; i < 3; ++i)
+    consider(nearest_on_edge(x, i));
+
+  constexpr int n = 8;
+  std::array<std::array<double, n + 3>, n + 3> squares; // with a rim outside of the triangle
+  for (auto &row : squares)
+    row.fill(std::numeric_limits<double>::infinity());
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j)
+      squares[i + 1][j + 1] = (x - position(double(i) / n, double(j) / n)).norm_square();
+  for (int i = 1; i <= n; ++i)
+    for (int j = 1; i + j < n; ++j)
+      if (squares[i + 1][j + 1] <= std::min({squares[i][j + 1], squares[i + 2][j + 1], squares[i + 1][j],
+                                             squares[i + 1][j + 2], squares[i + 2][j], squares[i][j + 2]}))
+        consider(at(x, double(i) / n, double(j) / n, nowhere));
+  return best;
+}
+
+ClosestPoint QuadraticTriangle::closest_point(const Point &x, const double convexity) const {
+  const Iterate foot = has_one_minimum(x, convexity) ? descend(x, start_below(x)) : descend_from_all(x);
+  ClosestPoint result;
+  result.position = x - foot.arm;
+  result.normal = dealii::cross_product_3d(foot.p_u, foot.p_v);
+  result.normal /= result.normal.norm();
+  result.gap = foot.arm * result.normal;
+  const Point aside = foot.arm - result.gap * result.normal;
+  const double length = std::sqrt(u_.norm_square() + v_.norm_square() + foot.square);
+  result.is_beyond_border = (foot.at[0] || foot.at[1] || foot.at[2]) && aside.norm() > 1e-10 * length;
+
+  // With the fundamental forms g and b (positive where convex) and the derivatives J of p:
+  // ∂n/∂x = J (g + gap b)⁻¹ b g⁻¹ Jᵀ.
+  const Matrix g = metric(foot.p_u, foot.p_v), b = bending(-result.normal);
+  const double m_uu = g.uu + result.gap * b.uu, m_uv = g.uv + result.gap * b.uv,
+               m_vv = g.vv + result.gap * b.vv;
+  const double det_g = determinant(g), det_m = m_uu * m_vv - m_uv * m_uv;
+  if (std::abs(det_m) < 1e-14 * det_g) // in a centre of curvature it has no derivative
+    return result;
+  const Point dual_u = (g.vv * foot.p_u - g.uv * foot.p_v) / det_g,
+              dual_v = (g.uu * foot.p_v - g.uv * foot.p_u) / det_g;
+  const Point b_u = b.uu * dual_u + b.uv * dual_v, b_v = b.uv * dual_u + b.vv * dual_v; // b g⁻¹ Jᵀ
+  const Point t_u = (m_vv * b_u - m_uv * b_v) / det_m, t_v = (m_uu * b_v - m_uv * b_u) / det_m;
+  result.turning = dealii::outer_product(foot.p_u, t_u) + dealii::outer_product(foot.p_v, t_v);
+  return result;
+}
+
+} // namespace billet

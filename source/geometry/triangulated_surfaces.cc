@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Surfaces from files of triangles.
+#include "billet/geometry/curved_triangles.h"
+#include "billet/geometry/surface_type.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace billet {
+
+namespace {
+
+using Kind = SurfaceParameter::Kind;
+using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
+
+/// Points of one corner that a file's rounding to single precision, or to six digits, has parted; over the
+/// size of the surface.
+constexpr double weld_tolerance = 1e-6;
+
+TriangleMesh read_welded(const SurfaceInput &input) {
+  TriangleMesh mesh;
+  try {
+    mesh = read_stl(input.file("File"));
+  } catch (const std::invalid_argument &error) {
+    input.reject("File", std::string("an STL file; ") + error.what());
+  }
+  const double size = mesh.size();
+  if (size > 0.)
+    mesh = weld(mesh, weld_tolerance * size);
+  if (size == 0. || !mesh.has_area())
+    input.reject("File", "an STL file with facets that have an area");
+  return mesh;
+}
+
+TriangleEdges connect(const SurfaceInput &input, const TriangleMesh &mesh) {
+  try {
+    return TriangleEdges(mesh);
+  } catch (const std::invalid_argument &error) {
+    input.reject("File", std::string("a surface whose facets look to one side; ") + error.what());
+    throw;
+  }
+}
+
+Patches make(const SurfaceInput &input) {
+  const double scale = input.positive("Scale");
+  const auto translation = input.vector("Translation");
+  const double sharp_angle = input.number("Sharp angle");
+  const bool is_smoothed = input.flag("Smoothing");
+  if (!(sharp_angle >= 0. && sharp_angle <= 90.))
+    input.reject("Sharp angle", "a number from 0 to 90");
+  if (!is_smoothed && input.is_set("Sharp angle"))
+    input.reject("Sharp angle", "no value: without smoothing every edge stays as it is");
+
+  TriangleMesh mesh = read_welded(input);
+  const double sign = side_sign(input);
+  if (sign < 0.)
+    for (auto &facet : mesh.facets)
+      std::swap(facet[1], facet[2]);
+  const TriangleEdges edges = connect(input, mesh);
+  if (input.flag("Closed")) {
+    const std::string border = edges.describe_border(mesh);
+    if (!border.empty())
+      input.reject("File", "a closed surface; " + border + ". With 'Closed = false' it may have a border");
+    if (sign * mesh.six_volumes() < 0.)
+      input.reject("File", "a closed surface whose facets look outwards; these look inwards");
+  }
+  for (auto &point : mesh.points)
+    point = scale * point + translation;
+  return CurvedTriangles::patches(
+      std::make_shared<const CurvedTriangles>(mesh, edges, sharp_angle * M_PI / 180., is_smoothed));
+}
+
+} // namespace
+
+SurfaceType stl_type() {
+  return {
+      "STL",
+      "Triangles from an STL file, ASCII or binary, each curved to follow the normals of the surface that "
+      "they stand for.",
+      {{"File", "", Kind::text, "Name of the file, relative to the scene file."},
+       {"Scale", "1", Kind::number, "> 0. The file's numbers times this are lengths of the scene."},
+       {"Translation", "0, 0, 0", Kind::text, "Where the file's origin is. [length]"},
+       {"Side", "outside", Kind::choice,
+        "outside|inside: Where the bodies are; outside: where the facets' normals point, by the order of "
+        "their corners."},
+       {"Closed", "true", Kind::flag,
+        "Whether every edge must have two facets; else there is no surface beyond those that have one."},
+       {"Smoothing", "true", Kind::flag, "Whether triangles are curved; else they are flat."},
+       {"Sharp angle", "30", Kind::number,
+        "From 0 to 90. Edges at which the facets' normals differ by more stay sharp. [degrees]"}},
+      make};
+}
+
+} // namespace billet
