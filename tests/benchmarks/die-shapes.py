@@ -46,9 +46,10 @@ def shapes(folder):
     for around, along in ((2, 2), (4, 4), (8, 8)):
         path = made("coons_torus.py", folder / f"coons_{around}.txt", "--around", str(around), "--along", str(along))
         yield f"{around * along} Coons patches", {"Shape": "coons patches", "File": path}
-    if not (HERE / "stl_torus.py").exists(): return
-    for name, around, along in (("coarse", 16, 4), ("fine", 64, 16)):
-        path = made("stl_torus.py", folder / f"{name}.stl", "--around", str(around), "--along", str(along))
+    # Triangles go on beyond the symmetry planes and the ends of the arc: at a border their normals are one-sided.
+    for name, around, along in (("coarse", 20, 5), ("fine", 80, 20)):
+        path = made("stl_torus.py", folder / f"{name}.stl", "--around", str(around), "--along", str(along), "--sector",
+                    "-11.25", "101.25", "--tube-angle", "90", "202.5")
         for smoothing in ("true", "false"):
             yield (f"STL, {2 * around * along} triangles, {'smoothed' if smoothing == 'true' else 'flat'}",
                    {"Shape": "STL", "File": path, "Closed": "false", "Smoothing": smoothing})
