@@ -320,6 +320,18 @@ Segment round_off(Segment &before, Segment &after, const double radius) {
   return best;
 }
 
+/// Chords of the segments, which must not cross each other but where they follow each other.
+void check_crossings(const std::vector<Segment> &segments) {
+  std::vector<Point> points = Profile(segments, Profile::Outside::left).polyline(M_PI / 60., Point(), 0.);
+  const auto side = [](const Point &a, const Point &b, const Point &c) { return cross(b - a, c - a); };
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    for (std::size_t j = i + 2; j + 1 < points.size(); ++j) {
+      const Point &a = points[i], &b = points[i + 1], &c = points[j], &d = points[j + 1];
+      if (side(a, b, c) * side(a, b, d) < 0. && side(c, d, a) * side(c, d, b) < 0.)
+        throw std::invalid_argument("it crosses itself near " + print(0.5 * (a + b)));
+    }
+}
+
 } // namespace
 
 std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners) {
@@ -347,6 +359,7 @@ std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners)
       std::remove_if(segments.begin(), segments.end(),
                      [size](const Segment &s) { return (s.end - s.start).norm() <= meeting * size; }),
       segments.end());
+  check_crossings(segments);
   return segments;
 }
 

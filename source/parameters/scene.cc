@@ -4,9 +4,11 @@
 #include "billet/errors.h"
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
 #include <ostream>
 
@@ -146,6 +148,12 @@ Scene Scene::read(const std::string &file_name) {
     scene.tool_index(pair);
   }
   check_twice(scene.pairs);
+  for (const auto &tool : scene.tools)
+    if (std::isfinite(tool.motion.removal_time.value) &&
+        tool.motion.removal_time.value >= scene.time_stepping.end_time)
+      throw InputError(tool.motion.removal_time.origin + ": found " +
+                       dealii::Utilities::to_string(tool.motion.removal_time.value) +
+                       ", allowed is a time before the end time");
   return scene;
 }
 

@@ -192,7 +192,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const dealii::Point<3> centre = box.center();
     const double size = (box.get_boundary_points().second - box.get_boundary_points().first).norm();
 
-    RigidMotionGram supported;
+    RigidMotionGram supported, firmly; // by all but tools that press with a force, both ways
     std::vector<std::pair<Tensor<1, 3>, Tensor<1, 3>>> touching; // normal and arm
     std::vector<bool> used(bodies_[b].holds.size(), false);
     for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
@@ -216,6 +216,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
             const Frame frame = Frame::from_normal(start.rotation * projection.normal);
             const Tensor<1, 3> arm = (face->vertex(v) - centre) / size;
             touching.emplace_back(frame.n, arm);
+            if (tools_[pair.tool].control() != Tool::Control::force)
+              firmly.add(frame.n, arm);
             if (pair.has_friction()) {
               supported.add(frame.q, arm);
               supported.add(frame.r, arm);
@@ -232,7 +234,13 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     OneSidedRows contacts(supported.free_motions());
     for (const auto &[normal, arm] : touching)
       contacts.add(normal, arm);
-    const auto free = contacts.free_motions();
+    auto free = contacts.free_motions();
+    // Tools that press with forces hold a body against something else, not between themselves.
+    for (unsigned int i = 0; i < 6; ++i)
+      for (unsigned int j = 0; j < 6; ++j)
+        firmly.values[i][j] += supported.values[i][j];
+    if (free.empty())
+      free = firmly.free_motions();
     if (!free.empty()) {
       const auto &motion = free.front();
       throw InputError(parameters_.bodies[b].origin +

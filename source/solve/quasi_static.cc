@@ -145,7 +145,9 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
     if (values.MyLength() + static_cast<int>(k) < residual.MyLength()) // on the rank that has it
       residual[values.MyLength() + static_cast<int>(k)] = excess;
   }
-  return std::isfinite(force_scale_);
+  const bool is_finite = std::isfinite(force_scale_);
+  force_scale_ = std::max(force_scale_, lasting_scale_);
+  return is_finite;
 }
 
 bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
@@ -350,6 +352,8 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
 
 void QuasiStatic::commit(const double t) {
   has_lost_pace_ = false;
+  // When the forces go they leave a measure for what is small.
+  lasting_scale_ = std::max(lasting_scale_, 1e-3 * force_scale_);
   last_increment_ = trial_;
   last_increment_ -= u_n_;
   last_offset_increments_.resize(offsets_.size());
@@ -500,8 +504,9 @@ bool QuasiStatic::solve_with_tools(const Vector &r_u, const std::vector<double> 
     // It touches nothing, and goes on until it does.
     const double way = distance_to_touch(unknown_tools_[i]);
     if (!std::isfinite(way)) {
-      tool_failure_ = "tool '" + scene_.tools()[unknown_tools_[i]].name() +
-                      "' has a force or moment, but touches nothing that it could exert it on";
+      tool_failure_ =
+          "tool '" + scene_.tools()[unknown_tools_[i]].name() +
+          "' has a force or moment, but nothing that it touches, or could come to touch, resists it";
       return false;
     }
     S(i, i) = 1.;

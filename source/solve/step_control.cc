@@ -55,10 +55,11 @@ void StepControl::accept(const unsigned int n_iterations) {
 
 bool StepControl::reject() {
   ++n_cuts_;
-  const double cut = next_step() * parameters_.cut_factor;
-  if (parameters_.control == parameters::TimeStepping::Control::fixed || cut < parameters_.smallest_step)
+  const double failed = next_step();
+  if (parameters_.control == parameters::TimeStepping::Control::fixed ||
+      failed <= parameters_.smallest_step * (1. + slack))
     return false;
-  step_ = cut;
+  step_ = std::max(parameters_.smallest_step, failed * parameters_.cut_factor);
   return true;
 }
 

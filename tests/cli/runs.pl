@@ -174,6 +174,13 @@ same 'linear hardening as a power law', $no_law . 'power law & Material: Strengt
 same "linear hardening as Voce's", 'Material: Hardening = Voce & Material: Saturation stress = 10'
   . ' & Material: Saturation rate = 3';
 write_text('title.prm', "set Title = Included\n");
+same 'friction that depends on pressure, with exponent 1', 'top on die: Friction law = pressure dependent'
+  . ' & top on die: Reference pressure = 5';
+check 'friction that depends on pressure', sub {
+  my $folder = billet('top on die: Friction law = pressure dependent & top on die: Reference pressure = 5'
+    . ' & top on die: Pressure exponent = 0.7');
+  return last_of($folder, 'friction_dissipation') > 0 ? '' : 'no friction';
+};
 same 'an included file', '- Title & + include title.prm';
 same 'continued lines', '', rewrite => sub { (my $s = $_[0]) =~ s/ : 0, 0, 0 : / : \\\n  0, 0, 0 \\  \n : /; $s };
 same 'line ends of Windows', '', rewrite => sub { (my $s = $_[0]) =~ s/\n/\r\n/g; $s };

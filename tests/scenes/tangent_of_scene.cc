@@ -11,6 +11,8 @@
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 
+#include <fstream>
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -18,29 +20,31 @@ using billet::testing::SceneRun;
 namespace {
 
 /// Runs to time t, starts one more step, and continues the last increment into it: there K⁻¹ (∂R/∂u v) must
-/// be v.
+/// be v. Unknown travels of tools are among the u.
 double tangent_error(SceneRun &run, const double t, const unsigned int n_directions) {
   QuasiStatic &problem = run.problem;
-  Vector before = run.discretization.make_owned_vector(), x = before;
+  run.advance(); // from here on the unknowns of all steps are alike
+  Epetra_Vector before(problem.unknowns()), point(before);
   while (run.control.time() < t) {
-    before = problem.state().displacements;
+    before = problem.unknowns();
     run.advance();
   }
-  const auto &owned = run.discretization.owned_dofs();
-  x = problem.state().displacements;
-  x.sadd(1.7, -0.7, before);
+  point = problem.unknowns();
+  point.Update(-0.7, before, 1.7);
   problem.start_step(run.control.next_time());
-  Epetra_Vector &point = *x.trilinos_vector()(0);
-  Epetra_Vector plus(point), minus(point), difference(point), solution(point);
+  Epetra_Vector plus(point), minus(point), difference(point), solution(point), v(point);
   testing::Random random;
   testing::WorstError error;
   for (unsigned int k = 0; k < n_directions; ++k) {
     Vector direction = run.discretization.make_owned_vector();
+    const auto &owned = run.discretization.owned_dofs();
     for (const auto i : owned)
       direction(i) = random(-1., 1.);
     direction.compress(dealii::VectorOperation::insert);
     run.problem.supports().homogeneous().distribute(direction);
-    const Epetra_Vector &v = *direction.trilinos_vector()(0);
+    const Epetra_Vector &displacements = *direction.trilinos_vector()(0);
+    for (int i = 0; i < v.MyLength(); ++i)
+      v[i] = i < displacements.MyLength() ? displacements[i] : random(-1., 1.);
     const double h = 1e-7;
     difference.PutScalar(0.);
     for (const auto &[offset, weight] :
@@ -77,7 +81,32 @@ parameters::Scene make_curved(const testing::SurfacePart &part, const double fri
   return scene;
 }
 
+/// A few triangles of a paraboloid that touches the block, smoothed by their reading.
+void write_dome(const std::string &name) {
+  std::ofstream out(name);
+  out << "solid dome\n";
+  const int n = 6;
+  const auto vertex = [&](const int i, const int j) {
+    const double x = -1. + 0.53 * i, y = -1. + 0.51 * j;
+    const double z = -0.01 - 0.06 * ((x - 0.45) * (x - 0.45) + (y - 0.55) * (y - 0.55));
+    out << "vertex " << x << " " << y << " " << z << "\n";
+  };
+  const auto facet = [&](const std::array<std::array<int, 2>, 3> &corners) {
+    out << "facet normal 0 0 1\nouter loop\n";
+    for (const auto &corner : corners)
+      vertex(corner[0], corner[1]);
+    out << "endloop\nendfacet\n";
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      facet({{{i, j}, {i + 1, j}, {i + 1, j + 1}}});
+      facet({{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
+    }
+  out << "endsolid dome\n";
+}
+
 void check_curved() {
+  write_dome("dome.stl");
   const std::vector<testing::SurfacePart> parts{
       {"sphere", "set Centre = 0.45, 0.55, -5\nset Radius = 5"},
       {"sphere", "set Centre = 0.45, 0.55, 4.9\nset Radius = 5\nset Side = inside"},
@@ -86,6 +115,14 @@ void check_curved() {
       {"torus", "set Centre = 0.45, 0.55, -8\nset Axis = 0, 1, 0\nset Ring radius = 5\nset Tube radius = 3"},
       {"torus",
        "set Centre = 0.45, 0.55, 4.98\nset Axis = 0, 1, 0.05\nset Ring radius = 7\nset Tube radius = 2"},
+      {"extruded profile", "set Origin = 0.45, 0.55, -0.05\nset Axis = 0, 1, 0\nset Outside = right\nset "
+                           "Corners = -2, -0.6 ; via 0, "
+                           "0.05 to 2, -0.6"},
+      {"coons patch",
+       "set Curves = arc: -1, -1, -0.3 via 0.5, -1, -0.04 to 2, -1, -0.3 ; arc: 2, -1, -0.3 via 2, 0.5, "
+       "-0.2 to 2, 2, -0.3 ; arc: 2, 2, -0.3 via 0.5, 2, -0.04 to -1, 2, -0.3 ; arc: -1, 2, -0.3 via -1, "
+       "0.5, -0.2 to -1, -1, -0.3"},
+      {"STL", "set Closed = false\nset File = dome.stl"},
       {"revolved profile",
        "set Origin = 0.45, 0.55, 0\nset Corners = 0, 0 ; 0.35, 0 : 1 ; 1, -0.2\nset Outside = left"}};
   for (const auto &part : parts)
@@ -105,6 +142,21 @@ void check_curved() {
       check(part.shape + state + ": contact is as meant",
             n_touch > 3 && (friction > 0.5 ? n_stick > 0 : n_stick < n_touch));
     }
+  // A tool that presses with a force, and one that a moment turns: the bordered system.
+  for (const auto &[name, friction] : {std::pair<std::string, double>{"force, much friction", 0.8},
+                                       {"force, little friction", 0.03},
+                                       {"moment, much friction", 0.8}}) {
+    const bool turns = name.front() == 'm';
+    parameters::Scene pressed =
+        make_curved({"sphere", "set Centre = 0.45, 0.55, -4.98\nset Radius = 5"}, friction);
+    auto &motion = pressed.tools[0].motion;
+    motion.control = turns ? parameters::Motion::Control::moment : parameters::Motion::Control::force;
+    motion.direction = dealii::Tensor<1, 3>({0.6, 0., 0.8});
+    motion.load.value = turns ? "0.02*t" : "5 + 10*t";
+    pressed.solver.contact_tangent = parameters::ContactTangent::exact;
+    SceneRun run(pressed);
+    check(name + ": exact tangent with the tool's travel", tangent_error(run, 0.75, 3), 1e-6);
+  }
   parameters::Scene scene = make_curved(parts[4], 0.03);
   scene.solver.contact_tangent = parameters::ContactTangent::numerical;
   SceneRun numerical(scene);

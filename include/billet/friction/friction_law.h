@@ -16,8 +16,8 @@ struct Frictionless {};
 
 /// A law is a small value type with
 ///   FrictionLimit limit(double pressure, double slip_rate) const
-/// for pressure > 0 and slip_rate >= 0. A new one is a file beside this one, a name in this list, and its
-/// parameters in parameters/tool.cc and scene/scene.cc.
+/// for pressure >= 0 and slip_rate >= 0. A new one is a file beside this one, a name in this list, its
+/// instance in contact/traction.cc, and its parameters in parameters/tool.cc and scene/scene.cc.
 using FrictionLaw = std::variant<Frictionless, Coulomb, ShearLimited, StaticKinetic, PressureDependent>;
 
 } // namespace billet

@@ -16,6 +16,8 @@ struct PressureDependent {
   double exponent;           ///< 0 < e <= 1; 1 is Coulomb's law
 
   FrictionLimit limit(const double pressure, double) const {
+    if (!(pressure > 0.)) // where the slope has no limit
+      return {0., 0., 0.};
     const double mu = coefficient * std::pow(pressure / reference_pressure, exponent - 1.);
     return {mu * pressure, exponent * mu, 0.};
   }

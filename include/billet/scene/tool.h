@@ -28,8 +28,8 @@ public:
   Control control() const { return control_; }
   /// Of a tool with a force or a stop force; unit.
   const dealii::Tensor<1, 3> &force_direction() const { return force_direction_; }
-  /// The force or moment with which it presses, or stops.
-  double load(double t) const { return load_->value(t); }
+  /// The force or moment with which it presses, or stops. Throws SolutionFailure where a force is negative.
+  double load(double t) const;
   double removal_time() const { return removal_time_; }
   double release_time() const { return release_time_; }
   /// Of the motion; moments and turns are about it.
@@ -42,6 +42,7 @@ private:
   Expression angle_;
   dealii::Tensor<1, 3> axis_, centre_;
   Control control_;
+  std::string load_origin_;
   std::unique_ptr<Expression> load_; ///< none where the motion is all
   dealii::Tensor<1, 3> force_direction_;
   double removal_time_, release_time_;

@@ -115,7 +115,7 @@ private:
   Vector trial_, trial_ghosted_, u_n_, last_increment_;
   Vector raw_internal_, raw_contact_;        ///< additive
   Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
-  double force_scale_ = 0., round_off_force_ = 0.;
+  double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0.;
 
   double time_ = 0.;                        ///< end of the step that is tried
   std::vector<double> offsets_, offsets_n_; ///< of all tools, beyond their prescribed motion
