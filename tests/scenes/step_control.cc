@@ -49,8 +49,9 @@ int main() {
     control.accept(8);
     check("many: shrinks", std::abs(control.next_step() - 0.1), 1e-15);
     check("a failed step is cut", control.reject() && std::abs(control.next_step() - 0.025) < 1e-15);
-    check("but not below the smallest", !control.reject());
-    check("cuts are counted", control.n_cuts() == 2);
+    check("the smallest is tried", control.reject() && std::abs(control.next_step() - 0.01) < 1e-15);
+    check("but none below it", !control.reject());
+    check("cuts are counted", control.n_cuts() == 3);
     while (!control.is_finished())
       control.accept(6);
     check("ends exactly at the end", control.time() == 1.);
