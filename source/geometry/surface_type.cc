@@ -13,12 +13,20 @@ SurfaceType torus_type();
 SurfaceType revolved_profile_type();
 SurfaceType extruded_profile_type();
 SurfaceType stl_type();
+SurfaceType cad_type();
 
 const std::vector<SurfaceType> &surface_types() {
-  static const std::vector<SurfaceType> types{plane_type(),  rectangle_type(),        disc_type(),
-                                              sphere_type(), cylinder_type(),         cone_type(),
-                                              torus_type(),  revolved_profile_type(), extruded_profile_type(),
-                                              stl_type()};
+  static const std::vector<SurfaceType> types{plane_type(),
+                                              rectangle_type(),
+                                              disc_type(),
+                                              sphere_type(),
+                                              cylinder_type(),
+                                              cone_type(),
+                                              torus_type(),
+                                              revolved_profile_type(),
+                                              extruded_profile_type(),
+                                              stl_type(),
+                                              cad_type()};
   return types;
 }
 
