@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/quadratic_triangle.h"
 
+#include "billet/geometry/parametric_surface.h"
+
 #include <cmath>
 
 namespace billet {
@@ -280,28 +282,10 @@ QuadraticTriangle::Iterate QuadraticTriangle::descend_from_all(const Point &x) c
 
 ClosestPoint QuadraticTriangle::closest_point(const Point &x, const double convexity) const {
   const Iterate foot = has_one_minimum(x, convexity) ? descend(x, start_below(x)) : descend_from_all(x);
-  ClosestPoint result;
-  result.position = x - foot.arm;
-  result.normal = dealii::cross_product_3d(foot.p_u, foot.p_v);
-  result.normal /= result.normal.norm();
-  result.gap = foot.arm * result.normal;
+  ClosestPoint result = at_foot({x - foot.arm, foot.p_u, foot.p_v, 2. * uu_, uv_, 2. * vv_}, x, 1.);
   const Point aside = foot.arm - result.gap * result.normal;
   const double length = std::sqrt(u_.norm_square() + v_.norm_square() + foot.square);
   result.is_beyond_border = (foot.at[0] || foot.at[1] || foot.at[2]) && aside.norm() > 1e-10 * length;
-
-  // With the fundamental forms g and b (positive where convex) and the derivatives J of p:
-  // ∂n/∂x = J (g + gap b)⁻¹ b g⁻¹ Jᵀ.
-  const Matrix g = metric(foot.p_u, foot.p_v), b = bending(-result.normal);
-  const double m_uu = g.uu + result.gap * b.uu, m_uv = g.uv + result.gap * b.uv,
-               m_vv = g.vv + result.gap * b.vv;
-  const double det_g = determinant(g), det_m = m_uu * m_vv - m_uv * m_uv;
-  if (std::abs(det_m) < 1e-14 * det_g) // in a centre of curvature it has no derivative
-    return result;
-  const Point dual_u = (g.vv * foot.p_u - g.uv * foot.p_v) / det_g,
-              dual_v = (g.uu * foot.p_v - g.uv * foot.p_u) / det_g;
-  const Point b_u = b.uu * dual_u + b.uv * dual_v, b_v = b.uv * dual_u + b.vv * dual_v; // b g⁻¹ Jᵀ
-  const Point t_u = (m_vv * b_u - m_uv * b_v) / det_m, t_v = (m_uu * b_v - m_uv * b_u) / det_m;
-  result.turning = dealii::outer_product(foot.p_u, t_u) + dealii::outer_product(foot.p_v, t_v);
   return result;
 }
 

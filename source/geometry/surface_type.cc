@@ -15,13 +15,15 @@ SurfaceType extruded_profile_type();
 SurfaceType coons_patch_type();
 SurfaceType coons_patches_type();
 SurfaceType stl_type();
+SurfaceType cad_type();
 
 const std::vector<SurfaceType> &surface_types() {
   static const std::vector<SurfaceType> types{
       plane_type(),       rectangle_type(),        disc_type(),
       sphere_type(),      cylinder_type(),         cone_type(),
       torus_type(),       revolved_profile_type(), extruded_profile_type(),
-      coons_patch_type(), coons_patches_type(),    stl_type()};
+      coons_patch_type(), coons_patches_type(),    stl_type(),
+      cad_type()};
   return types;
 }
 

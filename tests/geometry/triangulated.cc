@@ -208,6 +208,24 @@ void check_closed(const double sharp_angle) {
         n_missing == 0);
 }
 
+/// Where triangles meet in smooth edges they have one normal at their corners.
+void check_corner_normals() {
+  const TriangleMesh mesh = weld(testing::torus(3., 1., 12), 1e-9);
+  const CurvedTriangles triangles(mesh, TriangleEdges(mesh), 1., true);
+  std::vector<Tensor<1, 3>> normals(mesh.points.size());
+  WorstError difference;
+  for (unsigned int f = 0; f < mesh.facets.size(); ++f)
+    for (unsigned int i = 0; i < 3; ++i) {
+      Tensor<1, 3> normal = triangles.triangle(f).area_normal(i == 1 ? 1. : 0., i == 2 ? 1. : 0.);
+      normal /= normal.norm();
+      Tensor<1, 3> &first = normals[mesh.facets[f][i]];
+      if (first.norm() == 0.)
+        first = normal;
+      difference.add((normal - first).norm());
+    }
+  check("triangles share normals at their corners", difference.value(), 1e-12);
+}
+
 /// A can with caps, coarse: its rims are sharp and round, its caps flat.
 void check_can() {
   const auto can = read(testing::revolve({{0., -1.}, {2., -1.}, {2., 1.}, {0., 1.}}, 24));
@@ -259,6 +277,7 @@ int main() {
   check_brute_force();
   check_closed(20.);
   check_closed(80.);
+  check_corner_normals();
   check_cube();
   check_can();
   check_sliver();

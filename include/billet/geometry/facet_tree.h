@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_FACET_TREE_H
+#define BILLET_GEOMETRY_FACET_TREE_H
+
+#include "billet/geometry/box_tree.h"
+#include "billet/geometry/triangle_mesh.h"
+
+namespace billet {
+
+/// Flat triangles, of which the nearest is asked for.
+class FacetTree {
+public:
+  explicit FacetTree(TriangleMesh mesh);
+
+  struct Foot {
+    unsigned int facet = 0;
+    std::array<double, 3> weights{};                         ///< of the facet's corners
+    double square = std::numeric_limits<double>::infinity(); ///< of the distance
+  };
+  Foot nearest(const dealii::Tensor<1, 3> &x) const;
+  /// Calls visit(foot) with the nearest points of facets that are no farther from x than the root of
+  /// `largest_square`, which visit() may lower, and of some others.
+  template <class Visit>
+  void visit_near(const dealii::Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const {
+    tree_.visit_near(x, largest_square, [&](const unsigned int facet) { visit(nearest_on(facet, x)); });
+  }
+
+  const TriangleMesh &mesh() const { return mesh_; }
+
+private:
+  Foot nearest_on(unsigned int facet, const dealii::Tensor<1, 3> &x) const;
+
+  TriangleMesh mesh_;
+  BoxTree tree_;
+};
+
+} // namespace billet
+
+#endif

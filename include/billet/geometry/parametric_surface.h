@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_PARAMETRIC_SURFACE_H
+#define BILLET_GEOMETRY_PARAMETRIC_SURFACE_H
+
+#include "billet/geometry/facet_tree.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+
+namespace billet {
+
+/// A point p(u, v) of a surface with derivatives.
+struct SurfacePoint {
+  dealii::Tensor<1, 3> p, p_u, p_v, p_uu, p_uv, p_vv;
+};
+
+/// The contact data of x whose foot is `foot`; `side` 1 or −1: the normal is side p,u × p,v. With the
+/// fundamental forms g and b, b positive where the surface is convex, and J = (p,u p,v)
+///   ∂n/∂x = J (g + gap b)⁻¹ b g⁻¹ Jᵀ,
+/// zero in a centre of curvature. Whether x is beyond the border is left to the caller.
+ClosestPoint at_foot(const SurfacePoint &foot, const dealii::Tensor<1, 3> &x, double side);
+
+/// Parameters of a surface.
+struct ParameterRange {
+  double low, high;
+  bool is_periodic; ///< it goes on beyond: low and high are no bounds
+  bool is_closed;   ///< both ends are the same line of the surface
+};
+
+/// A local minimum of the distance of x from a surface.
+struct SurfaceFoot {
+  double u, v;
+  SurfacePoint point;
+  bool is_at_bound; ///< x is beyond an end of the range
+};
+
+/// Newton's method with line search from (u, v), along the bounds where it meets them; past a bound of a
+/// closed surface it goes on at the other one.
+SurfaceFoot descend_to_foot(const std::function<SurfacePoint(double, double)> &surface,
+                            const std::array<ParameterRange, 2> &ranges, const dealii::Tensor<1, 3> &x,
+                            double u, double v);
+
+/// A surface that is known by its values, and a triangulation of a part of it.
+class SampledSurface {
+public:
+  using Surface = std::function<SurfacePoint(double, double)>;
+
+  /// `parameters`: of the mesh's points, which lie on the surface.
+  SampledSurface(Surface surface, const std::array<ParameterRange, 2> &ranges, TriangleMesh mesh,
+                 std::vector<std::array<double, 2>> parameters);
+
+  /// The nearest foot of x that `accept` likes and that is nearer than a border, whose distance is asked for
+  /// only if the foot below the nearest facet is not accepted; none if there is no such foot. Newton's method
+  /// starts at the nearest facet, and at others that may be as near, but are far from where it has started
+  /// before.
+  std::optional<SurfacePoint> nearest(const dealii::Tensor<1, 3> &x,
+                                      const std::function<bool(const SurfaceFoot &)> &accept,
+                                      const std::function<double()> &border_distance) const;
+
+  SurfacePoint at(const double u, const double v) const { return surface_(u, v); }
+  const TriangleMesh &mesh() const { return facets_.mesh(); }
+
+private:
+  SurfaceFoot descend(const dealii::Tensor<1, 3> &x, const FacetTree::Foot &start) const;
+
+  Surface surface_;
+  std::array<ParameterRange, 2> ranges_;
+  FacetTree facets_;
+  std::vector<std::array<double, 2>> parameters_;
+  double deviation_ = 0.; ///< of the surface from its facets [length]
+  double facet_size_ = 0.;
+};
+
+} // namespace billet
+
+#endif

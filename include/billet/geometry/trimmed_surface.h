@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_TRIMMED_SURFACE_H
+#define BILLET_GEOMETRY_TRIMMED_SURFACE_H
+
+#include "billet/geometry/parametric_curve.h"
+#include "billet/geometry/parametric_surface.h"
+#include "billet/geometry/trimming_loops.h"
+
+namespace billet {
+
+/// The part of a parametric surface within loops of edges.
+class TrimmedSurface final : public SurfacePatch {
+public:
+  using Parameters = std::array<double, 2>;
+
+  struct Edge {
+    TrimmingLoops::Curve on_surface; ///< in the plane of the parameters
+    std::vector<double> samples;     ///< ascending, from its beginning to its end; it turns little between
+    bool is_seam;                    ///< where a closed surface meets itself: no border
+    bool is_pole;                    ///< a point; the next two are empty
+    std::function<double(const dealii::Tensor<1, 3> &)> nearest; ///< parameter of the nearest point
+    std::function<dealii::Tensor<1, 3>(double)> position;
+  };
+  struct Description {
+    SampledSurface surface;
+    /// Parameters of the nearest point of the untrimmed surface, where there is a closed form.
+    std::function<Parameters(const dealii::Tensor<1, 3> &)> closed_form;
+    std::array<double, 2> periods;   ///< of the parameters, 0: none
+    std::array<double, 2> low, high; ///< bounds of the parameters
+    std::vector<Edge> edges;
+    double side;            ///< the normal is side p,u × p,v
+    double border_accuracy; ///< [length]
+    BoundingBox box;
+  };
+
+  explicit TrimmedSurface(Description description);
+
+  ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
+  BoundingBox bounding_box() const override { return d_.box; }
+  double border_accuracy() const override { return d_.border_accuracy; }
+  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+
+private:
+  bool is_inside(Parameters parameters) const;
+  SurfacePoint regular_point(const Parameters &parameters) const;
+  ClosestPoint nearest_on_border(const dealii::Tensor<1, 3> &x) const;
+  bool is_apex(const Edge &pole, dealii::Tensor<1, 3> &mean_normal) const;
+
+  Description d_;
+  TrimmingLoops loops_;
+  std::vector<Edge> border_;
+};
+
+} // namespace billet
+
+#endif

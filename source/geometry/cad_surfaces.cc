@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Faces from CAD files, through the OpenCASCADE that deal.II may have been built with. Planes, cylinders,
+// cones, spheres and tori are projected on in closed form; other surfaces by Newton's method from the nearest
+// facet of a triangulation.
+#include "billet/geometry/surface_type.h"
+
+#include <deal.II/base/config.h>
+
+#ifdef DEAL_II_WITH_OPENCASCADE
+#include "billet/geometry/frame.h"
+#include "billet/geometry/trimmed_surface.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <ElCLib.hxx>
+#include <ElSLib.hxx>
+#include <GCPnts_TangentialDeflection.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <Poly_Triangulation.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+
+#include <algorithm>
+#include <cmath>
+#endif
+
+namespace billet {
+
+namespace {
+
+using Kind = SurfaceParameter::Kind;
+using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
+
+#ifdef DEAL_II_WITH_OPENCASCADE
+
+using dealii::Tensor;
+
+constexpr double chord_angle = 0.2;       // of the triangulation [radians]
+constexpr double chord_deviation = 1e-3;  // over the size of the shape
+constexpr double sewing_tolerance = 1e-5; // of loose faces, over the size of the shape
+
+template <class Triple> Tensor<1, 3> tensor(const Triple &t) { return Tensor<1, 3>({t.X(), t.Y(), t.Z()}); }
+gp_Pnt point(const Tensor<1, 3> &x) { return {x[0], x[1], x[2]}; }
+
+/// Parameters along a curve, in space or in a plane, between which it turns little.
+template <class Curve> std::vector<double> sample(const Curve &curve) {
+  if (curve.GetType() == GeomAbs_Line)
+    return {curve.FirstParameter(), curve.LastParameter()};
+  constexpr int least_points = 8;
+  const GCPnts_TangentialDeflection points(curve, 0.5 * chord_angle, 1e100, least_points);
+  std::vector<double> result;
+  for (int i = 1; i <= points.NbPoints(); ++i)
+    result.push_back(points.Parameter(i));
+  return result;
+}
+
+/// Parameter of the nearest point of a curve, in closed form where it is a line or a circle.
+std::function<double(const Tensor<1, 3> &)> nearest_on(const GeomAdaptor_Curve &curve) {
+  const double first = curve.FirstParameter(), last = curve.LastParameter();
+  if (curve.GetType() == GeomAbs_Line)
+    return [line = curve.Line(), first, last](const Tensor<1, 3> &x) {
+      return std::clamp(ElCLib::Parameter(line, point(x)), first, last);
+    };
+  if (curve.GetType() == GeomAbs_Circle)
+    return [circle = curve.Circle(), first, last](const Tensor<1, 3> &x) {
+      const double turned = ElCLib::Parameter(circle, point(x)) - first;
+      const double t = first + turned - 2. * M_PI * std::floor(turned / (2. * M_PI));
+      // The nearer end is the one that is nearer along the circle.
+      return t <= last ? t : t - last < first + 2. * M_PI - t ? last : first;
+    };
+  const SampledCurve sampled(
+      [curve](const double t) {
+        gp_Pnt p;
+        gp_Vec d, dd;
+        curve.D2(t, p, d, dd);
+        return CurvePoint{tensor(p), tensor(d), tensor(dd)};
+      },
+      sample(curve));
+  return [sampled](const Tensor<1, 3> &x) { return sampled.nearest(x); };
+}
+
+TrimmedSurface::Edge convert(const TopoDS_Edge &edge, const TopoDS_Face &face) {
+  double first = 0., last = 0.;
+  const Handle(Geom2d_Curve) on_surface = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  TrimmedSurface::Edge result;
+  result.on_surface = [on_surface](const double t) {
+    const gp_Pnt2d p = on_surface->Value(t);
+    return TrimmingLoops::Point{p.X(), p.Y()};
+  };
+  result.samples = sample(Geom2dAdaptor_Curve(on_surface, first, last));
+  result.is_seam = BRep_Tool::IsClosed(edge, face);
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  result.is_pole = curve.IsNull();
+  if (!result.is_pole) {
+    result.nearest = nearest_on(GeomAdaptor_Curve(curve, first, last));
+    result.position = [curve](const double t) { return tensor(curve->Value(t)); };
+  }
+  return result;
+}
+
+/// The triangulation of a face; `parameters` of its points.
+TriangleMesh facets_of(const TopoDS_Face &face, std::vector<std::array<double, 2>> &parameters) {
+  TriangleMesh mesh;
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) facets = BRep_Tool::Triangulation(face, location);
+  if (facets.IsNull())
+    throw Standard_Failure("a face cannot be triangulated");
+  for (int i = 1; i <= facets->NbNodes(); ++i) {
+    mesh.points.push_back(tensor(facets->Node(i).Transformed(location.Transformation())));
+    parameters.push_back({facets->UVNode(i).X(), facets->UVNode(i).Y()});
+  }
+  for (int i = 1; i <= facets->NbTriangles(); ++i) {
+    std::array<int, 3> corners{};
+    facets->Triangle(i).Get(corners[0], corners[1], corners[2]);
+    mesh.facets.emplace_back();
+    for (unsigned int c = 0; c < 3; ++c)
+      mesh.facets.back()[c] = static_cast<unsigned int>(corners[c] - 1);
+  }
+  return mesh;
+}
+
+SampledSurface sample(const TopoDS_Face &face, const GeomAdaptor_Surface &surface) {
+  std::vector<std::array<double, 2>> parameters;
+  TriangleMesh mesh = facets_of(face, parameters);
+  const std::array<ParameterRange, 2> ranges{{{surface.FirstUParameter(), surface.LastUParameter(),
+                                               surface.IsUPeriodic() != 0, surface.IsUClosed() != 0},
+                                              {surface.FirstVParameter(), surface.LastVParameter(),
+                                               surface.IsVPeriodic() != 0, surface.IsVClosed() != 0}}};
+  SampledSurface::Surface evaluate = [surface](const double u, const double v) {
+    gp_Pnt p;
+    gp_Vec u_1, v_1, u_2, v_2, uv;
+    surface.D2(u, v, p, u_1, v_1, u_2, v_2, uv);
+    return SurfacePoint{tensor(p), tensor(u_1), tensor(v_1), tensor(u_2), tensor(uv), tensor(v_2)};
+  };
+  if (surface.GetType() == GeomAbs_Sphere) // other directions than the parameters', which have poles
+    evaluate = [sphere = surface.Sphere()](const double u, const double v) {
+      const Tensor<1, 3> p = tensor(ElSLib::Value(u, v, sphere)), arm = p - tensor(sphere.Location());
+      const double radius = sphere.Radius(), turned = sphere.Direct() ? 1. : -1.;
+      const Frame frame = Frame::from_normal(arm / radius);
+      return SurfacePoint{p, radius * frame.q, turned * radius * frame.r, -arm, Tensor<1, 3>(), -arm};
+    };
+  return {evaluate, ranges, std::move(mesh), std::move(parameters)};
+}
+
+/// The nearest point of a cone on the sheet where the middle of the face is: ElSLib may choose the other one.
+TrimmedSurface::Parameters project(const gp_Cone &cone, const double sheet, const Tensor<1, 3> &x) {
+  const gp_Ax3 &axes = cone.Position();
+  const Tensor<1, 3> arm = x - tensor(axes.Location());
+  const double a = sheet * (arm * tensor(axes.XDirection())), b = sheet * (arm * tensor(axes.YDirection()));
+  const double sine = std::sin(cone.SemiAngle()), cosine = std::cos(cone.SemiAngle());
+  return {std::atan2(b, a),
+          (sheet * std::hypot(a, b) - cone.RefRadius()) * sine + arm * tensor(axes.Direction()) * cosine};
+}
+
+/// Nothing where there is no closed form. `v`: a parameter of the face.
+std::function<TrimmedSurface::Parameters(const Tensor<1, 3> &)>
+closed_form_of(const GeomAdaptor_Surface &surface, const double v) {
+  const auto with = [](const auto &elementary) {
+    return [elementary](const Tensor<1, 3> &x) {
+      TrimmedSurface::Parameters result{};
+      ElSLib::Parameters(elementary, point(x), result[0], result[1]);
+      return result;
+    };
+  };
+  switch (surface.GetType()) {
+  case GeomAbs_Plane:
+    return with(surface.Plane());
+  case GeomAbs_Cylinder:
+    return with(surface.Cylinder());
+  case GeomAbs_Sphere:
+    return with(surface.Sphere());
+  case GeomAbs_Torus:
+    return with(surface.Torus());
+  case GeomAbs_Cone: {
+    const gp_Cone cone = surface.Cone();
+    const double sheet = cone.RefRadius() + v * std::sin(cone.SemiAngle()) < 0. ? -1. : 1.;
+    return [cone, sheet](const Tensor<1, 3> &x) { return project(cone, sheet, x); };
+  }
+  default:
+    return {};
+  }
+}
+
+std::unique_ptr<const SurfacePatch> convert(const TopoDS_Face &face, const double side,
+                                            const double border_accuracy) {
+  const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
+  std::array<double, 2> low{}, high{};
+  BRepTools::UVBounds(face, low[0], high[0], low[1], high[1]);
+  std::vector<TrimmedSurface::Edge> edges;
+  for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
+    edges.push_back(convert(TopoDS::Edge(edge.Current()), face));
+  Bnd_Box box;
+  BRepBndLib::Add(face, box, false);
+  return std::make_unique<TrimmedSurface>(TrimmedSurface::Description{
+      sample(face, surface),
+      closed_form_of(surface, 0.5 * (low[1] + high[1])),
+      {surface.IsUPeriodic() ? surface.UPeriod() : 0., surface.IsVPeriodic() ? surface.VPeriod() : 0.},
+      low,
+      high,
+      std::move(edges),
+      face.Orientation() == TopAbs_REVERSED ? -side : side,
+      border_accuracy,
+      {tensor(box.CornerMin()), tensor(box.CornerMax())}});
+}
+
+/// By the suffix of the file's name.
+bool is_iges(const SurfaceInput &input) {
+  const std::string name = input.text("File");
+  const auto dot = name.rfind('.');
+  std::string suffix = dot == std::string::npos ? "" : name.substr(dot + 1);
+  for (char &letter : suffix)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  if (suffix != "step" && suffix != "stp" && suffix != "iges" && suffix != "igs")
+    input.reject("File", "a file named *.step, *.stp, *.iges or *.igs");
+  return suffix[0] == 'i';
+}
+
+/// Reads a file. OpenCASCADE gives lengths in millimetres, whatever the file's unit.
+TopoDS_Shape read_shape(const SurfaceInput &input) {
+  const std::string name = input.file("File");
+  Message::DefaultMessenger()->RemovePrinters(
+      STANDARD_TYPE(Message_Printer)); // it would report on the console
+  TopoDS_Shape shape;
+  try {
+    STEPControl_Reader step;
+    IGESControl_Reader iges;
+    XSControl_Reader &reader = is_iges(input) ? static_cast<XSControl_Reader &>(iges) : step;
+    if (reader.ReadFile(name.c_str()) == IFSelect_RetDone && reader.TransferRoots() > 0)
+      shape = reader.OneShape();
+  } catch (const Standard_Failure &) { // leaves the shape empty
+  }
+  if (shape.IsNull())
+    input.reject("File", is_iges(input) ? "an IGES file with a shape" : "a STEP file with a shape");
+  return shape;
+}
+
+TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape &shape) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  return faces;
+}
+
+double size_of(const TopoDS_Shape &shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  return box.IsVoid() ? 0. : std::sqrt(box.SquareExtent());
+}
+
+/// Those faces that the user named, one shape.
+TopoDS_Shape choose_faces(const SurfaceInput &input, const TopoDS_Shape &shape) {
+  const TopTools_IndexedMapOfShape faces = faces_of(shape);
+  if (faces.IsEmpty())
+    input.reject("File", "a file with faces");
+  const auto numbers = input.numbers("Faces");
+  if (numbers.empty())
+    return shape;
+  TopoDS_Compound chosen;
+  BRep_Builder builder;
+  builder.MakeCompound(chosen);
+  for (const double number : numbers) {
+    if (number != std::floor(number) || number < 1. || number > faces.Extent())
+      input.reject("Faces",
+                   "whole numbers from 1 to " + std::to_string(faces.Extent()) + ", separated by commas");
+    builder.Add(chosen, faces(static_cast<int>(number)));
+  }
+  return chosen;
+}
+
+/// The edges of only one face may be those of another one, twice: as far apart as their tolerance says.
+double border_accuracy(const TopoDS_Shape &shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
+  double accuracy = 0.;
+  for (int i = 1; i <= faces_of_edges.Extent(); ++i)
+    if (faces_of_edges(i).Extent() == 1)
+      accuracy = std::max(accuracy, BRep_Tool::Tolerance(TopoDS::Edge(faces_of_edges.FindKey(i))));
+  return accuracy;
+}
+
+Patches make(const SurfaceInput &input) {
+  const double scale = input.positive("Scale");
+  const auto translation = input.vector("Translation");
+  TopoDS_Shape shape = choose_faces(input, read_shape(input));
+  Patches patches;
+  try {
+    gp_Trsf placement;
+    placement.SetScale(gp_Pnt(), scale);
+    placement.SetTranslationPart(gp_Vec(translation[0], translation[1], translation[2]));
+    shape = BRepBuilderAPI_Transform(shape, placement, true).Shape();
+    if (is_iges(input)) { // where each face has edges of its own
+      BRepBuilderAPI_Sewing sewing(sewing_tolerance * size_of(shape));
+      sewing.Add(shape);
+      sewing.Perform();
+      shape = sewing.SewedShape();
+    }
+    BRepMesh_IncrementalMesh(shape, chord_deviation * size_of(shape), false, chord_angle);
+    const double accuracy = border_accuracy(shape);
+    for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
+      patches.push_back(convert(TopoDS::Face(faces.Current()), side_sign(input), accuracy));
+  } catch (const Standard_Failure &error) {
+    input.reject("File",
+                 std::string("a file with sound faces; OpenCASCADE says: ") + error.GetMessageString());
+  }
+  return patches;
+}
+
+#else
+
+Patches make(const SurfaceInput &input) {
+  input.reject("Shape", "another shape: the deal.II that this program is built with has no OpenCASCADE");
+  return {};
+}
+
+#endif
+
+} // namespace
+
+SurfaceType cad_type() {
+  return {
+      "CAD",
+      "Faces from a CAD file, STEP or IGES, as they are there. Wants a deal.II with OpenCASCADE.",
+      {{"File", "", Kind::text,
+        "Name of the file (*.step, *.stp, *.iges, *.igs), relative to the scene file."},
+       {"Scale", "1", Kind::number,
+        "> 0. The file's lengths, in millimetres, times this are lengths of the scene."},
+       {"Translation", "0, 0, 0", Kind::text, "Where the file's origin is. [length]"},
+       {"Faces", "", Kind::text,
+        "Numbers of the faces that are meant, separated by commas, 1 for the first one in the file; empty: "
+        "all."},
+       {"Side", "outside", Kind::choice,
+        "outside|inside: Where the bodies are; outside: where the faces' normals point, out of a solid."}},
+      make};
+}
+
+} // namespace billet
