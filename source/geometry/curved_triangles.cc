@@ -135,25 +135,32 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
 /// Where the normals are so far from those of a facet that its triangle would fold over, its edges stay
 /// straight; then those of its neighbours that fold now.
 void CurvedTriangles::straighten_where_folded() {
-  constexpr std::array<std::array<double, 2>, 6> samples{
-      {{0., 0.}, {1., 0.}, {0., 1.}, {0.5, 0.5}, {0., 0.5}, {0.5, 0.}}};
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
     for (unsigned int f = 0; f < mesh_.facets.size(); ++f) {
-      if (facets_.areas[f] == 0.)
-        continue;
-      bool is_bent = false, is_folded = false;
+      bool is_bent = false;
       for (const unsigned int e : edges_of_facet_[f])
         is_bent = is_bent || bends_[e].norm_square() > 0.;
-      for (const auto &[u, v] : samples)
-        is_folded = is_folded || triangle(f).area_normal(u, v) * facets_.normals[f] < 0.2 * facets_.areas[f];
-      if (!is_bent || !is_folded)
+      if (!is_bent || !is_folded(f))
         continue;
       for (const unsigned int e : edges_of_facet_[f])
         bends_[e] = Tensor<1, 3>();
       goes_on = true;
     }
   }
+}
+
+/// Whether the normal leaves that of the flat facet far behind.
+bool CurvedTriangles::is_folded(const unsigned int facet) const {
+  constexpr std::array<std::array<double, 2>, 9> samples{
+      {{0., 0.}, {1., 0.}, {0., 1.}, {0.5, 0.5}, {0., 0.5}, {0.5, 0.}, {0.2, 0.2}, {0.6, 0.2}, {0.2, 0.6}}};
+  if (facets_.areas[facet] == 0.)
+    return false;
+  const CurvedTriangle patch = triangle(facet);
+  return std::any_of(samples.begin(), samples.end(), [&](const auto &uv) {
+    const double along = patch.area_normal(uv[0], uv[1]) * facets_.normals[facet];
+    return !(along > 0.2 * facets_.areas[facet]); // nor not a number
+  });
 }
 
 /// Triangles on both sides of a smooth edge get the same normals along it.
@@ -168,6 +175,9 @@ void CurvedTriangles::join_normals(const TriangleEdges &edges, const CornerNorma
       seams[edge.facets[side]][edge.corners[side]] = seam_at(edge.facets[side], edge.corners[side], normals);
   }
   seams_ = seams;
+  for (unsigned int f = 0; f < mesh_.facets.size(); ++f)
+    if (is_folded(f))
+      seams_[f] = {};
 }
 
 CurvedTriangle::Seam CurvedTriangles::seam_at(const unsigned int facet, const unsigned int corner,

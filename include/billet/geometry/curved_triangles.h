@@ -46,6 +46,7 @@ public:
 private:
   void bend_edges(const TriangleEdges &edges, const CornerNormals &normals, double sharp_angle);
   void straighten_where_folded();
+  bool is_folded(unsigned int facet) const;
   void join_normals(const TriangleEdges &edges, const CornerNormals &normals, double sharp_angle);
   CurvedTriangle::Seam seam_at(unsigned int facet, unsigned int corner, const CornerNormals &normals) const;
 
