@@ -315,8 +315,9 @@ Patches make(const SurfaceInput &input) {
     }
     BRepMesh_IncrementalMesh(shape, chord_deviation * size_of(shape), false, chord_angle);
     const double accuracy = border_accuracy(shape);
-    for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
-      patches.push_back(convert(TopoDS::Face(faces.Current()), side_sign(input), accuracy));
+    const TopTools_IndexedMapOfShape faces = faces_of(shape);
+    for (int i = 1; i <= faces.Extent(); ++i)
+      patches.push_back(convert(TopoDS::Face(faces(i)), side_sign(input), accuracy));
   } catch (const Standard_Failure &error) {
     input.reject("File",
                  std::string("a file with sound faces; OpenCASCADE says: ") + error.GetMessageString());

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace billet {
 
@@ -11,29 +10,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double flat_angle = 2e-4;   // between the normals of a flat region [radians]
-constexpr double least_height = 3e-7; // of a facet that has an area, over the size of the mesh
 constexpr double picture_angle = M_PI / 18.;
-
-/// Sets that grow together.
-class UnionFind {
-public:
-  explicit UnionFind(const std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  unsigned int root(unsigned int i) {
-    for (; parent_[i] != i; i = parent_[i])
-      parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(const unsigned int a, const unsigned int b) { parent_[root(a)] = root(b); }
-
-private:
-  std::vector<unsigned int> parent_;
-};
-
-/// Angle between unit vectors, exact where it is small.
-double angle(const Tensor<1, 3> &a, const Tensor<1, 3> &b) {
-  return 2. * std::atan2((a - b).norm(), (a + b).norm());
-}
 
 /// The bend of an edge of chord d with the tangents' slopes m_0 at its start and m_1 at its end towards `up`
 /// [both times a length].
@@ -85,7 +62,7 @@ public:
       : triangles_(std::move(triangles)), facet_(facet) {}
 
   ClosestPoint closest_point(const Tensor<1, 3> &x) const override {
-    return triangles_->triangle(facet_).closest_point(x, triangles_->convexity(facet_));
+    return triangles_->triangle(facet_).closest_point(x, triangles_->shape(facet_));
   }
   bool is_farther(const Tensor<1, 3> &x, const double square) const override {
     return triangles_->triangle(facet_).is_farther(x, square);
@@ -94,13 +71,14 @@ public:
   double border_accuracy() const override { return triangles_->border_accuracy(); }
 
   void draw(const PictureRegion & /*region*/, SurfacePicture &picture) const override {
-    const QuadraticTriangle triangle = triangles_->triangle(facet_);
+    const CurvedTriangle triangle = triangles_->triangle(facet_);
     const auto unit = [&triangle](const double u, const double v) {
       const Tensor<1, 3> normal = triangle.area_normal(u, v);
       return normal / normal.norm();
     };
-    const double turned = std::max({angle(unit(0., 0.), unit(1., 0.)), angle(unit(1., 0.), unit(0., 1.)),
-                                    angle(unit(0., 1.), unit(0., 0.))});
+    const double turned =
+        std::max({angle_between(unit(0., 0.), unit(1., 0.)), angle_between(unit(1., 0.), unit(0., 1.)),
+                  angle_between(unit(0., 1.), unit(0., 0.))});
     const auto n = static_cast<unsigned int>(std::max(1., std::ceil(turned / picture_angle)));
     auto row = static_cast<unsigned int>(picture.points.size());
     for (unsigned int i = 0; i <= n; ++i)
@@ -124,155 +102,31 @@ private:
 
 CurvedTriangles::CurvedTriangles(const TriangleMesh &mesh, const TriangleEdges &edges,
                                  const double sharp_angle, const bool is_smoothed)
-    : mesh_(mesh), edges_of_facet_(edges.of_facet), bends_(edges.edges.size()) {
-  find_facet_normals(edges);
+    : mesh_(mesh), edges_of_facet_(edges.of_facet), facets_(mesh, edges), bends_(edges.edges.size()),
+      seams_(mesh.facets.size()) {
   if (is_smoothed) {
-    bend_edges(edges, corner_normals(edges, sharp_angle), sharp_angle);
+    const CornerNormals normals = corner_normals(mesh, edges, facets_, sharp_angle);
+    bend_edges(edges, normals, sharp_angle);
     straighten_where_folded();
+    join_normals(edges, normals, sharp_angle);
   }
-  convexity_.reserve(mesh_.facets.size());
+  shapes_.reserve(mesh_.facets.size());
   for (unsigned int f = 0; f < mesh_.facets.size(); ++f)
-    convexity_.push_back(areas_[f] > 0. ? static_cast<float>(triangle(f).convexity()) : 0.F);
-  facet_normals_ = {};
+    shapes_.push_back(facets_.areas[f] > 0. ? triangle(f).shape() : CurvedTriangle::Shape());
 }
 
-void CurvedTriangles::find_facet_normals(const TriangleEdges &edges) {
-  const double tiny = least_height * mesh_.size();
-  std::vector<unsigned int> slivers;
-  for (unsigned int f = 0; f < mesh_.facets.size(); ++f) {
-    std::array<Tensor<1, 3>, 3> sides;
-    double longest = 0.;
-    for (unsigned int i = 0; i < 3; ++i) {
-      sides[i] = mesh_.points[mesh_.facets[f][(i + 1) % 3]] - mesh_.points[mesh_.facets[f][i]];
-      longest = std::max(longest, sides[i].norm());
-    }
-    const Tensor<1, 3> cross = dealii::cross_product_3d(sides[0], sides[1]);
-    const bool is_sliver = cross.norm() <= tiny * longest;
-    if (is_sliver) {
-      slivers.push_back(f);
-      border_accuracy_ = tiny;
-    }
-    areas_.push_back(is_sliver ? 0. : 0.5 * cross.norm());
-    facet_normals_.push_back(is_sliver ? Tensor<1, 3>() : cross / cross.norm());
-  }
-  // A sliver only connects others: it looks where its neighbour at its longest side does. Chains of slivers
-  // take as many rounds as they are long.
-  for (bool goes_on = true; goes_on;) {
-    goes_on = false;
-    for (const unsigned int f : slivers) {
-      if (facet_normals_[f].norm_square() > 0.)
-        continue;
-      double longest = 0.;
-      unsigned int neighbour = TriangleEdges::none;
-      for (const unsigned int e : edges.of_facet[f]) {
-        const auto &edge = edges.edges[e];
-        const double length = (mesh_.points[edge.points[1]] - mesh_.points[edge.points[0]]).norm();
-        const unsigned int other = edge.facets[edge.facets[0] == f ? 1 : 0];
-        if (other != TriangleEdges::none && facet_normals_[other].norm_square() > 0. && length > longest) {
-          longest = length;
-          neighbour = other;
-        }
-      }
-      if (neighbour == TriangleEdges::none)
-        continue;
-      facet_normals_[f] = facet_normals_[neighbour];
-      goes_on = true;
-    }
-  }
-}
-
-bool CurvedTriangles::is_sharp(const TriangleEdges::Edge &edge, const double sharp_angle) const {
-  return edge.facets[1] == TriangleEdges::none ||
-         angle(facet_normals_[edge.facets[0]], facet_normals_[edge.facets[1]]) > sharp_angle;
-}
-
-/// For each facet the area of the facets that are connected to it in one plane. Large facets collect theirs
-/// first.
-std::vector<double> CurvedTriangles::flat_region_areas(const TriangleEdges &edges) const {
-  std::vector<unsigned int> seeds(mesh_.facets.size());
-  std::iota(seeds.begin(), seeds.end(), 0U);
-  std::stable_sort(seeds.begin(), seeds.end(),
-                   [this](const unsigned int a, const unsigned int b) { return areas_[a] > areas_[b]; });
-  std::vector<double> result(mesh_.facets.size());
-  std::vector<bool> is_taken(mesh_.facets.size());
-  std::vector<unsigned int> region;
-  for (const unsigned int seed : seeds) {
-    if (is_taken[seed])
-      continue;
-    is_taken[seed] = true;
-    region = {seed};
-    double area = 0.;
-    for (std::size_t i = 0; i < region.size(); ++i) {
-      area += areas_[region[i]];
-      for (const unsigned int e : edges.of_facet[region[i]])
-        for (const unsigned int other : edges.edges[e].facets)
-          if (other != TriangleEdges::none && !is_taken[other] &&
-              angle(facet_normals_[seed], facet_normals_[other]) < flat_angle) {
-            is_taken[other] = true;
-            region.push_back(other);
-          }
-    }
-    for (const unsigned int f : region)
-      result[f] = area;
-  }
-  return result;
-}
-
-CurvedTriangles::Normals CurvedTriangles::corner_normals(const TriangleEdges &edges,
-                                                         const double sharp_angle) const {
-  const auto n_facets = static_cast<unsigned int>(mesh_.facets.size());
-  UnionFind groups(3 * static_cast<std::size_t>(n_facets));
-  for (const auto &edge : edges.edges) {
-    if (is_sharp(edge, sharp_angle))
-      continue;
-    const auto [a, b] = edge.facets;
-    const auto [i, j] = edge.corners; // the second facet walks the edge the other way
-    groups.unite(3 * a + i, 3 * b + (j + 1) % 3);
-    groups.unite(3 * a + (i + 1) % 3, 3 * b + j);
-  }
-
-  const std::vector<double> region_area = flat_region_areas(edges);
-  std::vector<double> least_area(3 * static_cast<std::size_t>(n_facets),
-                                 std::numeric_limits<double>::infinity());
-  for (unsigned int f = 0; f < n_facets; ++f)
-    for (unsigned int i = 0; i < 3 && areas_[f] > 0.; ++i) {
-      double &least = least_area[groups.root(3 * f + i)];
-      least = std::min(least, region_area[f]);
-    }
-
-  std::vector<Tensor<1, 3>> sums(3 * static_cast<std::size_t>(n_facets));
-  for (unsigned int f = 0; f < n_facets; ++f)
-    for (unsigned int i = 0; i < 3 && areas_[f] > 0.; ++i) {
-      const auto &point = mesh_.points[mesh_.facets[f][i]];
-      const double sides = (mesh_.points[mesh_.facets[f][(i + 1) % 3]] - point).norm_square() *
-                           (mesh_.points[mesh_.facets[f][(i + 2) % 3]] - point).norm_square();
-      const unsigned int group = groups.root(3 * f + i);
-      const bool is_of_region = region_area[f] > (1. + 1e-9) * areas_[f];
-      const double ratio = is_of_region ? region_area[f] / (1.4 * least_area[group]) : 1.;
-      sums[group] += areas_[f] / sides * std::max(1., std::pow(ratio, 4)) * facet_normals_[f];
-    }
-
-  Normals normals(n_facets);
-  for (unsigned int f = 0; f < n_facets; ++f)
-    for (unsigned int i = 0; i < 3; ++i) {
-      const Tensor<1, 3> &sum = sums[groups.root(3 * f + i)];
-      normals[f][i] = sum.norm() > 0. ? sum / sum.norm() : facet_normals_[f];
-    }
-  return normals;
-}
-
-void CurvedTriangles::bend_edges(const TriangleEdges &edges, const Normals &normals,
+void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals &normals,
                                  const double sharp_angle) {
   for (std::size_t e = 0; e < edges.edges.size(); ++e) {
     const auto &edge = edges.edges[e];
     const auto [a, b] = edge.facets;
     const auto [i, j] = edge.corners;
     const bool is_border = b == TriangleEdges::none;
-    if (areas_[a] == 0. || (!is_border && areas_[b] == 0.)) // of a sliver: straight, as it is
+    if (facets_.areas[a] == 0. || (!is_border && facets_.areas[b] == 0.)) // of a sliver: straight, as it is
       continue;
     const Tensor<1, 3> d = mesh_.points[edge.points[1]] - mesh_.points[edge.points[0]];
     const Tensor<1, 3> &start = normals[a][i], &end = normals[a][(i + 1) % 3];
-    bends_[e] = is_border || !is_sharp(edge, sharp_angle)
+    bends_[e] = is_border || !facets_.is_sharp(edge, sharp_angle)
                     ? bend_smooth(d, start, end)
                     : bend_crease(d, {start, end, normals[b][(j + 1) % 3], normals[b][j]});
   }
@@ -281,19 +135,13 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const Normals &norm
 /// Where the normals are so far from those of a facet that its triangle would fold over, its edges stay
 /// straight; then those of its neighbours that fold now.
 void CurvedTriangles::straighten_where_folded() {
-  constexpr std::array<std::array<double, 2>, 6> samples{
-      {{0., 0.}, {1., 0.}, {0., 1.}, {0.5, 0.5}, {0., 0.5}, {0.5, 0.}}};
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
     for (unsigned int f = 0; f < mesh_.facets.size(); ++f) {
-      if (areas_[f] == 0.)
-        continue;
-      bool is_bent = false, is_folded = false;
+      bool is_bent = false;
       for (const unsigned int e : edges_of_facet_[f])
         is_bent = is_bent || bends_[e].norm_square() > 0.;
-      for (const auto &[u, v] : samples)
-        is_folded = is_folded || triangle(f).area_normal(u, v) * facet_normals_[f] < 0.2 * areas_[f];
-      if (!is_bent || !is_folded)
+      if (!is_bent || !is_folded(f))
         continue;
       for (const unsigned int e : edges_of_facet_[f])
         bends_[e] = Tensor<1, 3>();
@@ -302,11 +150,73 @@ void CurvedTriangles::straighten_where_folded() {
   }
 }
 
+/// Whether the normal leaves that of the flat facet far behind.
+bool CurvedTriangles::is_folded(const unsigned int facet) const {
+  constexpr std::array<std::array<double, 2>, 9> samples{
+      {{0., 0.}, {1., 0.}, {0., 1.}, {0.5, 0.5}, {0., 0.5}, {0.5, 0.}, {0.2, 0.2}, {0.6, 0.2}, {0.2, 0.6}}};
+  if (facets_.areas[facet] == 0.)
+    return false;
+  const CurvedTriangle patch = triangle(facet);
+  return std::any_of(samples.begin(), samples.end(), [&](const auto &uv) {
+    const double along = patch.area_normal(uv[0], uv[1]) * facets_.normals[facet];
+    return !(along > 0.2 * facets_.areas[facet]); // nor not a number
+  });
+}
+
+/// Triangles on both sides of a smooth edge get the same normals along it.
+void CurvedTriangles::join_normals(const TriangleEdges &edges, const CornerNormals &normals,
+                                   const double sharp_angle) {
+  auto seams = seams_;
+  for (const auto &edge : edges.edges) {
+    if (facets_.is_sharp(edge, sharp_angle) || facets_.areas[edge.facets[0]] == 0. ||
+        facets_.areas[edge.facets[1]] == 0.)
+      continue;
+    for (unsigned int side = 0; side < 2; ++side)
+      seams[edge.facets[side]][edge.corners[side]] = seam_at(edge.facets[side], edge.corners[side], normals);
+  }
+  seams_ = seams;
+  for (unsigned int f = 0; f < mesh_.facets.size(); ++f)
+    if (is_folded(f))
+      seams_[f] = {};
+}
+
+CurvedTriangle::Seam CurvedTriangles::seam_at(const unsigned int facet, const unsigned int corner,
+                                              const CornerNormals &normals) const {
+  const CurvedTriangle patch = triangle(facet); // without seams yet
+  const unsigned int next = (corner + 1) % 3, opposite = (corner + 2) % 3;
+  const Tensor<1, 3> &n_0 = normals[facet][corner], &n_1 = normals[facet][next];
+  const Tensor<1, 3> up = 2. * facets_.areas[facet] * facets_.normals[facet];
+  // What a step towards the opposite corner must rise along `up` to be orthogonal to the normal.
+  const auto missing = [&](const double t) {
+    std::array<double, 3> at{}, step{-0.5, -0.5, -0.5};
+    at[corner] = 1. - t;
+    at[next] = t;
+    step[opposite] = 1.;
+    const SurfacePoint point = patch.point_at(at[1], at[2]);
+    const auto derivative = [&](const std::array<double, 3> &direction) {
+      return direction[1] * point.p_u + direction[2] * point.p_v;
+    };
+    std::array<double, 3> along{};
+    along[corner] = -1.;
+    along[next] = 1.;
+    const Tensor<1, 3> tangent = derivative(along), mean = (1. - t) * n_0 + t * n_1;
+    const Tensor<1, 3> normal = mean - (mean * tangent) / tangent.norm_square() * tangent;
+    return -(derivative(step) * normal) / (up * normal);
+  };
+  // In the corners it is 0, but where an edge is straighter than the normals want it.
+  const double first = missing(0.), last = missing(1.);
+  const auto line = [&](const double t) {
+    return (missing(t) - (1. - t) * first - t * last) / (t * (1. - t));
+  };
+  const double a = line(0.25), b = line(0.75);
+  return {static_cast<float>(0.5 * (a + b)), static_cast<float>(b - a)};
+}
+
 std::vector<std::unique_ptr<const SurfacePatch>>
 CurvedTriangles::patches(const std::shared_ptr<const CurvedTriangles> &triangles) {
   std::vector<std::unique_ptr<const SurfacePatch>> result;
   for (unsigned int f = 0; f < triangles->mesh_.facets.size(); ++f)
-    if (triangles->areas_[f] > 0.)
+    if (triangles->facets_.areas[f] > 0.)
       result.push_back(std::make_unique<TrianglePatch>(triangles, f));
   return result;
 }

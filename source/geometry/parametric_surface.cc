@@ -117,6 +117,12 @@ SampledSurface::SampledSurface(Surface surface, const std::array<ParameterRange,
                                TriangleMesh mesh, std::vector<std::array<double, 2>> parameters)
     : surface_(std::move(surface)), ranges_(ranges), facets_(std::move(mesh)),
       parameters_(std::move(parameters)) {
+  for (const auto &[u, v] : parameters_) {
+    const SurfacePoint point = surface_(u, v);
+    const double u_length = point.p_u.norm() * (ranges_[0].high - ranges_[0].low),
+                 v_length = point.p_v.norm() * (ranges_[1].high - ranges_[1].low);
+    poles_.push_back(u_length < 1e-6 * v_length ? 1 : v_length < 1e-6 * u_length ? 2 : 0);
+  }
   constexpr double safety = 1.5; // of the samples' largest deviation
   constexpr double third = 1. / 3.;
   constexpr std::array<std::array<double, 3>, 4> samples{
@@ -138,13 +144,35 @@ SampledSurface::SampledSurface(Surface surface, const std::array<ParameterRange,
 }
 
 SurfaceFoot SampledSurface::descend(const Tensor<1, 3> &x, const FacetTree::Foot &start) const {
-  double u = 0., v = 0.;
+  std::array<double, 2> uv{};
+  char pole = 0;
   for (unsigned int i = 0; i < 3; ++i) {
-    const auto &corner = parameters_[mesh().facets[start.facet][i]];
-    u += start.weights[i] * corner[0];
-    v += start.weights[i] * corner[1];
+    const unsigned int corner = mesh().facets[start.facet][i];
+    for (unsigned int c = 0; c < 2; ++c)
+      uv[c] += start.weights[i] * parameters_[corner][c];
+    pole = std::max(pole, poles_[corner]);
   }
-  return descend_to_foot(surface_, ranges_, x, u, v);
+  if (pole > 0)
+    uv = turn_about_pole(x, uv, pole - 1U);
+  return descend_to_foot(surface_, ranges_, x, uv[0], uv[1]);
+}
+
+/// Next to a pole the facets tell little about the parameter `around` it: that of the nearest of some points.
+std::array<double, 2> SampledSurface::turn_about_pole(const Tensor<1, 3> &x, std::array<double, 2> uv,
+                                                      const unsigned int around) const {
+  constexpr unsigned int n = 24;
+  const auto [low, high] = std::pair(ranges_[around].low, ranges_[around].high);
+  double least = (x - surface_(uv[0], uv[1]).p).norm_square();
+  auto best = uv;
+  for (unsigned int i = 0; i < n; ++i) {
+    uv[around] = low + (i + 0.5) / n * (high - low);
+    const double square = (x - surface_(uv[0], uv[1]).p).norm_square();
+    if (square < least) {
+      least = square;
+      best = uv;
+    }
+  }
+  return best;
 }
 
 std::optional<SurfacePoint> SampledSurface::nearest(const Tensor<1, 3> &x,

@@ -73,55 +73,62 @@ RigidSurface::Projection RigidSurface::project(const Tensor<1, 3> &x, const unsi
   return {true, nearest.normal, nearest.gap, nearest.turning, nearest_patch};
 }
 
+/// Those that come as near to x, and there.
+RigidSurface::Neighbours RigidSurface::find_neighbours(const Tensor<1, 3> &x, const ClosestPoint &nearest,
+                                                       const unsigned int patch) const {
+  Neighbours found;
+  found.normals = {nearest.normal};
+  found.turning = nearest.turning;
+  const double distance = (x - nearest.position).norm();
+  const double tolerance = tolerance_ + far_round_off * distance;
+  const double reach = distance + tolerance;
+  Tensor<1, 3> sum = nearest.normal;
+  tree_.visit_near(x, reach * reach, [&](const unsigned int i) {
+    if (i == patch || patches_[i]->is_farther(x, reach * reach))
+      return;
+    const ClosestPoint point = patches_[i]->closest_point(x);
+    if ((point.position - nearest.position).norm() > tolerance)
+      return;
+    if (!point.is_beyond_border && (!found.is_straight_below || i < found.below.patch)) {
+      found.is_straight_below = true;
+      found.below = {true, point.normal, point.gap, point.turning, i};
+    }
+    found.normals.push_back(point.normal);
+    sum += point.normal;
+    found.turning += point.turning;
+    const Tensor<1, 3> across = dealii::cross_product_3d(nearest.normal, point.normal);
+    if (across.norm() > found.sharpness) {
+      found.sharpness = across.norm();
+      found.edge = across / found.sharpness;
+      found.sharpest = i;
+      found.sharpest_normal = point.normal;
+    }
+  });
+  found.turning /= double(found.normals.size());
+  found.mean = sum.norm() > 1e-6 ? sum / sum.norm() : nearest.normal; // of a knife's edge: any
+  return found;
+}
+
 RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> &x,
                                                              const ClosestPoint &nearest,
                                                              const unsigned int patch) const {
   const Tensor<1, 3> arm = x - nearest.position;
   const double distance = arm.norm();
-  const double tolerance = tolerance_ + far_round_off * distance;
-  const double reach = distance + tolerance;
-  std::vector<Tensor<1, 3>> normals{nearest.normal};
-  Tensor<1, 3> sum = nearest.normal;
-  Tensor<2, 3> turning = nearest.turning;
-  unsigned int sharpest = patch, straight_below = patch;
-  Tensor<1, 3> edge, sharpest_normal;
-  ClosestPoint below;
-  double sharpness = 0.;
-  if (patches_.size() > 1)
-    tree_.visit_near(x, reach * reach, [&](const unsigned int i) {
-      if (i == patch || patches_[i]->is_farther(x, reach * reach))
-        return;
-      const ClosestPoint point = patches_[i]->closest_point(x);
-      if ((point.position - nearest.position).norm() > tolerance)
-        return;
-      if (!point.is_beyond_border && i < straight_below) {
-        straight_below = i;
-        below = point;
-      }
-      normals.push_back(point.normal);
-      sum += point.normal;
-      turning += point.turning;
-      const Tensor<1, 3> across = dealii::cross_product_3d(nearest.normal, point.normal);
-      if (across.norm() > sharpness) {
-        sharpness = across.norm();
-        edge = across / sharpness;
-        sharpest = i;
-        sharpest_normal = point.normal;
-      }
-    });
   const Projection none{false, nearest.normal, distance, {}, patch};
-  if (normals.size() == 1)
+  if (patches_.size() == 1)
     return none;
-  if (straight_below != patch) // as near by round-off
-    return {true, below.normal, below.gap, below.turning, straight_below};
+  const Neighbours around = find_neighbours(x, nearest, patch);
+  if (around.normals.size() == 1)
+    return none;
+  if (around.is_straight_below) // as near by round-off
+    return around.below;
 
   // The surface goes on beyond the seam. Seen from there it is an edge: outside of the tool where that is
   // convex, inside where it is concave; the gap is the distance to it, of the sign that the mean normal
   // tells.
-  const Tensor<1, 3> mean = sum.norm() > 1e-6 ? sum / sum.norm() : nearest.normal; // of a knife's edge: any
-  Projection projection{true, mean, arm * mean, turning / double(normals.size()), patch};
-  if (sharpness < smooth || sharpness * distance <= tolerance_) {
-    const double aside = (arm - projection.gap * mean).norm();
+  Projection projection{true, around.mean, arm * around.mean, around.turning, patch};
+  if (around.sharpness < smooth || around.sharpness * distance <= tolerance_) {
+    const double aside = (arm - projection.gap * around.mean).norm();
     return aside > 2. * smooth * distance + tolerance_ ? none : projection; // or past the seam's end
   }
   projection.gap = projection.gap < 0. ? -distance : distance;
@@ -129,28 +136,27 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
   projection.turning =
       (identity - dealii::outer_product(projection.normal, projection.normal)) / projection.gap;
-  if (std::abs(arm * edge) <= along_edge * distance + tolerance_)
-    projection.turning += turning_along_edge(projection, nearest, patch, sharpest, sharpest_normal, edge) *
-                          dealii::outer_product(edge, edge);
-  else if (normals.size() == 2 || !is_between(projection.normal, normals, mean))
+  if (std::abs(arm * around.edge) <= along_edge * distance + tolerance_)
+    projection.turning += turning_along_edge(projection, nearest, patch, around) *
+                          dealii::outer_product(around.edge, around.edge);
+  else if (around.normals.size() == 2 || !is_between(projection.normal, around.normals, around.mean))
     return none; // past the edge's end; three patches make a corner
   return projection;
 }
 
 double RigidSurface::turning_along_edge(const Projection &projection, const ClosestPoint &nearest,
-                                        const unsigned int patch, const unsigned int neighbour,
-                                        const Tensor<1, 3> &neighbour_normal,
-                                        const Tensor<1, 3> &edge) const {
+                                        const unsigned int patch, const Neighbours &around) const {
   // Both patches tell the edge's curvature vector k in the plane across the edge: on the surface itself
   // e·∂n/∂x·e = −k·n. With n = a n_1 + b n_2, the same of n is κ = a κ_1 + b κ_2.
   const auto curvature = [&](const unsigned int i) {
-    return edge * patches_[i]->closest_point(nearest.position).turning * edge;
+    return around.edge * patches_[i]->closest_point(nearest.position).turning * around.edge;
   };
-  const double cosine = nearest.normal * neighbour_normal;
-  const double first = projection.normal * nearest.normal, second = projection.normal * neighbour_normal;
-  const double kappa =
-      ((first - cosine * second) * curvature(patch) + (second - cosine * first) * curvature(neighbour)) /
-      (1. - cosine * cosine);
+  const double cosine = nearest.normal * around.sharpest_normal;
+  const double first = projection.normal * nearest.normal,
+               second = projection.normal * around.sharpest_normal;
+  const double kappa = ((first - cosine * second) * curvature(patch) +
+                        (second - cosine * first) * curvature(around.sharpest)) /
+                       (1. - cosine * cosine);
   const double stretch = 1. + kappa * projection.gap; // 0 in the centre of curvature
   return (std::abs(stretch) > 1e-12 ? kappa / stretch : 0.) - 1. / projection.gap;
 }

@@ -10,6 +10,10 @@ namespace billet {
 
 using dealii::Tensor;
 
+namespace {
+constexpr double smooth_pole = 1. - 1e-4; // length of the mean of the normals around it
+} // namespace
+
 TrimmedSurface::TrimmedSurface(Description description)
     : d_(std::move(description)), loops_(1e-7 * std::min(d_.high[0] - d_.low[0], d_.high[1] - d_.low[1])) {
   for (const Edge &edge : d_.edges) {
@@ -18,6 +22,10 @@ TrimmedSurface::TrimmedSurface(Description description)
       border_.push_back(edge);
   }
   d_.edges.clear();
+  if (!d_.closed_form)
+    for (const Edge &edge : border_)
+      if (edge.is_pole && goes_around(edge))
+        add_cap(edge);
 }
 
 ClosestPoint TrimmedSurface::closest_point(const Tensor<1, 3> &x) const {
@@ -35,6 +43,10 @@ ClosestPoint TrimmedSurface::closest_point(const Tensor<1, 3> &x) const {
         border = nearest_on_border(x);
         return (x - border->position).norm();
       });
+  const Tensor<1, 3> position = foot ? foot->p : border->position;
+  for (const Cap &cap : caps_)
+    if ((position - cap.position).norm() < cap.radius)
+      return cap.project(x);
   return foot ? at_foot(*foot, x, d_.side) : *border;
 }
 
@@ -81,12 +93,14 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
   foot.p = position;
   ClosestPoint result = at_foot(foot, x, d_.side);
   const Tensor<1, 3> arm = x - position;
-  Tensor<1, 3> mean;
-  if (nearest->is_pole && least > 0. && is_apex(*nearest, mean)) {
-    result.gap = arm * mean < 0. ? -arm.norm() : arm.norm();
-    result.normal = arm / result.gap;
-    const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
-    result.turning = (identity - dealii::outer_product(result.normal, result.normal)) / result.gap;
+  if (nearest->is_pole && goes_around(*nearest)) { // no border, but a point of the surface
+    const Tensor<1, 3> mean = mean_normal(*nearest);
+    if (mean.norm() < smooth_pole && least > 0.) { // or its tip
+      result.gap = arm * mean < 0. ? -arm.norm() : arm.norm();
+      result.normal = arm / result.gap;
+      const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
+      result.turning = (identity - dealii::outer_product(result.normal, result.normal)) / result.gap;
+    }
     return result;
   }
   const Tensor<1, 3> aside = arm - result.gap * result.normal;
@@ -95,22 +109,79 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
   return result;
 }
 
-/// Whether the surface is pointed at a pole that it goes around.
-bool TrimmedSurface::is_apex(const Edge &pole, Tensor<1, 3> &mean_normal) const {
+/// Whether the face goes all around a pole.
+bool TrimmedSurface::goes_around(const Edge &pole) const {
+  const Parameters begin = pole.on_surface(pole.samples.front()), end = pole.on_surface(pole.samples.back());
+  for (unsigned int i = 0; i < 2; ++i)
+    if (d_.periods[i] > 0. && std::abs(end[i] - begin[i]) > (1. - 1e-9) * d_.periods[i])
+      return true;
+  return false;
+}
+
+/// Points around a pole, a small part `aside` of the way to the middle of the face away from it.
+std::vector<SurfacePoint> TrimmedSurface::ring_about(const Edge &pole, const double aside) const {
+  constexpr unsigned int n = 12;
+  std::vector<SurfacePoint> result;
   const double first = pole.samples.front(), last = pole.samples.back();
   const Parameters begin = pole.on_surface(first), end = pole.on_surface(last);
-  bool goes_around = false;
-  for (unsigned int i = 0; i < 2; ++i)
-    goes_around =
-        goes_around || (d_.periods[i] > 0. && std::abs(end[i] - begin[i]) > (1. - 1e-9) * d_.periods[i]);
-  constexpr unsigned int n = 12;
-  mean_normal = {};
+  const unsigned int along = std::abs(end[0] - begin[0]) > std::abs(end[1] - begin[1]) ? 1 : 0;
   for (unsigned int i = 0; i < n; ++i) {
-    const SurfacePoint point = regular_point(pole.on_surface(first + (i + 0.5) / n * (last - first)));
-    const Tensor<1, 3> normal = d_.side * dealii::cross_product_3d(point.p_u, point.p_v);
-    mean_normal += normal / normal.norm() / double(n);
+    Parameters at = pole.on_surface(first + (i + 0.5) / n * (last - first));
+    at[along] += aside * (0.5 * (d_.low[along] + d_.high[along]) - at[along]);
+    result.push_back(d_.surface.at(at[0], at[1]));
   }
-  return goes_around && mean_normal.norm() < 1. - 1e-4;
+  return result;
+}
+
+/// Of normals around a pole; shorter than 1 at a tip.
+Tensor<1, 3> TrimmedSurface::mean_normal(const Edge &pole) const {
+  Tensor<1, 3> result;
+  const auto ring = ring_about(pole, 1e-6);
+  for (const auto &point : ring) {
+    const Tensor<1, 3> normal = d_.side * dealii::cross_product_3d(point.p_u, point.p_v);
+    result += normal / normal.norm() / double(ring.size());
+  }
+  return result;
+}
+
+/// Next to a pole the derivatives are lost in round-off; there the surface is taken as the paraboloid that
+/// touches it in the pole.
+void TrimmedSurface::add_cap(const Edge &pole) {
+  const Tensor<1, 3> mean = mean_normal(pole);
+  if (mean.norm() < smooth_pole)
+    return;
+  Cap cap;
+  const Parameters middle = pole.on_surface(0.5 * (pole.samples.front() + pole.samples.back()));
+  cap.position = d_.surface.at(middle[0], middle[1]).p;
+  cap.normal = mean / mean.norm();
+  const auto ring = ring_about(pole, 2e-3);
+  cap.radius = std::numeric_limits<double>::infinity();
+  for (const auto &point : ring) {
+    cap.curvature += at_foot(point, point.p, d_.side).turning / double(ring.size());
+    cap.radius = std::min(cap.radius, 0.5 * (point.p - cap.position).norm());
+  }
+  const Tensor<2, 3> across =
+      Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) - dealii::outer_product(cap.normal, cap.normal);
+  cap.curvature = across * cap.curvature * across;
+  caps_.push_back(cap);
+}
+
+ClosestPoint TrimmedSurface::Cap::project(const Tensor<1, 3> &x) const {
+  const Tensor<1, 3> arm = x - position;
+  const double height = arm * normal;
+  const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
+  const Tensor<2, 3> stretch = identity + height * curvature;
+  const bool is_focus = std::abs(dealii::determinant(stretch)) < 1e-12; // all around is as near
+  const Tensor<2, 3> shrink = is_focus ? Tensor<2, 3>() : dealii::invert(stretch);
+  const Tensor<1, 3> aside = shrink * (arm - height * normal);
+  ClosestPoint result;
+  result.position = position + aside - 0.5 * (aside * curvature * aside) * normal;
+  result.normal = normal + curvature * aside;
+  result.normal /= result.normal.norm();
+  result.gap = (x - result.position) * result.normal;
+  const Tensor<2, 3> across = identity - dealii::outer_product(result.normal, result.normal);
+  result.turning = across * shrink * curvature * across;
+  return result;
 }
 
 void TrimmedSurface::draw(const PictureRegion & /*region*/, SurfacePicture &picture) const {

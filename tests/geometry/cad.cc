@@ -96,6 +96,27 @@ void check_near_axis() {
   check("torus as a spline, next to its axis", error.value(), 1e-8);
 }
 
+/// Next to the poles of a sphere, where the derivatives of a spline go to zero, and in its centre.
+void check_poles() {
+  const auto spline = through_step(BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeSphere(2.).Shape()).Shape());
+  const auto sphere = make_surface("sphere", "set Radius = 2");
+  Random random;
+  WorstError gap, normal, turning;
+  for (const double aside : {0., 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.1})
+    for (unsigned int i = 0; i < 100; ++i) {
+      const Tensor<1, 3> x(
+          {random(-aside, aside), random(-aside, aside), (i % 2 == 0 ? 1. : -1.) * random(1.5, 2.5)});
+      const auto a = spline->project(x), b = sphere->project(x);
+      gap.add(a.exists ? std::abs(a.gap - b.gap) : 1.);
+      normal.add((a.normal - b.normal).norm());
+      turning.add((a.turning - b.turning).norm());
+    }
+  check("poles of a sphere as a spline: gap", gap.value(), 1e-9);
+  check("poles of a sphere as a spline: normal", normal.value(), 1e-7);
+  check("poles of a sphere as a spline: turning", turning.value(), 1e-4);
+  check("centre of a sphere as a spline", std::abs(spline->project({}).gap + 2.), 1e-9);
+}
+
 /// Distance from a box whose edges and corners are rounded: that from a smaller box.
 double rounded_box_gap(const Tensor<1, 3> &x, const Tensor<1, 3> &half, const double radius) {
   double square = 0., inside = -1e9;
@@ -199,6 +220,7 @@ int main() {
              through_step(BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeTorus(axes, 3., 1.).Shape()).Shape()),
              make_surface("torus", at + "set Ring radius = 3\nset Tube radius = 1"), 5., 1e-8);
   check_near_axis();
+  check_poles();
   // A piece of a torus: its first face is the fillet, the others close it.
   check_same(
       "quarter fillet",

@@ -63,12 +63,15 @@ public:
 
 private:
   SurfaceFoot descend(const dealii::Tensor<1, 3> &x, const FacetTree::Foot &start) const;
+  std::array<double, 2> turn_about_pole(const dealii::Tensor<1, 3> &x, std::array<double, 2> uv,
+                                        unsigned int around) const;
 
   Surface surface_;
   std::array<ParameterRange, 2> ranges_;
   FacetTree facets_;
   std::vector<std::array<double, 2>> parameters_;
-  double deviation_ = 0.; ///< of the surface from its facets [length]
+  std::vector<char> poles_; ///< of the points: 1 or 2 where p,u or p,v is zero, else 0
+  double deviation_ = 0.;   ///< of the surface from its facets [length]
   double facet_size_ = 0.;
 };
 

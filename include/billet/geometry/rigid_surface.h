@@ -35,12 +35,25 @@ public:
   SurfacePicture picture(const PictureRegion &region) const;
 
 private:
+  /// The patches that meet in the nearest point, itself among them.
+  struct Neighbours {
+    std::vector<dealii::Tensor<1, 3>> normals;
+    dealii::Tensor<1, 3> mean;    ///< of the normals, unit
+    dealii::Tensor<2, 3> turning; ///< mean
+    double sharpness = 0.;        ///< largest sine of an angle with the nearest patch's normal
+    unsigned int sharpest = 0;    ///< the patch that it belongs to
+    dealii::Tensor<1, 3> sharpest_normal;
+    dealii::Tensor<1, 3> edge; ///< direction of the edge between the two
+    bool is_straight_below = false;
+    Projection below{}; ///< on a patch that ends there, but not short of x
+  };
+  Neighbours find_neighbours(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
+                             unsigned int patch) const;
   Projection project_beyond_border(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
                                    unsigned int patch) const;
   /// e·∂n/∂x·e beside the edge along e between two patches, less that of a point, 1/gap.
   double turning_along_edge(const Projection &projection, const ClosestPoint &nearest, unsigned int patch,
-                            unsigned int neighbour, const dealii::Tensor<1, 3> &neighbour_normal,
-                            const dealii::Tensor<1, 3> &edge) const;
+                            const Neighbours &around) const;
 
   std::vector<std::unique_ptr<const SurfacePatch>> patches_;
   BoxTree tree_;

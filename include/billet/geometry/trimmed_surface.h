@@ -44,11 +44,22 @@ private:
   bool is_inside(Parameters parameters) const;
   SurfacePoint regular_point(const Parameters &parameters) const;
   ClosestPoint nearest_on_border(const dealii::Tensor<1, 3> &x) const;
-  bool is_apex(const Edge &pole, dealii::Tensor<1, 3> &mean_normal) const;
+  /// The surface next to a pole that it goes around smoothly.
+  struct Cap {
+    dealii::Tensor<1, 3> position, normal;
+    dealii::Tensor<2, 3> curvature; ///< ∂n/∂x on the surface
+    double radius;
+    ClosestPoint project(const dealii::Tensor<1, 3> &x) const;
+  };
+  bool goes_around(const Edge &pole) const;
+  std::vector<SurfacePoint> ring_about(const Edge &pole, double aside) const;
+  dealii::Tensor<1, 3> mean_normal(const Edge &pole) const;
+  void add_cap(const Edge &pole);
 
   Description d_;
   TrimmingLoops loops_;
   std::vector<Edge> border_;
+  std::vector<Cap> caps_;
 };
 
 } // namespace billet

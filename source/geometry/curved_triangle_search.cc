@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/geometry/quadratic_triangle.h"
+// The closest point of a curved triangle.
+#include "billet/geometry/curved_triangle.h"
 
-#include "billet/geometry/parametric_surface.h"
-
+#include <algorithm>
 #include <cmath>
 
 namespace billet {
-
-using dealii::Tensor;
 
 namespace {
 
@@ -27,81 +25,31 @@ constexpr std::array<bool, 3> nowhere{false, false, false};
 
 } // namespace
 
-QuadraticTriangle::QuadraticTriangle(const std::array<Point, 3> &corners, const std::array<Point, 3> &bends)
-    : origin_(corners[0]), u_(corners[1] - corners[0] - bends[0]), v_(corners[2] - corners[0] - bends[2]),
-      uu_(bends[0]), uv_(bends[0] + bends[2] - bends[1]), vv_(bends[2]) {}
-
-QuadraticTriangle::Point QuadraticTriangle::area_normal(const double u, const double v) const {
-  return dealii::cross_product_3d(Point(u_ + 2. * u * uu_ + v * uv_), Point(v_ + 2. * v * vv_ + u * uv_));
+CurvedTriangle::Iterate CurvedTriangle::at(const Point &x, double u, double v,
+                                           const std::array<bool, 3> &at) const {
+  u = at[1] ? 0. : u;
+  v = at[0] ? 1. - u : at[2] ? 0. : v;
+  Iterate result{u, v, at, point_at(u, v), {}, 0.};
+  result.arm = x - result.point.p;
+  result.square = result.arm.norm_square();
+  return result;
 }
 
-bool QuadraticTriangle::is_farther(const Point &x, const double square) const {
-  constexpr double third = 1. / 3.;
-  const Point arm = x - origin_, view = x - position(third, third);
-  // Control points from the first corner.
-  const double u = u_ * view, v = v_ * view, uu = uu_ * view, uv = uv_ * view, vv = vv_ * view;
-  const double farthest = std::max({0., 0.5 * u, 0.5 * v, u + uu, v + vv, 0.5 * (u + v + uv)});
-  const double least = arm * view - farthest;
-  return least > 0. && least * least > square * view.norm_square() * (1. + 1e-12);
-}
-
-BoundingBox QuadraticTriangle::bounding_box() const {
-  BoundingBox box = BoundingBox::empty();
-  box.add(origin_);
-  box.add(position(1., 0.));
-  box.add(position(0., 1.));
-  box.add(origin_ + 0.5 * u_);
-  box.add(origin_ + 0.5 * v_);
-  box.add(origin_ + 0.5 * (u_ + v_ + uv_));
-  return box;
-}
-
-QuadraticTriangle::Iterate QuadraticTriangle::at(const Point &x, const double u, const double v,
-                                                 const std::array<bool, 3> &at) const {
-  Iterate point{at[1] ? 0. : u, at[2] ? 0. : v, at, {}, {}, {}, 0.};
-  if (at[0])
-    point.v = 1. - point.u;
-  point.arm = x - position(point.u, point.v);
-  point.p_u = u_ + 2. * point.u * uu_ + point.v * uv_;
-  point.p_v = v_ + 2. * point.v * vv_ + point.u * uv_;
-  point.square = point.arm.norm_square();
-  return point;
-}
-
-double QuadraticTriangle::convexity() const {
-  constexpr double third = 1. / 3.;
-  constexpr std::array<std::array<double, 2>, 7> samples{
-      {{0., 0.}, {1., 0.}, {0., 1.}, {0.5, 0.5}, {0., 0.5}, {0.5, 0.}, {third, third}}};
-  const Iterate centre = at(origin_, third, third, nowhere);
-  const Matrix g = metric(centre.p_u, centre.p_v);
-  const double det_g = determinant(g);
-  double least = 1.;
-  for (const auto &[u, v] : samples) {
-    const Iterate here = at(origin_, u, v, nowhere);
-    const Matrix metric_here = metric(here.p_u, here.p_v);
-    const Matrix bending_here = bending(centre.arm - here.arm);
-    const Matrix m{metric_here.uu + bending_here.uu, metric_here.uv + bending_here.uv,
-                   metric_here.vv + bending_here.vv};
-    // The smaller root k of det(m − k g) = 0.
-    const double half = 0.5 * (m.uu * g.vv + m.vv * g.uu - 2. * m.uv * g.uv);
-    const double root = std::sqrt(std::max(0., half * half - det_g * determinant(m)));
-    least = std::min(least, (half - root) / det_g);
-  }
-  return least;
-}
-
-bool QuadraticTriangle::has_one_minimum(const Point &x, const double convexity) const {
+bool CurvedTriangle::has_one_minimum(const Point &x, const Shape &shape) const {
   constexpr double third = 1. / 3.;
   constexpr double safety = 0.9; // the least value between the samples
-  const Iterate centre = at(x, third, third, nowhere);
-  const Matrix g = metric(centre.p_u, centre.p_v), b = bending(centre.arm);
-  const double k = safety * convexity;
+  const SurfacePoint centre = quadratic_point_at(third, third);
+  const Point arm = x - centre.p;
+  const Matrix g = metric(centre), b = bending(arm, centre);
+  double k = safety * shape.convexity;
+  if (has_seams_)
+    k -= shape.roughness / safety * std::abs(arm * up_);
   const double uu = k * g.uu - b.uu, uv = k * g.uv - b.uv, vv = k * g.vv - b.vv;
   return uu > 0. && uu * vv - uv * uv > 0.;
 }
 
 /// The foot on the plane of the corners, moved into the triangle.
-QuadraticTriangle::Iterate QuadraticTriangle::start_below(const Point &x) const {
+CurvedTriangle::Iterate CurvedTriangle::start_below(const Point &x) const {
   const Point a = u_ + uu_, b = v_ + vv_, arm = x - origin_; // along the chords
   const double aa = a * a, ab = a * b, bb = b * b, xa = arm * a, xb = arm * b;
   const double det = aa * bb - ab * ab;
@@ -118,10 +66,10 @@ QuadraticTriangle::Iterate QuadraticTriangle::start_below(const Point &x) const 
   return at(x, u, v, edges);
 }
 
-QuadraticTriangle::Step QuadraticTriangle::choose_step(const Iterate &here) const {
-  const Matrix g = metric(here.p_u, here.p_v), b = bending(here.arm);
+CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) const {
+  const Matrix g = metric(here.point), b = bending(here.arm, here.point);
   const Matrix newton{g.uu - b.uu, g.uv - b.uv, g.vv - b.vv};
-  const double slope_u = -(here.arm * here.p_u), slope_v = -(here.arm * here.p_v);
+  const double slope_u = -(here.arm * here.point.p_u), slope_v = -(here.arm * here.point.p_v);
   const auto leaves = [&here](const Step &step, const unsigned int except) {
     bool result = false;
     for (unsigned int i = 0; i < 3; ++i)
@@ -163,7 +111,7 @@ QuadraticTriangle::Step QuadraticTriangle::choose_step(const Iterate &here) cons
 
 /// Newton's method with line search inside the triangle: at an edge it goes along the edge until the way
 /// inwards is open again. Ends at a minimum over the triangle.
-QuadraticTriangle::Iterate QuadraticTriangle::descend(const Point &x, Iterate here) const {
+CurvedTriangle::Iterate CurvedTriangle::descend(const Point &x, Iterate here) const {
   constexpr unsigned int most_steps = 60;
   for (unsigned int n = 0; n < most_steps; ++n) {
     const Step step = choose_step(here);
@@ -183,7 +131,7 @@ QuadraticTriangle::Iterate QuadraticTriangle::descend(const Point &x, Iterate he
       }
     }
     const double largest = std::max(std::abs(step.u), std::abs(step.v));
-    const double round_off = 1e-15 * (1. + std::sqrt(here.square / here.p_u.norm_square()));
+    const double round_off = 1e-15 * (1. + std::sqrt(here.square / here.point.p_u.norm_square()));
     // Newton's method doubles the number of right digits.
     const bool is_last = hit == 3 && largest < (step.is_newton ? 1e-8 : 1e-13) + round_off;
     Iterate next = here;
@@ -203,8 +151,7 @@ QuadraticTriangle::Iterate QuadraticTriangle::descend(const Point &x, Iterate he
 }
 
 /// The point t of the edge opposite to corner i, which runs from 0 to 1.
-QuadraticTriangle::Iterate QuadraticTriangle::at_edge(const Point &x, const unsigned int i,
-                                                      const double t) const {
+CurvedTriangle::Iterate CurvedTriangle::at_edge(const Point &x, const unsigned int i, const double t) const {
   constexpr std::array<unsigned int, 3> start{1, 0, 0}, end{2, 2, 1};
   std::array<bool, 3> edges{i == 0, i == 1, i == 2};
   if (t == 0. || t == 1.) {
@@ -217,7 +164,7 @@ QuadraticTriangle::Iterate QuadraticTriangle::at_edge(const Point &x, const unsi
 
 /// The nearest point of the edge opposite to corner i: the derivative of the squared distance along it is
 /// cubic, and rises or falls throughout between the roots of its own derivative.
-QuadraticTriangle::Iterate QuadraticTriangle::nearest_on_edge(const Point &x, const unsigned int i) const {
+CurvedTriangle::Iterate CurvedTriangle::nearest_on_edge(const Point &x, const unsigned int i) const {
   const auto [u, v] = edge_direction[i];
   const double start = i == 0 ? 1. : 0.; // of u
   const Point arm = x - position(start, 0.);
@@ -241,13 +188,19 @@ QuadraticTriangle::Iterate QuadraticTriangle::nearest_on_edge(const Point &x, co
   };
   for (unsigned int piece = 0; piece < 3; ++piece) {
     double low = ends[piece], high = ends[piece + 1];
-    if (slope(low) < 0. && slope(high) > 0.) { // a minimum; else a maximum or none
-      for (unsigned int n = 0; n < 50; ++n) {
-        const double middle = 0.5 * (low + high);
-        (slope(middle) < 0. ? low : high) = middle;
-      }
-      consider(0.5 * (low + high));
+    if (!(slope(low) < 0. && slope(high) > 0.)) // no minimum between
+      continue;
+    double t = 0.5 * (low + high);
+    for (unsigned int n = 0; n < 60 && high - low > 1e-15; ++n) { // Newton's method, within the bracket
+      const double f = slope(t);
+      (f < 0. ? low : high) = t;
+      const double next = t - f / (k_1 + t * (2. * k_2 + 3. * t * k_3));
+      const double step = std::abs(next - t);
+      t = next > low && next < high ? next : 0.5 * (low + high);
+      if (step < 1e-15)
+        break;
     }
+    consider(t);
   }
   consider(1.);
   return best;
@@ -255,8 +208,8 @@ QuadraticTriangle::Iterate QuadraticTriangle::nearest_on_edge(const Point &x, co
 
 /// The least of the minima on the edges and of those reached from every point of a grid that is nearer than
 /// its neighbours there.
-QuadraticTriangle::Iterate QuadraticTriangle::descend_from_all(const Point &x) const {
-  Iterate best = descend(x, start_below(x));
+CurvedTriangle::Iterate CurvedTriangle::descend_from_all(const Point &x) const {
+  Iterate best = descend_once(x);
   const auto consider = [&](const Iterate &start) {
     const Iterate other = descend(x, start);
     if (other.square < best.square * (1. - 1e-14))
@@ -271,7 +224,7 @@ QuadraticTriangle::Iterate QuadraticTriangle::descend_from_all(const Point &x) c
     row.fill(std::numeric_limits<double>::infinity());
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j)
-      squares[i + 1][j + 1] = (x - position(double(i) / n, double(j) / n)).norm_square();
+      squares[i + 1][j + 1] = (x - quadratic_point_at(double(i) / n, double(j) / n).p).norm_square();
   for (int i = 1; i <= n; ++i)
     for (int j = 1; i + j < n; ++j)
       if (squares[i + 1][j + 1] <= std::min({squares[i][j + 1], squares[i + 2][j + 1], squares[i + 1][j],
@@ -280,9 +233,19 @@ QuadraticTriangle::Iterate QuadraticTriangle::descend_from_all(const Point &x) c
   return best;
 }
 
-ClosestPoint QuadraticTriangle::closest_point(const Point &x, const double convexity) const {
-  const Iterate foot = has_one_minimum(x, convexity) ? descend(x, start_below(x)) : descend_from_all(x);
-  ClosestPoint result = at_foot({x - foot.arm, foot.p_u, foot.p_v, 2. * uu_, uv_, 2. * vv_}, x, 1.);
+/// First without F, which is small.
+CurvedTriangle::Iterate CurvedTriangle::descend_once(const Point &x) const {
+  if (!has_seams_)
+    return descend(x, start_below(x));
+  CurvedTriangle quadratic = *this;
+  quadratic.has_seams_ = false;
+  const Iterate start = quadratic.descend(x, quadratic.start_below(x));
+  return descend(x, at(x, start.u, start.v, start.at));
+}
+
+ClosestPoint CurvedTriangle::closest_point(const Point &x, const Shape &shape) const {
+  const Iterate foot = has_one_minimum(x, shape) ? descend_once(x) : descend_from_all(x);
+  ClosestPoint result = at_foot(foot.point, x, 1.);
   const Point aside = foot.arm - result.gap * result.normal;
   const double length = std::sqrt(u_.norm_square() + v_.norm_square() + foot.square);
   result.is_beyond_border = (foot.at[0] || foot.at[1] || foot.at[2]) && aside.norm() > 1e-10 * length;
