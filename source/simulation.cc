@@ -5,11 +5,14 @@
 #include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
 #include "billet/output/progress.h"
+#include "billet/solve/explicit_dynamics.h"
 #include "billet/solve/quasi_static.h"
 #include "billet/solve/step_control.h"
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -51,22 +54,25 @@ public:
   Snapshots(const parameters::Scene &parameters, FieldWriter &writer)
       : output_(parameters.output), end_(parameters.time_stepping.end_time), writer_(writer) {}
 
-  void after_step(const unsigned int step, const QuasiStatic &problem) {
-    const double time = problem.state().time;
-    const bool by_interval =
-        output_.interval > 0. && time >= (n_intervals_ + 1) * output_.interval * (1. - 1e-8);
-    if (by_interval)
-      ++n_intervals_;
-    const bool by_steps =
-        output_.interval == 0. && output_.every_steps > 0 && step % output_.every_steps == 0;
-    if (by_interval || by_steps || time >= end_)
-      write(problem);
+  bool is_due(const unsigned int step, const double time) const {
+    if (output_.interval > 0. && time >= (n_intervals_ + 1) * output_.interval * (1. - 1e-8))
+      return true;
+    return (output_.interval == 0. && output_.every_steps > 0 && step % output_.every_steps == 0) ||
+           time >= end_;
   }
-  void write(const QuasiStatic &problem) {
-    if (problem.state().time == last_)
+  void after_step(const unsigned int step, const Solution &solution) {
+    const double time = solution.state().time;
+    if (!is_due(step, time))
       return;
-    writer_.write(problem);
-    last_ = problem.state().time;
+    if (output_.interval > 0.)
+      n_intervals_ = static_cast<unsigned int>(time / output_.interval * (1. + 1e-8));
+    write(solution);
+  }
+  void write(const Solution &solution) {
+    if (solution.state().time == last_)
+      return;
+    writer_.write(solution);
+    last_ = solution.state().time;
   }
 
 private:
@@ -117,31 +123,39 @@ void check_output_folder(const parameters::Scene &parameters) {
   }
 }
 
-void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
-  const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+namespace {
 
-  // Set up: everything that can be wrong with the scene shows here, before anything is written.
-  fail_together(communicator, [&] { check_output_folder(parameters); });
-  const Scene scene(parameters);
-  const Discretization discretization(scene, communicator);
+/// What a run writes: the copy of the scene, the history, the fields, the console.
+struct Outputs {
+  Outputs(const Scene &scene, const Discretization &discretization)
+      : is_first(dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0),
+        writer(scene, discretization, scene.parameters().output.folder.value),
+        snapshots(scene.parameters(), writer),
+        progress(scene, is_first ? std::cout : silence, is_first && console_is_terminal()) {
+    fail_together(discretization.communicator(), [&] {
+      if (is_first) {
+        prepare_folder(scene.parameters());
+        history = std::make_unique<HistoryFile>(scene, scene.parameters().output.folder.value);
+      }
+    });
+  }
+
+  bool is_first;
+  std::unique_ptr<HistoryFile> history; ///< on the first rank
+  FieldWriter writer;
+  Snapshots snapshots;
+  std::ostringstream silence;
+  Progress progress;
+};
+
+void run_quasi_static(const Scene &scene, const Discretization &discretization) {
+  const parameters::Scene &parameters = scene.parameters();
   QuasiStatic problem(scene, discretization);
   StepControl control(parameters.time_stepping, parameters.output.interval, scene.stops());
+  Outputs outputs(scene, discretization);
+  outputs.progress.start(discretization, problem);
+  outputs.snapshots.write(problem);
 
-  std::unique_ptr<HistoryFile> history;
-  fail_together(communicator, [&] {
-    if (is_first) {
-      prepare_folder(parameters);
-      history = std::make_unique<HistoryFile>(scene, parameters.output.folder.value);
-    }
-  });
-  FieldWriter writer(scene, discretization, parameters.output.folder.value);
-  Snapshots snapshots(parameters, writer);
-  std::ostringstream silence;
-  Progress progress(scene, is_first ? std::cout : silence, is_first && console_is_terminal());
-  progress.start(discretization, problem, discretization.dof_handler().n_dofs());
-  snapshots.write(problem);
-
-  // Run.
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   while (!control.is_finished()) {
@@ -153,23 +167,134 @@ void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) 
       control.accept(static_cast<unsigned int>(report.newton.iterations.size()));
       continued = report.length;
       report.step = control.n_steps();
-      fail_together(communicator, [&] {
-        if (is_first)
-          history->write(report, problem.state());
+      fail_together(discretization.communicator(), [&] {
+        if (outputs.is_first)
+          outputs.history->write(report, problem.state());
       });
-      progress.accept(report, problem.state());
-      snapshots.after_step(control.n_steps(), problem);
+      outputs.progress.accept(report, problem.state());
+      outputs.snapshots.after_step(control.n_steps(), problem);
       continue;
     }
-    progress.reject(report, from, to);
+    outputs.progress.reject(report, from, to);
     const bool may_go_on = control.reject();
     report.total_cuts = control.n_cuts();
     if (!may_go_on) {
-      snapshots.write(problem);
+      outputs.snapshots.write(problem);
       throw SolutionFailure(explain_failure(parameters, report, from, to));
     }
   }
-  progress.finish(writer.file_to_open());
+  outputs.progress.finish(outputs.writer.file_to_open());
+}
+
+/// Where steps of an explicit scene have to end: for the history, for fields, and at the scene's own stops.
+class Events {
+public:
+  explicit Events(const Scene &scene)
+      : parameters_(scene.parameters()), end_(parameters_.time_stepping.end_time),
+        history_interval_(parameters_.output.history_interval > 0. ? parameters_.output.history_interval
+                                                                   : end_ / 200.),
+        stops_(scene.stops()) {
+    stops_.insert(stops_.end(), parameters_.time_stepping.stops.begin(),
+                  parameters_.time_stepping.stops.end());
+    stops_.push_back(end_);
+    std::sort(stops_.begin(), stops_.end());
+  }
+
+  double next(const double time) const {
+    double event = *std::upper_bound(stops_.begin(), stops_.end() - 1, time);
+    for (const double interval : {history_interval_, parameters_.output.interval})
+      if (interval > 0.)
+        event = std::min(event, after(time, interval));
+    return event;
+  }
+  bool is_history_due(const double time) const {
+    return time >= end_ || is_multiple(time, history_interval_);
+  }
+  double end() const { return end_; }
+
+private:
+  static constexpr double slack = 1e-9; // part of an interval by which round-off may misplace its end
+  static double after(const double time, const double interval) {
+    return (std::floor(time / interval + slack) + 1.) * interval;
+  }
+  static bool is_multiple(const double time, const double interval) {
+    return std::abs(time / interval - std::round(time / interval)) < slack;
+  }
+
+  const parameters::Scene &parameters_;
+  double end_, history_interval_;
+  std::vector<double> stops_;
+};
+
+void run_explicit(const Scene &scene, const Discretization &discretization) {
+  const parameters::Scene &parameters = scene.parameters();
+  ExplicitDynamics problem(scene, discretization);
+  const Events events(scene);
+  Outputs outputs(scene, discretization);
+  outputs.progress.start(discretization, problem);
+
+  const auto put_out = [&] {
+    problem.update_state();
+    fail_together(discretization.communicator(), [&] {
+      if (outputs.is_first)
+        outputs.history->write(problem.n_steps(), problem.step_length(), problem.state());
+    });
+    outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
+  };
+  const auto stop_on_drift = [&] {
+    if (std::abs(problem.relative_drift()) <= parameters.explicit_dynamics.largest_drift)
+      return;
+    outputs.snapshots.write(problem);
+    std::ostringstream message;
+    message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
+            << " steps the energies fail to balance by " << 100. * problem.relative_drift()
+            << " % of the largest energy so far, allowed are "
+            << 100. * parameters.explicit_dynamics.largest_drift
+            << " % ('Largest drift'): try a smaller 'Safety factor', a softer penalty or more bulk "
+               "viscosity. What "
+               "was computed until then is in '"
+            << parameters.output.folder.value << "'.";
+    throw SolutionFailure(message.str());
+  };
+
+  for (bool is_finished = false; !is_finished;) {
+    is_finished = problem.time() >= events.end();
+    const bool is_due = events.is_history_due(problem.time());
+    try {
+      problem.prepare_step(is_finished ? events.end() + problem.step_length() : events.next(problem.time()));
+    } catch (const SolutionFailure &) { // nothing already computed is lost
+      problem.update_state();
+      outputs.snapshots.write(problem);
+      throw;
+    }
+    if (is_due) {
+      put_out();
+      stop_on_drift();
+    }
+    if (problem.n_steps() == 0) {
+      problem.update_state();
+      outputs.snapshots.write(problem);
+    } else if (outputs.snapshots.is_due(problem.n_steps(), problem.time())) {
+      problem.update_state();
+      outputs.snapshots.after_step(problem.n_steps(), problem);
+    }
+    if (!is_finished)
+      problem.finish_step();
+  }
+  outputs.progress.finish(outputs.writer.file_to_open());
+}
+
+} // namespace
+
+void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
+  // Set up: everything that can be wrong with the scene shows here, before anything is written.
+  fail_together(communicator, [&] { check_output_folder(parameters); });
+  const Scene scene(parameters);
+  const Discretization discretization(scene, communicator);
+  if (parameters.is_explicit())
+    run_explicit(scene, discretization);
+  else
+    run_quasi_static(scene, discretization);
 }
 
 } // namespace billet

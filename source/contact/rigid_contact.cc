@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/rigid_contact.h"
 
+#include "billet/discretization/boundary_facets.h"
+
 #include <deal.II/base/array_view.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -12,16 +14,6 @@
 namespace billet {
 
 using dealii::Tensor;
-
-ContactLoad &ContactLoad::operator+=(const ContactLoad &other) {
-  force += other.force;
-  moment += other.moment;
-  area += other.area;
-  stored_energy += other.stored_energy;
-  dissipation += other.dissipation;
-  deepest = std::max(deepest, other.deepest);
-  return *this;
-}
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
                            const ContactTangent tangent)
@@ -47,31 +39,20 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
 
 void RigidContact::collect_facets(const Discretization &discretization) {
   std::map<DofIndex, unsigned int> index;
-  for (const auto &element : discretization.elements(pair_.body))
-    for (const unsigned int f : element.cell->face_indices()) {
-      const auto face = element.cell->face(f);
-      if (!face->at_boundary() || std::find(pair_.boundary_ids.begin(), pair_.boundary_ids.end(),
-                                            face->boundary_id()) == pair_.boundary_ids.end())
-        continue;
-      Facet facet{};
-      for (unsigned int v = 0; v < 4; ++v) {
-        const DofIndex first = face->vertex_dof_index(v, 0);
-        const auto found = index.emplace(first, static_cast<unsigned int>(nodes_.size()));
-        if (found.second) {
-          Node node;
-          for (unsigned int i = 0; i < 3; ++i)
-            node.dofs[i] = face->vertex_dof_index(v, i);
-          node.reference = face->vertex(v);
-          nodes_.push_back(node);
-        }
-        facet.nodes[v] = found.first->second;
+  for (const auto &boundary : collect_boundary_facets(discretization, pair_.body, pair_.boundary_ids)) {
+    Facet facet{};
+    for (unsigned int a = 0; a < 4; ++a) {
+      const auto found = index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(nodes_.size()));
+      if (found.second) {
+        Node node;
+        node.dofs = boundary.dofs[a];
+        node.reference = boundary.corners[a];
+        nodes_.push_back(node);
       }
-      const Tensor<1, 3> area_vector =
-          dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
-      if (area_vector * (face->center() - element.cell->center()) < 0.)
-        std::swap(facet.nodes[1], facet.nodes[2]);
-      facets_.push_back(facet);
+      facet.nodes[a] = found.first->second;
     }
+    facets_.push_back(facet);
+  }
 }
 
 void RigidContact::set_penalties(const Scene &scene, const Discretization &discretization) {
@@ -114,21 +95,38 @@ void RigidContact::remove_tool() {
   friction_n_ = friction_;
 }
 
-void RigidContact::update(const Vector &displacements) {
+template <class DisplacementOf> void RigidContact::update_states(const DisplacementOf &displacement_of) {
   if (is_removed_)
     return;
   std::visit(
       [&](const auto &law) {
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
           Node &node = nodes_[i];
-          Tensor<1, 3> position = node.reference;
-          for (unsigned int c = 0; c < 3; ++c)
-            position[c] += displacements(node.dofs[c]);
-          states_[i] = evaluate(law, i, position, friction_.empty() ? nullptr : &friction_[i]);
+          states_[i] = evaluate(law, i, node.reference + displacement_of(i),
+                                friction_.empty() ? nullptr : &friction_[i]);
           node.patch = states_[i].patch;
         }
       },
       pair_.friction);
+}
+
+void RigidContact::update(const Vector &displacements) {
+  update_states([&](const std::size_t i) {
+    Tensor<1, 3> displacement;
+    for (unsigned int c = 0; c < 3; ++c)
+      displacement[c] = displacements(nodes_[i].dofs[c]);
+    return displacement;
+  });
+}
+
+void RigidContact::bind(const LocalNodes &nodes) {
+  local_nodes_.clear();
+  for (const auto &node : nodes_)
+    local_nodes_.push_back(nodes.find(node.dofs[0]));
+}
+
+void RigidContact::update(const NodalVectors &displacements) {
+  update_states([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
 }
 
 template <class Law>
@@ -241,17 +239,10 @@ RigidContact::FacetStates RigidContact::states_of(const Facet &facet) const {
 }
 
 RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, const bool with_derivatives) {
-  static const double g = 1. / std::sqrt(3.);
-  static const std::array<std::array<double, 2>, 4> corners{{{-1., -1.}, {1., -1.}, {-1., 1.}, {1., 1.}}};
   FacetAreas result{};
-  for (const auto &corner : corners) { // 2 × 2 Gauss points at ±1/√3, weights 1
-    const double xi = g * corner[0], eta = g * corner[1];
-    std::array<double, 4> N{}, N_xi{}, N_eta{};
+  for (const auto &[N, N_xi, N_eta] : facet_points()) {
     Tensor<1, 3> g_1, g_2;
     for (unsigned int a = 0; a < 4; ++a) {
-      N[a] = 0.25 * (1. + corners[a][0] * xi) * (1. + corners[a][1] * eta);
-      N_xi[a] = 0.25 * corners[a][0] * (1. + corners[a][1] * eta);
-      N_eta[a] = 0.25 * corners[a][1] * (1. + corners[a][0] * xi);
       g_1 += N_xi[a] * states[a]->position;
       g_2 += N_eta[a] * states[a]->position;
     }
@@ -275,19 +266,35 @@ RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, 
   return result;
 }
 
-void RigidContact::add_forces(Vector &residual) const {
+template <class Add> void RigidContact::for_each_area(const Add &add) const {
   for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(states_of(facet), false);
-    for (unsigned int a = 0; a < 4; ++a) {
-      if (areas.areas[a] == 0.)
-        continue;
-      const NodeState &state = states_[facet.nodes[a]];
-      std::array<double, 3> values{};
-      for (unsigned int i = 0; i < 3; ++i)
-        values[i] = -areas.areas[a] * state.traction[i];
-      residual.add(3, nodes_[facet.nodes[a]].dofs.data(), values.data());
-    }
+    const FacetStates states = states_of(facet);
+    if (std::all_of(states.begin(), states.end(),
+                    [](const NodeState *state) { return state->status == ContactStatus::open; }))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (areas.areas[a] > 0.)
+        add(facet.nodes[a], areas.areas[a]);
   }
+}
+
+void RigidContact::add_forces(Vector &residual) const {
+  for_each_area([&](const unsigned int i, const double area) {
+    std::array<double, 3> values{};
+    for (unsigned int c = 0; c < 3; ++c)
+      values[c] = -area * states_[i].traction[c];
+    residual.add(3, nodes_[i].dofs.data(), values.data());
+  });
+}
+
+void RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const {
+  for_each_area([&](const unsigned int i, const double area) {
+    const unsigned int node = local_nodes_[i];
+    add_vector(forces.data(), node, area * states_[i].traction);
+    bounds[std::size_t{nodal_stride} * node] +=
+        area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
+  });
 }
 
 void RigidContact::add_tangent(const TangentSystem &system) const {
@@ -357,18 +364,13 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
 }
 
 void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
-  for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(states_of(facet), false);
-    for (unsigned int a = 0; a < 4; ++a) {
-      const NodeState &state = states_[facet.nodes[a]];
-      if (areas.areas[a] == 0.)
-        continue;
-      const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
-      const Tensor<1, 3> force = areas.areas[a] * (state.tangent * motion);
-      const std::array<double, 3> values{force[0], force[1], force[2]};
-      forces.add(3, nodes_[facet.nodes[a]].dofs.data(), values.data());
-    }
-  }
+  for_each_area([&](const unsigned int i, const double area) {
+    const NodeState &state = states_[i];
+    const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
+    const Tensor<1, 3> force = area * (state.tangent * motion);
+    const std::array<double, 3> values{force[0], force[1], force[2]};
+    forces.add(3, nodes_[i].dofs.data(), values.data());
+  });
 }
 
 double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, Vector &row) const {
@@ -425,55 +427,30 @@ void RigidContact::commit() {
   friction_n_ = friction_;
 }
 
-ContactLoad RigidContact::compute_load() const {
-  ContactLoad local;
-  for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(states_of(facet), false);
-    for (unsigned int a = 0; a < 4; ++a) {
-      const NodeState &state = states_[facet.nodes[a]];
-      if (state.status == ContactStatus::open)
-        continue;
-      const Tensor<1, 3> force = areas.areas[a] * state.traction;
-      const double penalty = nodes_[facet.nodes[a]].stiffness.normal;
-      local.force += force;
-      local.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
-      local.area += areas.areas[a];
-      local.stored_energy +=
-          areas.areas[a] * (0.5 * penalty * state.gap * state.gap + state.tangential_energy);
-      local.dissipation += areas.areas[a] * state.dissipation;
-      local.deepest = std::max(local.deepest, -state.gap);
-    }
-  }
-  const std::array<double, 9> sums{local.force[0],  local.force[1],      local.force[2],
-                                   local.moment[0], local.moment[1],     local.moment[2],
-                                   local.area,      local.stored_energy, local.dissipation};
-  std::array<double, 9> totals{};
-  dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()), communicator_,
-                              dealii::ArrayView<double>(totals.data(), totals.size()));
+ContactLoad RigidContact::local_load() const {
   ContactLoad load;
-  for (unsigned int i = 0; i < 3; ++i) {
-    load.force[i] = totals[i];
-    load.moment[i] = totals[3 + i];
-  }
-  load.area = totals[6];
-  load.stored_energy = totals[7];
-  load.dissipation = totals[8];
-  load.deepest = dealii::Utilities::MPI::max(local.deepest, communicator_);
+  for_each_area([&](const unsigned int i, const double area) {
+    const NodeState &state = states_[i];
+    const Tensor<1, 3> force = area * state.traction;
+    load.force += force;
+    load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
+    load.area += area;
+    load.stored_energy +=
+        area * (0.5 * nodes_[i].stiffness.normal * state.gap * state.gap + state.tangential_energy);
+    load.dissipation += area * state.dissipation;
+    load.deepest = std::max(load.deepest, -state.gap);
+  });
   return load;
 }
 
-std::vector<RigidContact::NodeReport> RigidContact::report() const {
-  std::vector<NodeReport> reports;
+std::vector<ContactNodeReport> RigidContact::report() const {
+  std::vector<ContactNodeReport> reports;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const NodeState &state = states_[i];
     reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap,
                        friction_.empty() ? 0. : friction_[i].slip, 0., state.traction});
   }
-  for (const auto &facet : facets_) {
-    const FacetAreas areas = compute_areas(states_of(facet), false);
-    for (unsigned int a = 0; a < 4; ++a)
-      reports[facet.nodes[a]].area += areas.areas[a];
-  }
+  for_each_area([&](const unsigned int i, const double area) { reports[i].area += area; });
   return reports;
 }
 

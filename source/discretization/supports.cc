@@ -20,15 +20,9 @@ void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vect
     constraints.distribute_local_to_global(local, dealii::Vector<double>(dofs.size()), dofs, matrix, *lift);
 }
 
-Supports::Supports(const Scene &scene, const Discretization &discretization)
-    : discretization_(discretization) {
-  struct NodeHolds {
-    std::vector<const Hold *> holds;
-    std::array<DofIndex, 3> dofs;
-    dealii::Point<3> position;
-  };
+std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization) {
   // Ghost cells count too: every rank knows all faces around the nodes of its own cells.
-  std::map<DofIndex, NodeHolds> nodes;
+  std::map<DofIndex, HeldNode> nodes;
   const double tolerance = 1e-8 * discretization.radius();
   for (const auto &cell : discretization.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial())
@@ -50,11 +44,15 @@ Supports::Supports(const Scene &scene, const Discretization &discretization)
       }
     }
   }
-  for (auto &entry : nodes) {
-    // The order of a node's planes must not depend on the rank.
+  for (auto &entry : nodes) // The order of a node's planes must not depend on the rank.
     std::sort(entry.second.holds.begin(), entry.second.holds.end());
+  return nodes;
+}
+
+Supports::Supports(const Scene &scene, const Discretization &discretization)
+    : discretization_(discretization) {
+  for (const auto &entry : collect_held_nodes(scene, discretization))
     eliminate(entry.second.holds, entry.second.dofs, entry.second.position);
-  }
   homogeneous_ = make([](const Line &) { return 0.; });
 }
 

@@ -25,7 +25,7 @@ struct CellFields {
 };
 
 CellFields collect_cell_fields(const Scene &scene, const Discretization &discretization,
-                               const QuasiStatic &problem) {
+                               const Solution &solution) {
   const bool stress = scene.parameters().output.stress;
   const bool strain = scene.parameters().output.plastic_strain && scene.capabilities().plasticity;
   CellFields fields;
@@ -42,7 +42,7 @@ CellFields collect_cell_fields(const Scene &scene, const Discretization &discret
     const auto &elements = discretization.elements(body);
     std::vector<ElementSummary> summaries(elements.size());
     if (stress || strain)
-      summaries = problem.internal_forces().summarize(body, problem.state().displacements);
+      summaries = solution.summarize(body);
     for (std::size_t e = 0; e < elements.size(); ++e) {
       const auto cell = elements[e].cell->active_cell_index();
       std::size_t next = 0;
@@ -64,8 +64,7 @@ CellFields collect_cell_fields(const Scene &scene, const Discretization &discret
 
 /// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap 0
 /// and status −1.
-std::array<Vector, 3> collect_contact_fields(const Discretization &discretization,
-                                             const QuasiStatic &problem) {
+std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const Solution &solution) {
   std::array<Vector, 3> owned;
   for (auto &vector : owned)
     vector = discretization.make_owned_vector();
@@ -74,8 +73,9 @@ std::array<Vector, 3> collect_contact_fields(const Discretization &discretizatio
   for (const auto i : discretization.owned_dofs())
     if ((i - *discretization.owned_dofs().begin()) % 3 != 1)
       owned[1](i) = -1.;
-  for (std::size_t p = 0; p < problem.contacts().size(); ++p)
-    for (const auto &node : problem.contacts()[p].report()) {
+  const auto reports = solution.report_contacts();
+  for (std::size_t p = 0; p < reports.size(); ++p)
+    for (const auto &node : reports[p]) {
       area_sums.add(1, &node.dofs[1], &node.area);
       if (!discretization.owned_dofs().is_element(node.dofs[0]))
         continue;
@@ -129,11 +129,11 @@ std::string FieldWriter::file_to_open() const {
   return "";
 }
 
-void FieldWriter::write(const QuasiStatic &problem) {
+void FieldWriter::write(const Solution &solution) {
   const Format format = scene_.parameters().output.format;
   if (format == Format::none)
     return;
-  const SolutionState &state = problem.state();
+  const SolutionState &state = solution.state();
   const MPI_Comm communicator = discretization_.communicator();
 
   // The pictures show the deformed bodies.
@@ -145,12 +145,15 @@ void FieldWriter::write(const QuasiStatic &problem) {
   const std::vector<Interpretation> as_scalars(3, dealii::DataComponentInterpretation::component_is_scalar);
   data_out.add_data_vector(discretization_.dof_handler(), state.displacements,
                            std::vector<std::string>(3, "displacement"), as_vector);
-  const CellFields cell_fields = collect_cell_fields(scene_, discretization_, problem);
+  if (state.velocities.size() > 0)
+    data_out.add_data_vector(discretization_.dof_handler(), state.velocities,
+                             std::vector<std::string>(3, "velocity"), as_vector);
+  const CellFields cell_fields = collect_cell_fields(scene_, discretization_, solution);
   for (std::size_t i = 0; i < cell_fields.names.size(); ++i)
     data_out.add_data_vector(cell_fields.values[i], cell_fields.names[i], dealii::DataOut<3>::type_cell_data);
   std::array<Vector, 3> contact_fields;
   if (scene_.parameters().output.contact && scene_.capabilities().contact) {
-    contact_fields = collect_contact_fields(discretization_, problem);
+    contact_fields = collect_contact_fields(discretization_, solution);
     data_out.add_data_vector(discretization_.dof_handler(), contact_fields[0],
                              {"contact_pressure", "contact_gap", "contact_slip"}, as_scalars);
     data_out.add_data_vector(discretization_.dof_handler(), contact_fields[1],

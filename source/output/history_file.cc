@@ -23,20 +23,53 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
     : name_(folder + "/history.csv"), stream_(name_) {
   if (!stream_)
     throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be written");
-  stream_ << "step,time,step_length,iterations,residual,total_iterations,total_cuts";
+  const bool is_explicit = scene.parameters().is_explicit();
+  stream_ << "step,time,step_length"
+          << (is_explicit ? "" : ",iterations,residual,total_iterations,total_cuts");
   for (const auto &tool : scene.tools())
     for (const char *quantity :
          {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "contact_area",
           "deepest_penetration", "travel_x", "travel_y", "travel_z", "turn"})
       stream_ << "," << column_name(tool.name()) << "." << quantity;
-  stream_ << ",elastic_energy,plastic_work,contact_energy,friction_dissipation,external_work,energy_drift\n";
-  stream_ << std::setprecision(15);
+  for (const auto &pair : scene.body_pairs())
+    for (const char *quantity : {"force_x", "force_y", "force_z", "contact_area", "deepest_penetration"})
+      stream_ << "," << column_name(pair.name) << "." << quantity;
+  stream_ << (is_explicit ? ",kinetic_energy" : "")
+          << ",elastic_energy,plastic_work,contact_energy,friction_dissipation"
+          << (is_explicit ? ",viscous_dissipation,hourglass_energy" : "") << ",external_work,energy_drift"
+          << (is_explicit ? ",momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
+                            "angular_momentum_z"
+                          : "")
+          << "\n"
+          << std::setprecision(15);
 }
 
 void HistoryFile::write(const StepReport &report, const SolutionState &state) {
   stream_ << report.step << "," << state.time << "," << report.length << ","
           << report.newton.iterations.size() << "," << report.newton.force << "," << report.total_iterations
           << "," << report.total_cuts;
+  write_loads(state);
+  const EnergyLedger &energies = state.energies;
+  stream_ << "," << energies.elastic << "," << energies.plastic << "," << energies.contact << ","
+          << energies.friction << "," << energies.external << "," << energies.drift();
+  end_line();
+}
+
+void HistoryFile::write(const unsigned int step, const double length, const SolutionState &state) {
+  stream_ << step << "," << state.time << "," << length;
+  write_loads(state);
+  const EnergyLedger &energies = state.energies;
+  stream_ << "," << energies.kinetic << "," << energies.elastic << "," << energies.plastic << ","
+          << energies.contact << "," << energies.friction << "," << energies.viscous << ","
+          << energies.hourglass << "," << energies.external << "," << energies.drift();
+  for (unsigned int i = 0; i < 3; ++i)
+    stream_ << "," << state.momentum[i];
+  for (unsigned int i = 0; i < 3; ++i)
+    stream_ << "," << state.angular_momentum[i];
+  end_line();
+}
+
+void HistoryFile::write_loads(const SolutionState &state) {
   for (std::size_t i = 0; i < state.tool_loads.size(); ++i) {
     const ContactLoad &load = state.tool_loads[i];
     const Placement &placement = state.placements[i];
@@ -49,9 +82,13 @@ void HistoryFile::write(const StepReport &report, const SolutionState &state) {
       stream_ << "," << placement.translation[c];
     stream_ << "," << placement.rotation_angle;
   }
-  const EnergyLedger &energies = state.energies;
-  stream_ << "," << energies.elastic << "," << energies.plastic << "," << energies.contact << ","
-          << energies.friction << "," << energies.external << "," << energies.drift() << std::endl;
+  for (const auto &load : state.body_pair_loads)
+    stream_ << "," << load.force[0] << "," << load.force[1] << "," << load.force[2] << "," << load.area << ","
+            << load.deepest;
+}
+
+void HistoryFile::end_line() {
+  stream_ << std::endl;
   if (!stream_)
     throw SolutionFailure(name_ + " cannot be written: is the disk full?");
 }

@@ -33,16 +33,15 @@ double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void Progress::start(const Discretization &discretization, const QuasiStatic &problem,
-                     const std::size_t n_dofs) {
+void Progress::start(const Discretization &discretization, const Solution &solution) {
   if (verbosity_ == Verbosity::quiet)
     return;
-  const auto histories = problem.history_sizes();
+  const auto histories = solution.history_sizes();
   if (!scene_.parameters().title.empty())
     stream_ << scene_.parameters().title << "\n";
-  stream_ << discretization.n_global_elements() << " elements, " << n_dofs << " dofs, "
-          << dealii::Utilities::MPI::n_mpi_processes(discretization.communicator()) << " ranks, "
-          << problem.linear_solver_name() << ", history " << histories[0] << " + " << histories[1]
+  stream_ << discretization.n_global_elements() << " elements, " << discretization.dof_handler().n_dofs()
+          << " dofs, " << dealii::Utilities::MPI::n_mpi_processes(discretization.communicator()) << " ranks, "
+          << solution.method() << ", history " << histories[0] << " + " << histories[1]
           << " doubles (elements + contact)\n";
 }
 
@@ -65,6 +64,33 @@ void Progress::accept(const StepReport &report, const SolutionState &state) {
   for (const auto &load : state.tool_loads)
     stream_ << std::setw(14) << load.force.norm();
   stream_ << std::setw(15) << state.energies.plastic << "\n";
+  show_bar(state.time);
+  stream_ << std::flush;
+}
+
+void Progress::show(const unsigned int step, const double length, const SolutionState &state) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  erase_bar();
+  if (n_lines_++ % 40 == 0) {
+    stream_ << "    step        time        step       kinetic       plastic      external   drift";
+    for (const auto &tool : scene_.tools())
+      stream_ << std::setw(14) << ("|F| " + tool.name()).substr(0, 13);
+    for (const auto &pair : scene_.body_pairs())
+      stream_ << std::setw(14) << ("|F| " + pair.name).substr(0, 13);
+    stream_ << "\n";
+  }
+  const EnergyLedger &energies = state.energies;
+  const double scale = std::max(energies.total(), std::abs(energies.initial));
+  stream_ << std::setw(8) << step << std::setw(12) << std::setprecision(6) << state.time << std::setw(12)
+          << std::setprecision(4) << length << std::setprecision(6) << std::setw(14) << energies.kinetic
+          << std::setw(14) << energies.plastic << std::setw(14) << energies.external << std::setw(8)
+          << std::setprecision(1) << (scale > 0. ? energies.drift() / scale : 0.) << std::setprecision(6);
+  for (const auto &load : state.tool_loads)
+    stream_ << std::setw(14) << load.force.norm();
+  for (const auto &load : state.body_pair_loads)
+    stream_ << std::setw(14) << load.force.norm();
+  stream_ << "\n";
   show_bar(state.time);
   stream_ << std::flush;
 }

@@ -42,6 +42,11 @@ void Mesh::declare(ParameterHandler &prm) {
       "File", "", Patterns::Anything(),
       "Mesh file (Gmsh .msh, .vtk, UCD .inp or .ucd, deal.II's .vtu) of hexahedra, relative to the scene "
       "file. Boundary ids are the file's.");
+  prm.declare_entry(
+      "Positions", "", Patterns::Anything(),
+      "Unless empty, three muParser expressions of x, y, z, separated by semicolons: where the "
+      "mesh's vertices go, before it is scaled, turned and moved; such as 'x*cos(y) ; x*sin(y) ; "
+      "z' to bend a box into a ring. [length]");
   prm.declare_entry("Scale", "1", Patterns::Double(),
                     "Multiplies all positions of the mesh, before it is turned and moved.");
   prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(),
@@ -68,6 +73,9 @@ void Mesh::parse(Reader &reader) {
   height = reader.positive("Height");
   n_layers = reader.count("Layers", 1);
   file_name = reader.located("File", reader.text("File"));
+  positions = reader.located("Positions", reader.parts("Positions"));
+  if (!positions.value.empty() && positions.value.size() != 3)
+    reader.reject("Positions", "three expressions, separated by semicolons, or nothing");
   scale = reader.positive("Scale");
   rotation_axis = reader.direction("Rotation axis");
   rotation_angle = reader.number("Rotation angle") * dealii::numbers::PI / 180.;
@@ -104,6 +112,13 @@ void Material::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
       "Hencky's elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
+  prm.declare_entry(
+      "Kinematics", "Hencky", Patterns::Selection("Hencky|neo-Hookean|hypoelastic"),
+      "Explicit scenes: Hencky: multiplicative plasticity with logarithmic strain, as in implicit "
+      "scenes; neo-Hookean: Simo's radial return, cheaper; hypoelastic: rates of stress and the "
+      "final rotation of the step (Bittencourt & Creus 1998), cheapest.");
+  prm.declare_entry("Density", "0", Patterns::Double(),
+                    "Of the undeformed body; explicit scenes need one > 0. [mass/length^3]");
   prm.declare_entry("Young modulus", "0", Patterns::Double(), "E > 0. [stress]");
   prm.declare_entry("Poisson ratio", "0.3", Patterns::Double(), "-1 < nu < 0.5.");
   prm.declare_entry("Hardening", "linear", Patterns::Selection("linear|Voce|power law|table"),
@@ -126,6 +141,11 @@ void Material::declare(ParameterHandler &prm) {
 
 void Material::parse(Reader &reader) {
   law = reader.text("Law") == "elastic" ? Law::elastic : Law::elastoplastic;
+  const std::string how = reader.text("Kinematics");
+  kinematics = reader.located("Kinematics", how == "Hencky"        ? Kinematics::hencky
+                                            : how == "neo-Hookean" ? Kinematics::neo_hookean
+                                                                   : Kinematics::hypoelastic);
+  density = reader.located("Density", reader.not_negative("Density"));
   young_modulus = reader.positive("Young modulus");
   poisson_ratio = reader.number("Poisson ratio");
   if (!(poisson_ratio > -1. && poisson_ratio < 0.5))
@@ -239,7 +259,70 @@ void Support::parse(Reader &reader) {
                                 std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
 }
 
-void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names) {
+void Load::declare(ParameterHandler &prm) {
+  prm.declare_entry(
+      "Type", "pressure", Patterns::Selection("acceleration|pressure|spring|dashpot"),
+      "acceleration: of the whole body, such as gravity; pressure: on the deformed faces, against their "
+      "outward normal; spring, dashpot: resist displacements, velocities, of the faces.");
+  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
+                    "Boundary ids of the faces, separated by commas; all but accelerations need them.");
+  prm.declare_entry("Acceleration", "0 ; 0 ; 0", Patterns::Anything(),
+                    "Three muParser expressions of the time t and the names of amplitudes. [length/time^2]");
+  prm.declare_entry("Pressure", "0", Patterns::Anything(),
+                    "Expression of the undeformed face's centre x, y, z, the time t and the names of "
+                    "amplitudes. [stress]");
+  prm.declare_entry("Stiffness", "0", Patterns::Double(),
+                    "Of a spring, > 0, per undeformed area. [force/length^3]");
+  prm.declare_entry("Damping", "0", Patterns::Double(),
+                    "Of a dashpot, > 0, per undeformed area. [force time/length^3]");
+  prm.declare_entry("Direction", "all", Patterns::Anything(),
+                    "Of a spring or dashpot: all, normal (of the undeformed face), or a vector 'x, y, z'.");
+}
+
+void Load::parse(Reader &reader) {
+  const std::string type = reader.text("Type");
+  kind = type == "acceleration" ? Kind::acceleration
+         : type == "pressure"   ? Kind::pressure
+         : type == "spring"     ? Kind::spring
+                                : Kind::dashpot;
+  const std::vector<std::pair<std::string, std::vector<Kind>>> users = {
+      {"Boundary ids", {Kind::pressure, Kind::spring, Kind::dashpot}},
+      {"Acceleration", {Kind::acceleration}},
+      {"Pressure", {Kind::pressure}},
+      {"Stiffness", {Kind::spring}},
+      {"Damping", {Kind::dashpot}},
+      {"Direction", {Kind::spring, Kind::dashpot}}};
+  for (const auto &[key, kinds] : users)
+    if (reader.is_set(key) && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+      reader.reject(key, "no value: a load of type '" + type + "' does not use it");
+
+  boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
+  if (kind != Kind::acceleration && boundary_ids.value.empty())
+    reader.reject("Boundary ids", "at least one boundary id");
+  const auto expressions = reader.parts("Acceleration");
+  if (expressions.size() != 3)
+    reader.reject("Acceleration", "three expressions, separated by semicolons");
+  acceleration = reader.located("Acceleration",
+                                std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
+  pressure = reader.located("Pressure", reader.text("Pressure"));
+  if (kind == Kind::spring)
+    coefficient = reader.positive("Stiffness");
+  if (kind == Kind::dashpot)
+    coefficient = reader.positive("Damping");
+  const std::string where = reader.text("Direction");
+  direction = where == "all" ? Direction::all : where == "normal" ? Direction::normal : Direction::vector;
+  if (direction == Direction::vector)
+    vector = reader.direction("Direction");
+}
+
+void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names,
+                   const std::vector<std::string> &load_names) {
+  prm.declare_entry(
+      "Element", "mean dilatation", Patterns::Selection("mean dilatation|one point"),
+      "mean dilatation: eight points with a common volumetric strain, as in implicit scenes; one point: "
+      "with hourglass stabilisation, three to four times cheaper, explicit scenes only.");
+  prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
+                    "Of explicit scenes: three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
                     "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or "
                     "with a normal and "
@@ -254,6 +337,13 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
   for (const auto &name : support_names) {
     prm.enter_subsection(name);
     Support::declare(prm);
+    prm.leave_subsection();
+  }
+  prm.leave_subsection();
+  prm.enter_subsection("Loads");
+  for (const auto &name : load_names) {
+    prm.enter_subsection(name);
+    Load::declare(prm);
     prm.leave_subsection();
   }
   prm.leave_subsection();
@@ -304,6 +394,21 @@ void Body::parse(Reader &reader) {
         supports.back().parse(reader);
       });
   });
+  reader.in("Loads", [&] {
+    for (const auto &load_name : reader.names())
+      reader.in(load_name, [&] {
+        loads.emplace_back();
+        loads.back().name = load_name;
+        loads.back().parse(reader);
+      });
+  });
+  element = reader.located("Element", reader.text("Element") == "one point" ? ElementType::one_point
+                                                                            : ElementType::mean_dilatation);
+  const auto velocity = reader.parts("Initial velocity");
+  if (velocity.size() != 3)
+    reader.reject("Initial velocity", "three expressions, separated by semicolons");
+  initial_velocity =
+      reader.located("Initial velocity", std::array<std::string, 3>{velocity[0], velocity[1], velocity[2]});
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));

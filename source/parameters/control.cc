@@ -34,6 +34,10 @@ void Amplitude::parse(Reader &reader) {
 
 void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(), "The scene runs from time 0 to here. [time]");
+  prm.declare_entry(
+      "Scheme", "quasi-static", Patterns::Selection("quasi-static|explicit"),
+      "quasi-static: equilibrium at the end of each step, by Newton's method; explicit: motion by central "
+      "differences, in steps as short as elements and contact demand; bodies need a density.");
   prm.declare_entry("Stops", "", Patterns::Anything(),
                     "Times at which steps end besides, separated by commas. [time]");
   prm.declare_entry(
@@ -61,6 +65,15 @@ void TimeStepping::parse(Reader &reader) {
   for (const double stop : stops)
     if (!(stop > 0. && stop <= end_time))
       reader.reject("Stops", "numbers > 0, not above the end time");
+  scheme = reader.text("Scheme") == "explicit" ? Scheme::explicit_dynamics : Scheme::quasi_static;
+  if (scheme == Scheme::explicit_dynamics) {
+    for (const std::string key :
+         {"Step control", "Initial step", "Smallest step", "Largest step", "Few iterations",
+          "Many iterations", "Growth factor", "Shrink factor", "Cut factor"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value: the steps of an explicit scene follow from its elements");
+    return;
+  }
   control = reader.text("Step control") == "automatic" ? Control::automatic : Control::fixed;
   initial_step = reader.positive("Initial step");
   if (initial_step > end_time)
@@ -91,6 +104,45 @@ void TimeStepping::parse(Reader &reader) {
   cut_factor = reader.positive("Cut factor");
   if (cut_factor >= 1.)
     reader.reject("Cut factor", "a number > 0 and < 1");
+}
+
+void ExplicitDynamics::declare(ParameterHandler &prm) {
+  prm.declare_entry("Safety factor", "0.75", Patterns::Double(),
+                    "Steps are this part of the bound that elements and contact set; > 0, at most 1.");
+  prm.declare_entry("Linear bulk viscosity", "0.06", Patterns::Double(),
+                    "b1 >= 0: a pressure b1 rho c L times the volumetric strain rate damps ringing; L is the "
+                    "element's size, c the speed of sound.");
+  prm.declare_entry("Quadratic bulk viscosity", "1.2", Patterns::Double(),
+                    "b2 >= 0: a pressure rho (b2 L)^2 times the square of the rate, in compression only, "
+                    "spreads shocks over some elements.");
+  prm.declare_entry("Hourglass stiffness", "1", Patterns::Double(),
+                    "Of one-point elements, >= 0: part of the stiffness that the material itself would give "
+                    "to the hourglass modes.");
+  prm.declare_entry("Mass scaling step", "0", Patterns::Double(),
+                    "Elements whose stable step, safety included, is shorter at the start get mass until it "
+                    "is not; the mass added is reported. 0: none. [time]");
+  prm.declare_entry("Largest drift", "0.05", Patterns::Double(),
+                    "The run ends where the energies fail to balance by more than this part of the largest "
+                    "energy so far; > 0.");
+  prm.declare_entry("Instructions", "automatic", Patterns::Selection("automatic|scalar|SSE2|AVX2|AVX-512"),
+                    "Instruction set of the element kernels; automatic: the best of this machine.");
+}
+
+void ExplicitDynamics::parse(Reader &reader) {
+  safety_factor = reader.positive("Safety factor");
+  if (safety_factor > 1.)
+    reader.reject("Safety factor", "a number > 0 and <= 1");
+  linear_viscosity = reader.not_negative("Linear bulk viscosity");
+  quadratic_viscosity = reader.not_negative("Quadratic bulk viscosity");
+  hourglass_stiffness = reader.not_negative("Hourglass stiffness");
+  scaled_step = reader.not_negative("Mass scaling step");
+  largest_drift = reader.positive("Largest drift");
+  const std::string chosen_set = reader.text("Instructions");
+  instructions = chosen_set == "automatic" ? Instructions::automatic
+                 : chosen_set == "scalar"  ? Instructions::scalar
+                 : chosen_set == "SSE2"    ? Instructions::sse2
+                 : chosen_set == "AVX2"    ? Instructions::avx2
+                                           : Instructions::avx512;
 }
 
 namespace {
@@ -179,11 +231,14 @@ void Output::declare(ParameterHandler &prm) {
       "Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
       "Fields for ParaView: VTU and PVD; HDF5 and XDMF, one file a time on any number of ranks; or none.");
   prm.declare_entry("Every steps", "1", Patterns::Integer(0),
-                    "Fields are written every so many steps, at the start and at the end. 0: "
-                    "only there, or by the interval.");
+                    "Fields are written every so many steps, at the start and at the end. 0, the "
+                    "default of explicit scenes: only there, or by the interval.");
   prm.declare_entry(
       "Interval", "0", Patterns::Double(),
       "If not 0, steps end at multiples of this time, and fields are written there instead. [time]");
+  prm.declare_entry("History interval", "0", Patterns::Double(),
+                    "Explicit scenes: time between two lines of the history; 0: a two hundredth of the end "
+                    "time. [time]");
   prm.declare_entry("Stress", "true", Patterns::Bool(),
                     "Write Cauchy stress, von Mises stress and pressure.");
   prm.declare_entry("Plastic strain", "true", Patterns::Bool(),
@@ -203,6 +258,7 @@ void Output::parse(Reader &reader) {
   format = chosen_format == "vtu" ? Format::vtu : chosen_format == "hdf5" ? Format::hdf5 : Format::none;
   every_steps = reader.count("Every steps");
   interval = reader.not_negative("Interval");
+  history_interval = reader.not_negative("History interval");
   if (interval > 0. && every_steps > 0 && reader.is_set("Every steps"))
     reader.reject("Every steps", "no value, or 0: fields are written by the 'Interval'");
   stress = reader.flag("Stress");

@@ -44,7 +44,7 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
   declare_named(prm, "Amplitudes", names_below({"Amplitudes"}),
                 [&](const std::string &) { Amplitude::declare(prm); });
   declare_named(prm, "Bodies", names_below({"Bodies"}), [&](const std::string &name) {
-    Body::declare(prm, names_below({"Bodies", name, "Supports"}));
+    Body::declare(prm, names_below({"Bodies", name, "Supports"}), names_below({"Bodies", name, "Loads"}));
   });
   declare_named(prm, "Tools", names_below({"Tools"}), [&](const std::string &name) {
     std::vector<std::pair<std::string, std::string>> shapes;
@@ -56,6 +56,9 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
                 [&](const std::string &) { ContactPair::declare(prm); });
   prm.enter_subsection("Time stepping");
   TimeStepping::declare(prm);
+  prm.leave_subsection();
+  prm.enter_subsection("Explicit dynamics");
+  ExplicitDynamics::declare(prm);
   prm.leave_subsection();
   prm.enter_subsection("Solver");
   Solver::declare(prm);
@@ -105,7 +108,8 @@ void check_amplitude_name(const std::string &name, const std::string &file_name)
 void check_twice(const std::vector<ContactPair> &pairs) {
   for (auto second = pairs.begin(); second != pairs.end(); ++second)
     for (auto first = pairs.begin(); first != second; ++first)
-      if (first->body.value == second->body.value && first->tool.value == second->tool.value)
+      if (!second->is_between_bodies() && first->body.value == second->body.value &&
+          first->tool.value == second->tool.value)
         for (const auto id : second->boundary_ids.value)
           if (std::count(first->boundary_ids.value.begin(), first->boundary_ids.value.end(), id) > 0)
             throw InputError(second->boundary_ids.origin + ": found boundary id " + std::to_string(id) +
@@ -113,9 +117,82 @@ void check_twice(const std::vector<ContactPair> &pairs) {
                              "' already has it against the same tool");
 }
 
+/// What only one of the schemes knows is refused in scenes of the other: a forgotten switch is the usual
+/// reason.
+class SchemeCheck {
+public:
+  SchemeCheck(const Scene &scene, const SceneFile &file) : scene_(scene), file_(file) {}
+
+  void check() const {
+    refuse_subsection({scene_.is_explicit() ? "Solver" : "Explicit dynamics"});
+    if (!scene_.is_explicit())
+      refuse({"Output"}, "History interval");
+    for (const auto &body : scene_.bodies)
+      check(body, {"Bodies", body.name});
+    for (const auto &tool : scene_.tools) {
+      const SceneFile::Path path{"Tools", tool.name, "Motion"};
+      if (!scene_.is_explicit())
+        for (const std::string key : {"Mass", "Moment of inertia", "Initial speed"})
+          refuse(path, key);
+      else if (tool.motion.control == Motion::Control::force ||
+               tool.motion.control == Motion::Control::moment)
+        require(tool.motion.inertia > 0., path,
+                tool.motion.control == Motion::Control::force ? "Mass" : "Moment of inertia");
+    }
+    for (const auto &pair : scene_.pairs)
+      if (pair.is_between_bodies() && !scene_.is_explicit())
+        throw InputError(pair.second_body.origin + ": found '" + pair.second_body.value +
+                         "', allowed are pairs of a body and a tool, unless the scheme is explicit");
+  }
+
+private:
+  void check(const Body &body, const SceneFile::Path &path) const {
+    if (scene_.is_explicit()) {
+      require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
+      if (body.element.value == Body::ElementType::one_point &&
+          body.material.kinematics.value == Material::Kinematics::neo_hookean)
+        throw InputError(body.element.origin +
+                         ": found 'one point' with 'Kinematics = neo-Hookean', allowed with one point are "
+                         "Hencky and hypoelastic");
+      return;
+    }
+    refuse(path, "Initial velocity");
+    refuse(path, "Element");
+    refuse({path[0], path[1], "Material"}, "Kinematics");
+    if (!body.loads.empty())
+      throw InputError(file_.where({path[0], path[1], "Loads", body.loads.front().name}) +
+                       ": found a load, allowed are loads in explicit scenes");
+  }
+  void refuse(const SceneFile::Path &path, const std::string &key) const {
+    if (file_.is_set(path, key))
+      refuse_entry(path, key);
+  }
+  void refuse_subsection(const SceneFile::Path &path) const {
+    if (const SceneFile::Entry *entry = file_.first_entry(path))
+      refuse_entry(path, entry->key);
+  }
+  [[noreturn]] void refuse_entry(const SceneFile::Path &path, const std::string &key) const {
+    throw InputError(file_.where(path, key) + ": '" + key + "': found '" + file_.value(path, key, "") +
+                     "', allowed is no value: 'Scheme' in 'Time stepping' is " +
+                     (scene_.is_explicit() ? "explicit" : "quasi-static"));
+  }
+  void require(const bool is_there, const SceneFile::Path &path, const std::string &key) const {
+    if (!is_there)
+      throw InputError(file_.where(path, key) + ": '" + key + "': found '" + file_.value(path, key, "0") +
+                       "', allowed is a number > 0, since the scheme is explicit");
+  }
+
+  const Scene &scene_;
+  const SceneFile &file_;
+};
+
 } // namespace
 
 std::size_t Scene::body_index(const ContactPair &pair) const { return index_of(bodies, pair.body); }
+
+std::size_t Scene::second_body_index(const ContactPair &pair) const {
+  return index_of(bodies, pair.second_body);
+}
 
 std::size_t Scene::tool_index(const ContactPair &pair) const { return index_of(tools, pair.tool); }
 
@@ -136,6 +213,7 @@ Scene Scene::read(const std::string &file_name) {
   scene.tools = parse_named<Tool>(reader, "Tools");
   scene.pairs = parse_named<ContactPair>(reader, "Contact pairs");
   reader.in("Time stepping", [&] { scene.time_stepping.parse(reader); });
+  reader.in("Explicit dynamics", [&] { scene.explicit_dynamics.parse(reader); });
   reader.in("Solver", [&] { scene.solver.parse(reader); });
   reader.in("Output", [&] { scene.output.parse(reader); });
 
@@ -145,9 +223,15 @@ Scene Scene::read(const std::string &file_name) {
     throw InputError(file_name + ": the scene has no body: allowed is at least one subsection in 'Bodies'");
   for (const auto &pair : scene.pairs) {
     scene.body_index(pair);
-    scene.tool_index(pair);
+    if (pair.is_between_bodies())
+      scene.second_body_index(pair);
+    else
+      scene.tool_index(pair);
   }
   check_twice(scene.pairs);
+  SchemeCheck(scene, file).check();
+  if (scene.is_explicit() && !file.is_set({"Output"}, "Every steps"))
+    scene.output.every_steps = 0;
   for (const auto &tool : scene.tools)
     if (std::isfinite(tool.motion.removal_time.value) &&
         tool.motion.removal_time.value >= scene.time_stepping.end_time)
@@ -170,6 +254,7 @@ void print_all_parameters(std::ostream &stream) {
     return {path.back() == "Amplitudes" ? "(name of an amplitude)"
             : path.back() == "Bodies"   ? "(name of a body)"
             : path.back() == "Supports" ? "(name of a support)"
+            : path.back() == "Loads"    ? "(name of a load)"
             : path.back() == "Tools"    ? "(name of a tool)"
                                         : "(name of a contact pair)"};
   };

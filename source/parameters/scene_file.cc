@@ -167,6 +167,12 @@ std::vector<std::string> SceneFile::names_below(const Path &path) const {
   return names;
 }
 
+const SceneFile::Entry *SceneFile::first_entry(const Path &path) const {
+  const auto entry =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry &e) { return e.path == path; });
+  return entry == entries_.end() ? nullptr : &*entry;
+}
+
 std::string SceneFile::where(const Path &path, const std::string &key) const {
   const Entry *entry = find(path, key);
   return entry != nullptr ? entry->where : where(path) + " (default)";

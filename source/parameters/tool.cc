@@ -37,6 +37,15 @@ void Motion::declare(ParameterHandler &prm) {
       "Stop force", "", Patterns::Anything(),
       "Expression of t and the names of amplitudes. Unless empty, the tool stops for good where it presses "
       "along the force direction with this force. [force]");
+  prm.declare_entry("Mass", "0", Patterns::Double(),
+                    "Of a tool with a force, in explicit scenes: > 0. Without a force a heavy tool flies on: "
+                    "'Force = 0'. [mass]");
+  prm.declare_entry("Moment of inertia", "0", Patterns::Double(),
+                    "Of a tool with a moment, in explicit scenes: > 0, about its axis. [mass length^2]");
+  prm.declare_entry(
+      "Initial speed", "0", Patterns::Double(),
+      "Of a tool with a force or moment, in explicit scenes: along the force direction, or about "
+      "its axis, on top of its translation and rotation. [length/time, or radians/time]");
   prm.declare_entry(
       "Removed at", "", Patterns::Anything(),
       "The tool is taken away at this time, so that the bodies spring back; empty: never. [time]");
@@ -71,6 +80,17 @@ void Motion::parse_control(Reader &reader) {
     direction = reader.direction("Force direction");
   else if (reader.is_set("Force direction"))
     reader.reject("Force direction", "no value: the tool has no force");
+
+  const bool turns = control == Control::moment;
+  if (control == Control::force || turns) {
+    inertia = reader.not_negative(turns ? "Moment of inertia" : "Mass");
+    initial_rate = reader.number("Initial speed");
+  }
+  for (const auto &[key, used] : {std::pair<std::string, bool>{"Mass", control == Control::force},
+                                  {"Moment of inertia", turns},
+                                  {"Initial speed", control == Control::force || turns}})
+    if (!used && reader.is_set(key))
+      reader.reject(key, "no value: the tool's motion is not free");
 
   removal_time = reader.located("Removed at", std::numeric_limits<double>::infinity());
   release_time = reader.not_negative("Release time");
@@ -164,9 +184,27 @@ void Tool::parse(Reader &reader) {
 
 void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Body", "", Patterns::Anything(), "Name of the body.");
-  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
-                    "Boundary ids of the body's faces that may touch the tool, separated by commas.");
-  prm.declare_entry("Tool", "", Patterns::Anything(), "Name of the tool.");
+  prm.declare_entry(
+      "Boundary ids", "", Patterns::Anything(),
+      "Boundary ids of the body's faces that may touch the tool or the second body, separated by "
+      "commas.");
+  prm.declare_entry("Tool", "", Patterns::Anything(),
+                    "Name of the tool; a pair has a tool or a second body.");
+  prm.declare_entry("Second body", "", Patterns::Anything(),
+                    "Name of another body, or of the same one: then its faces may touch each other.");
+  prm.declare_entry("Second boundary ids", "", Patterns::Anything(),
+                    "Boundary ids of the second body's faces. Empty, where it is the same body: the faces of "
+                    "'Boundary ids' among themselves.");
+  prm.declare_entry("Facets", "planed", Patterns::Selection("planed|bilinear"),
+                    "Pairs of bodies: planed: the planed contact element, no iterations (Bittencourt & Creus "
+                    "1998); bilinear: the closest point on the bilinear face, iterated.");
+  prm.declare_entry("Passes", "two", Patterns::Selection("one|two"),
+                    "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
+                    "half the penalty; one: those of 'Body' alone.");
+  prm.declare_entry("Edges", "false", Patterns::Bool(),
+                    "Pairs of bodies: edges are kept out of edges, too, which nodes against facets miss.");
+  prm.declare_entry("Penalty of", "stiffer", Patterns::Selection("stiffer|series"),
+                    "Pairs of bodies, penalty as a factor: the E/h of the stiffer body, or both in series.");
   prm.declare_entry(
       "Friction law", "Coulomb",
       Patterns::Selection("Coulomb|shear limited|static-kinetic|pressure dependent"),
@@ -195,7 +233,7 @@ void ContactPair::declare(ParameterHandler &prm) {
 void ContactPair::parse(Reader &reader) {
   origin = reader.origin();
   body = reader.located("Body", reader.text("Body"));
-  tool = reader.located("Tool", reader.text("Tool"));
+  parse_bodies(reader);
   boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
   if (boundary_ids.value.empty())
     reader.reject("Boundary ids", "at least one boundary id");
@@ -214,6 +252,25 @@ void ContactPair::parse(Reader &reader) {
   }
   allowed_penetration =
       reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
+}
+
+void ContactPair::parse_bodies(Reader &reader) {
+  tool = reader.located("Tool", reader.text("Tool"));
+  second_body = reader.located("Second body", reader.text("Second body"));
+  if (tool.value.empty() == second_body.value.empty())
+    reader.reject(tool.value.empty() ? "Tool" : "Second body",
+                  "either a 'Tool' or a 'Second body' for each pair");
+  second_boundary_ids = reader.located("Second boundary ids", reader.counts("Second boundary ids"));
+  if (!is_between_bodies())
+    for (const std::string key : {"Second boundary ids", "Facets", "Passes", "Edges", "Penalty of"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value: the pair is of a body and a tool");
+  if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.value.empty())
+    reader.reject("Second boundary ids", "at least one boundary id");
+  facets = reader.located("Facets", reader.text("Facets") == "planed" ? Facets::planed : Facets::bilinear);
+  two_passes = reader.text("Passes") == "two";
+  edges = reader.flag("Edges");
+  penalty_of = reader.text("Penalty of") == "stiffer" ? PenaltyOf::stiffer : PenaltyOf::series;
 }
 
 void ContactPair::parse_friction(Reader &reader) {

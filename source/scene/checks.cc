@@ -175,9 +175,17 @@ void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail de
         present[i].insert(renamed.first);
     for (const auto &support : parameters_.bodies[i].supports)
       check_ids(support.boundary_ids, present[i], bodies_[i].name);
+    for (const auto &load : parameters_.bodies[i].loads)
+      check_ids(load.boundary_ids, present[i], bodies_[i].name);
   }
-  for (std::size_t i = 0; i < pairs_.size(); ++i)
-    check_ids(parameters_.pairs[i].boundary_ids, present[pairs_[i].body], bodies_[pairs_[i].body].name);
+  for (const auto &pair : parameters_.pairs) {
+    const std::size_t body = parameters_.body_index(pair);
+    check_ids(pair.boundary_ids, present[body], bodies_[body].name);
+    if (!pair.is_between_bodies())
+      continue;
+    const std::size_t second = parameters_.second_body_index(pair);
+    check_ids(pair.second_boundary_ids, present[second], bodies_[second].name);
+  }
 }
 
 void Scene::check_supports(const Triangulation<3> &mesh) const {
@@ -255,8 +263,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
 }
 
 void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const auto &pair = pairs_[p];
+  for (const auto &pair : pairs_) {
     const Tool &tool = tools_[pair.tool];
     const Placement start = tool.placement(0.);
     double deepest = 0., size_there = 1.;
@@ -275,11 +282,11 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
         }
       }
     });
-    const auto &allowed = parameters_.pairs[p].allowed_penetration;
+    const auto &allowed = pair.input->allowed_penetration;
     if (-deepest > allowed.value * size_there) {
       std::ostringstream message;
       message
-          << parameters_.pairs[p].origin << ": body '" << bodies_[pair.body].name << "' starts " << -deepest
+          << pair.input->origin << ": body '" << bodies_[pair.body].name << "' starts " << -deepest
           << " deep (" << -deepest / size_there << " facet sizes) inside tool '" << tool.name()
           << "', deepest at " << print(where) << "; allowed are " << allowed.value
           << " facet sizes ('Allowed initial penetration'). Does the tool's normal point towards the body?";

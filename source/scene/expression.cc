@@ -67,8 +67,12 @@ Expression::Expression(const std::string &text, const Variables variables,
 
 void Expression::parse(const double t) const {
   std::map<std::string, double> constants{{"pi", dealii::numbers::PI}};
-  for (const auto &amplitude : amplitudes_)
+  uses_amplitudes_ = false;
+  for (const auto &amplitude : amplitudes_) {
     constants[amplitude.name] = evaluate_amplitude(amplitude, t);
+    // More names than the text has may match, as parts of others: then it is parsed once too often.
+    uses_amplitudes_ |= text_.find(amplitude.name) != std::string::npos;
+  }
   parser_ = std::make_unique<dealii::FunctionParser<3>>(1);
   parser_->initialize(variables_, text_, constants, true);
   parser_->set_time(t);
@@ -76,8 +80,13 @@ void Expression::parse(const double t) const {
 }
 
 double Expression::value(const double t, const dealii::Point<3> &position) const {
-  if (t != parsed_time_)
-    parse(t);
+  if (t != parsed_time_) {
+    if (uses_amplitudes_)
+      parse(t);
+    else
+      parser_->set_time(t);
+    parsed_time_ = t;
+  }
   const double value = parser_->value(position);
   if (!std::isfinite(value)) {
     std::ostringstream message;

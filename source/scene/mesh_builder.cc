@@ -93,6 +93,21 @@ void flatten(Triangulation<3> &mesh) {
   mesh.reset_all_manifolds();
 }
 
+void move_vertices(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
+  std::vector<Expression> components;
+  for (const auto &component : parameters.positions.value)
+    components.emplace_back(component, Expression::Variables::time_and_position,
+                            std::vector<parameters::Amplitude>(), parameters.positions.origin);
+  check_before_start([&] {
+    dealii::GridTools::transform(
+        [&components](const dealii::Point<3> &x) {
+          return dealii::Point<3>(components[0].value(0., x), components[1].value(0., x),
+                                  components[2].value(0., x));
+        },
+        mesh);
+  });
+}
+
 void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
   for (const auto &[id, condition] : parameters.boundary_ids.value) {
     const Expression holds(condition, Expression::Variables::time_and_position, {},
@@ -125,6 +140,8 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
     break;
   }
   flatten(mesh);
+  if (!parameters.positions.value.empty())
+    move_vertices(parameters, mesh);
   if (parameters.scale != 1.)
     dealii::GridTools::scale(parameters.scale, mesh);
   if (parameters.rotation_angle != 0.)

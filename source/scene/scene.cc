@@ -45,11 +45,30 @@ bool is_zero(const std::string &expression) {
   }
 }
 
+Load make_load(const parameters::Load &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
+  Load load{parameters.kind,        parameters.boundary_ids.value, {},
+            parameters.coefficient, parameters.direction,          parameters.vector};
+  if (load.kind == Load::Kind::acceleration)
+    for (const auto &component : parameters.acceleration.value)
+      load.values.emplace_back(component, Expression::Variables::time, amplitudes,
+                               parameters.acceleration.origin);
+  if (load.kind == Load::Kind::pressure)
+    load.values.emplace_back(parameters.pressure.value, Expression::Variables::time_and_position, amplitudes,
+                             parameters.pressure.origin);
+  return load;
+}
+
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
   Body body;
   body.name = parameters.name;
   body.material = make_material(parameters.material);
   body.young_modulus = parameters.material.young_modulus;
+  body.density = parameters.material.density.value;
+  for (const auto &component : parameters.initial_velocity.value)
+    body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,
+                                       parameters.initial_velocity.origin);
+  for (const auto &load : parameters.loads)
+    body.loads.push_back(make_load(load, amplitudes));
   for (const auto &plane : parameters.symmetry_planes.value) {
     Hold hold;
     hold.name = "symmetry plane " + plane.text;
@@ -130,19 +149,18 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
       }
     }
   });
-  for (const auto &pair : parameters.pairs)
-    pairs_.push_back({pair.name, parameters.body_index(pair), pair.boundary_ids.value,
-                      parameters.tool_index(pair), make_friction(pair),
-                      pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor, pair.normal_penalty,
-                      pair.tangential_penalty});
+  make_pairs();
 
-  capabilities_.contact = !pairs_.empty();
+  capabilities_.contact = !pairs_.empty() || !body_pairs_.empty();
+  capabilities_.body_contact = !body_pairs_.empty();
   for (const auto &body : bodies_) {
     capabilities_.plasticity |= !std::holds_alternative<std::monostate>(body.material.hardening);
     for (const auto &hold : body.holds)
       capabilities_.moving_supports |= hold.value != nullptr;
   }
   for (const auto &pair : pairs_)
+    capabilities_.friction |= pair.has_friction();
+  for (const auto &pair : body_pairs_)
     capabilities_.friction |= pair.has_friction();
   using Tangent = parameters::ContactTangent;
   contact_tangent_ = parameters.solver.contact_tangent;
@@ -161,6 +179,41 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
                      "allowed are automatic, MUMPS, KLU, or a symmetrised 'Contact tangent'");
 }
 
+void Scene::make_pairs() {
+  for (const auto &pair : parameters_.pairs) {
+    const std::size_t body = parameters_.body_index(pair);
+    const bool is_factor = pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
+    if (!pair.is_between_bodies()) {
+      pairs_.push_back({pair.name, &pair, body, pair.boundary_ids.value, parameters_.tool_index(pair),
+                        make_friction(pair), is_factor, pair.normal_penalty, pair.tangential_penalty});
+      continue;
+    }
+    const std::size_t second = parameters_.second_body_index(pair);
+    const auto &second_ids = pair.second_boundary_ids.value;
+    body_pairs_.push_back(
+        {pair.name,
+         &pair,
+         {body, second},
+         {pair.boundary_ids.value, second_ids.empty() ? pair.boundary_ids.value : second_ids},
+         body == second && second_ids.empty(),
+         pair.facets.value,
+         pair.two_passes,
+         pair.edges,
+         make_friction(pair),
+         is_factor,
+         pair.penalty_of,
+         pair.normal_penalty,
+         pair.tangential_penalty});
+    const auto &ids = body_pairs_.back().boundary_ids;
+    if (body == second && !second_ids.empty())
+      for (const unsigned int id : ids[0])
+        if (std::count(ids[1].begin(), ids[1].end(), id) > 0)
+          throw InputError(pair.second_boundary_ids.origin + ": found boundary id " + std::to_string(id) +
+                           " on both sides of the pair, allowed are two sets without a common id, or none "
+                           "here: the faces of 'Boundary ids' among themselves");
+  }
+}
+
 void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) const {
   std::vector<std::unique_ptr<dealii::Triangulation<3>>> meshes;
   std::vector<const dealii::Triangulation<3> *> pointers;
@@ -171,7 +224,8 @@ void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) 
   }
   merge_bodies(pointers, mesh);
   check_boundary_ids(mesh, detail);
-  check_supports(mesh);
+  if (!parameters_.is_explicit())
+    check_supports(mesh);
   check_initial_penetration(mesh);
 }
 
@@ -200,7 +254,7 @@ void Scene::describe(std::ostream &stream) const {
            << (body.material.law == parameters::Material::Law::elastic ? "Hencky elasticity"
                                                                        : "Hencky J2 plasticity")
            << ", " << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
-           << " supports\n";
+           << " supports, " << body.loads.size() << " loads\n";
   }
   for (const auto &tool : tools_) {
     stream << "Tool           " << tool.name() << ": rigid " << tool.shapes();
@@ -221,25 +275,41 @@ void Scene::describe(std::ostream &stream) const {
       stream << ", removed at time " << tool.removal_time();
     stream << "\n";
   }
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const ContactPair &pair = pairs_[p];
+  const auto describe_penalties = [](const auto &pair) {
+    std::ostringstream text;
+    text << ", penalties " << pair.normal_penalty << ", " << pair.tangential_penalty
+         << (pair.penalty_is_factor ? " E/h" : " (absolute)") << "\n";
+    return text.str();
+  };
+  for (const auto &pair : pairs_)
     stream << "Contact pair   " << pair.name << ": " << bodies_[pair.body].name << " on "
-           << tools_[pair.tool].name() << ", " << describe_friction(parameters_.pairs[p]) << ", penalties "
-           << pair.normal_penalty << ", " << pair.tangential_penalty
-           << (pair.penalty_is_factor ? " E/h" : " (absolute)") << "\n";
-  }
+           << tools_[pair.tool].name() << ", " << describe_friction(*pair.input) << describe_penalties(pair);
+  for (const auto &pair : body_pairs_)
+    stream << "Contact pair   " << pair.name << ": " << bodies_[pair.bodies[0]].name << " on "
+           << (pair.is_self_contact ? "itself" : bodies_[pair.bodies[1]].name) << ", "
+           << (pair.facets == parameters::ContactPair::Facets::planed ? "planed" : "bilinear") << " facets, "
+           << (pair.two_passes ? "two passes, " : "one pass, ") << (pair.edges ? "edges, " : "")
+           << describe_friction(*pair.input) << describe_penalties(pair);
   const auto &stepping = parameters_.time_stepping;
-  stream << "Time           0 to " << stepping.end_time
-         << (stepping.control == parameters::TimeStepping::Control::automatic ? ", automatic steps from "
-                                                                              : ", fixed steps of ")
-         << stepping.initial_step << "\n";
-  stream << "Elements       " << n_elements << " in all, quasi-static, implicit\n";
+  stream << "Time           0 to " << stepping.end_time;
+  if (parameters_.is_explicit())
+    stream << ", " << parameters_.explicit_dynamics.safety_factor << " of the stable step\n";
+  else
+    stream << (stepping.control == parameters::TimeStepping::Control::automatic ? ", automatic steps from "
+                                                                                : ", fixed steps of ")
+           << stepping.initial_step << "\n";
+  stream << "Elements       " << n_elements << " in all, "
+         << (parameters_.is_explicit() ? "dynamic, explicit\n" : "quasi-static, implicit\n");
   stream << "Plasticity     " << yes_no(capabilities_.plasticity) << "\n";
   stream << "Contact        " << yes_no(capabilities_.contact) << "\n";
   stream << "Friction       " << yes_no(capabilities_.friction) << "\n";
   stream << "Moving support " << yes_no(capabilities_.moving_supports) << "\n";
+  stream << "Body contact   " << yes_no(capabilities_.body_contact) << "\n";
   stream << "Matrix         "
-         << (capabilities_.unsymmetric_matrix ? "unsymmetric" : "symmetric (half is factorised)") << "\n";
+         << (parameters_.is_explicit()          ? "no (neither allocated nor run)"
+             : capabilities_.unsymmetric_matrix ? "unsymmetric"
+                                                : "symmetric (half is factorised)")
+         << "\n";
   stream << "Output         " << parameters_.output.folder.value << "\n";
 }
 

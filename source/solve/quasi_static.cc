@@ -69,6 +69,13 @@ void QuasiStatic::build_matrix() {
   matrix_.reinit(pattern);
 }
 
+std::vector<std::vector<ContactNodeReport>> QuasiStatic::report_contacts() const {
+  std::vector<std::vector<ContactNodeReport>> reports;
+  for (const auto &contact : contacts_)
+    reports.push_back(contact.report());
+  return reports;
+}
+
 std::array<std::size_t, 2> QuasiStatic::history_sizes() const {
   std::array<std::size_t, 2> sizes = {{internal_.history_size(), 0}};
   for (const auto &contact : contacts_)

@@ -2,7 +2,8 @@
 #ifndef BILLET_CONTACT_RIGID_CONTACT_H
 #define BILLET_CONTACT_RIGID_CONTACT_H
 
-#include "billet/contact/traction.h"
+#include "billet/contact/contact_load.h"
+#include "billet/discretization/local_nodes.h"
 #include "billet/discretization/supports.h"
 #include "billet/geometry/frame.h"
 
@@ -12,18 +13,6 @@
 #include <vector>
 
 namespace billet {
-
-/// What a contact pair does to the scene, summed over all ranks.
-struct ContactLoad {
-  dealii::Tensor<1, 3> force;  ///< on the body, by the tool [force]
-  dealii::Tensor<1, 3> moment; ///< about the tool's moved centre [force length]
-  double area = 0.;            ///< current area in contact [length²]
-  double stored_energy = 0.;   ///< in the penalty springs [energy]
-  double dissipation = 0.;     ///< by friction in this step [energy]
-  double deepest = 0.;         ///< largest penetration [length]
-
-  ContactLoad &operator+=(const ContactLoad &other);
-};
 
 /// Contact of boundary faces of a deformable body with a rigid tool: nodal quadrature on current areas, the
 /// pressure by penalty, friction by return map in the contact frame of each slave node.
@@ -81,18 +70,22 @@ public:
   /// The state of the last update() becomes the start of the next step.
   void commit();
 
-  /// After update().
-  ContactLoad compute_load() const;
+  /// On all ranks, after update().
+  ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }
+  /// What the facets of this rank contribute to it.
+  ContactLoad local_load() const;
 
-  /// State of a slave node, for output.
-  struct NodeReport {
-    std::array<DofIndex, 3> dofs;
-    ContactStatus status;
-    double pressure, gap, slip, area;
-    dealii::Tensor<1, 3> traction;
-  };
+  // The same for schemes without a matrix, after bind():
+
+  /// Finds its nodes among those of the rank.
+  void bind(const LocalNodes &nodes);
+  void update(const NodalVectors &displacements);
+  /// Adds F_c [force], and to component 0 of `bounds` what the penalties of this rank's facets add to a bound
+  /// on the stiffness at a node [force/length].
+  void add_forces(NodalVectors &forces, NodalVectors &bounds) const;
+
   /// Of every node at a facet of this rank; `area` is this rank's share.
-  std::vector<NodeReport> report() const;
+  std::vector<ContactNodeReport> report() const;
 
   /// Doubles of history on this rank.
   std::size_t history_size() const;
@@ -152,6 +145,10 @@ private:
   template <class Law>
   void apply_friction(const Law &law, const Node &node, NodeState &state, const FrictionHistory &history_n,
                       FrictionHistory &history) const;
+  /// Evaluates all nodes, each displaced by displacement_of(index).
+  template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
+  /// Calls add(index of the slave node, its area at one facet).
+  template <class Add> void for_each_area(const Add &add) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
   /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
@@ -167,6 +164,7 @@ private:
   std::vector<NodeState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
   std::vector<Facet> facets_;
+  std::vector<unsigned int> local_nodes_; ///< of each slave node, after bind()
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   bool is_removed_ = false;

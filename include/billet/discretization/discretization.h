@@ -36,6 +36,7 @@ public:
   const dealii::DoFHandler<3> &dof_handler() const { return dof_handler_; }
   const dealii::IndexSet &owned_dofs() const { return owned_; }
   const dealii::IndexSet &relevant_dofs() const { return relevant_; }
+  std::size_t n_bodies() const { return elements_.size(); }
   /// Owned elements of a body.
   const std::vector<Element> &elements(const std::size_t body) const { return elements_[body]; }
 

@@ -8,6 +8,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <map>
+
 namespace billet {
 
 using Constraints = dealii::AffineConstraints<double>;
@@ -21,6 +23,16 @@ struct TangentSystem {
 
   void add(const dealii::FullMatrix<double> &local, const std::vector<DofIndex> &dofs) const;
 };
+
+/// A node that is held by planes n · u = value.
+struct HeldNode {
+  std::vector<const Hold *> holds; ///< in the order of the scene
+  std::array<DofIndex, 3> dofs;
+  dealii::Point<3> position; ///< undeformed
+};
+
+/// All held nodes of the cells that this rank owns, and of their ghosts, by their first dof.
+std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization);
 
 /// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements. The
 /// planes n · u = value that meet at a node may have any normals; at most three of them are independent.

@@ -2,7 +2,7 @@
 #ifndef BILLET_OUTPUT_FIELD_WRITER_H
 #define BILLET_OUTPUT_FIELD_WRITER_H
 
-#include "billet/solve/quasi_static.h"
+#include "billet/solve/solution.h"
 
 #include <deal.II/base/data_out_base.h>
 
@@ -19,7 +19,7 @@ public:
   FieldWriter(const Scene &scene, const Discretization &discretization, std::string folder);
 
   /// Collective.
-  void write(const QuasiStatic &problem);
+  void write(const Solution &solution);
 
   /// The file to open, once something was written; empty if the scene wants no fields.
   std::string file_to_open() const;

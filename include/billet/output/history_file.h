@@ -2,7 +2,8 @@
 #ifndef BILLET_OUTPUT_HISTORY_FILE_H
 #define BILLET_OUTPUT_HISTORY_FILE_H
 
-#include "billet/solve/quasi_static.h"
+#include "billet/solve/newton.h"
+#include "billet/solve/solution.h"
 
 #include <fstream>
 
@@ -17,14 +18,20 @@ struct StepReport {
   unsigned int total_cuts = 0;
 };
 
-/// history.csv: a line for every accepted step, on disk as soon as it is known. Written by the first rank.
+/// history.csv: a line for every accepted step, or of an explicit scene as often as it asks, on disk as soon
+/// as it is known. Written by the first rank.
 class HistoryFile {
 public:
   HistoryFile(const Scene &scene, const std::string &folder);
 
   void write(const StepReport &report, const SolutionState &state);
+  /// Of an explicit scene: steps taken, and the length of the next.
+  void write(unsigned int step, double length, const SolutionState &state);
 
 private:
+  void write_loads(const SolutionState &state);
+  void end_line();
+
   std::string name_;
   std::ofstream stream_;
 };

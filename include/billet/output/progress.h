@@ -14,7 +14,9 @@ class Progress {
 public:
   Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
 
-  void start(const Discretization &discretization, const QuasiStatic &problem, std::size_t n_dofs);
+  void start(const Discretization &discretization, const Solution &solution);
+  /// Of an explicit scene, where a line of the history is due.
+  void show(unsigned int step, double length, const SolutionState &state);
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
   void finish(const std::string &file_to_open);

@@ -19,7 +19,8 @@ struct Mesh {
   Located<double> section_area; ///< 0: as generated
   double height;
   unsigned int n_layers;
-  Located<std::string> file_name; ///< relative to the scene file
+  Located<std::string> file_name;              ///< relative to the scene file
+  Located<std::vector<std::string>> positions; ///< three expressions of x, y, z, or none
   double scale;
   dealii::Tensor<1, 3> rotation_axis;
   double rotation_angle;
@@ -36,7 +37,12 @@ struct Material {
   enum class Law { elastic, elastoplastic };
   enum class Hardening { linear, voce, power_law, table };
 
+  /// How large rotations and stretches enter; what implicit scenes do is hencky.
+  enum class Kinematics { hencky, neo_hookean, hypoelastic };
+
   Law law;
+  Located<Kinematics> kinematics;
+  Located<double> density; ///< 0: not given
   double young_modulus;
   double poisson_ratio;
   Hardening hardening = Hardening::linear;
@@ -65,6 +71,26 @@ struct Support {
   void parse(Reader &reader);
 };
 
+/// One named subsection of Loads: what acts on a body besides tools and other bodies.
+struct Load {
+  enum class Kind { acceleration, pressure, spring, dashpot };
+  /// Of springs and dashpots: in every direction, along the outward normal of the undeformed face, or along
+  /// a vector.
+  enum class Direction { all, normal, vector };
+
+  std::string name;
+  Kind kind;
+  Located<std::vector<unsigned int>> boundary_ids;  ///< of all but accelerations
+  Located<std::array<std::string, 3>> acceleration; ///< expressions of t and the amplitudes
+  Located<std::string> pressure;                    ///< expression of x, y, z (reference), t, amplitudes
+  double coefficient = 0.;                          ///< of springs and dashpots, per reference area
+  Direction direction = Direction::all;
+  dealii::Tensor<1, 3> vector; ///< unit
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
 /// n · X = offset: boundary nodes on it do not leave it.
 struct SymmetryPlane {
   dealii::Tensor<1, 3> normal;
@@ -77,11 +103,18 @@ struct Body {
   std::string name;
   std::string origin;
   Mesh mesh;
+  /// Of explicit scenes; implicit ones know the mean dilatation alone.
+  enum class ElementType { mean_dilatation, one_point };
+
   Material material;
+  Located<ElementType> element;
   std::vector<Support> supports;
+  std::vector<Load> loads;
+  Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z
   Located<std::vector<SymmetryPlane>> symmetry_planes;
 
-  static void declare(dealii::ParameterHandler &prm, const std::vector<std::string> &support_names);
+  static void declare(dealii::ParameterHandler &prm, const std::vector<std::string> &support_names,
+                      const std::vector<std::string> &load_names);
   void parse(Reader &reader);
 };
 

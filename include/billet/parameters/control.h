@@ -20,14 +20,32 @@ struct Amplitude {
 
 /// Subsection Time stepping.
 struct TimeStepping {
+  enum class Scheme { quasi_static, explicit_dynamics };
   enum class Control { automatic, fixed };
 
+  Scheme scheme;
   std::vector<double> stops;
   double end_time;
-  Control control;
-  double initial_step, smallest_step, largest_step;
-  unsigned int few_iterations, many_iterations;
-  double growth_factor, shrink_factor, cut_factor;
+  // Of quasi-static scenes:
+  Control control = Control::automatic;
+  double initial_step = 0., smallest_step = 0., largest_step = 0.;
+  unsigned int few_iterations = 0, many_iterations = 0;
+  double growth_factor = 1., shrink_factor = 1., cut_factor = 1.;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// Subsection Explicit dynamics.
+struct ExplicitDynamics {
+  enum class Instructions { automatic, scalar, sse2, avx2, avx512 };
+
+  double safety_factor;
+  double linear_viscosity, quadratic_viscosity;
+  double hourglass_stiffness;
+  double scaled_step;   ///< elements get mass until their step is not shorter; 0: none
+  double largest_drift; ///< part of the energy
+  Instructions instructions;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
@@ -71,6 +89,7 @@ struct Output {
   Format format;
   unsigned int every_steps;
   double interval;
+  double history_interval; ///< of explicit scenes; 0: a two hundredth of the end time
   bool stress, plastic_strain, contact;
   Verbosity verbosity;
 

@@ -20,13 +20,16 @@ struct Scene {
   std::vector<Tool> tools;
   std::vector<ContactPair> pairs;
   TimeStepping time_stepping;
+  ExplicitDynamics explicit_dynamics;
   Solver solver;
   Output output;
 
   /// Throws InputError.
   static Scene read(const std::string &file_name);
 
+  bool is_explicit() const { return time_stepping.scheme == TimeStepping::Scheme::explicit_dynamics; }
   std::size_t body_index(const ContactPair &pair) const;
+  std::size_t second_body_index(const ContactPair &pair) const;
   std::size_t tool_index(const ContactPair &pair) const;
 };
 

@@ -41,6 +41,9 @@ public:
   /// Names of the subsections right below `path`, in the order of their appearance.
   std::vector<std::string> names_below(const Path &path) const;
 
+  /// The first entry that is set right in this subsection; null if there is none.
+  const Entry *first_entry(const Path &path) const;
+
   /// What an entry is set to; `otherwise` if it is not.
   std::string value(const Path &path, const std::string &key, const std::string &otherwise) const;
 

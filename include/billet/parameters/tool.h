@@ -23,8 +23,10 @@ struct Motion {
   Control control = Control::motion;
   Located<std::string> load;      ///< expression of t and the amplitudes [force, or force length]
   dealii::Tensor<1, 3> direction; ///< unit; of force and stop
-  Located<double> removal_time;   ///< infinite: never
-  double release_time;            ///< in which the forces of a removed tool fade
+  double inertia = 0.;      ///< mass, or moment of inertia about the axis, of a tool with a force or moment
+  double initial_rate = 0.; ///< speed along the direction, or about the axis
+  Located<double> removal_time; ///< infinite: never
+  double release_time;          ///< in which the forces of a removed tool fade
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
@@ -56,7 +58,14 @@ struct ContactPair {
   std::string origin;
   Located<std::string> body;
   Located<std::vector<unsigned int>> boundary_ids;
-  Located<std::string> tool;
+  Located<std::string> tool;        ///< empty if the pair is of two bodies
+  Located<std::string> second_body; ///< empty if the pair is of a body and a tool
+  Located<std::vector<unsigned int>> second_boundary_ids;
+  enum class Facets { planed, bilinear };
+  enum class PenaltyOf { stiffer, series };
+  Located<Facets> facets;
+  bool two_passes, edges;
+  PenaltyOf penalty_of;
   FrictionLaw friction_law;
   double friction_coefficient; ///< at rest, or at the reference pressure; 0: no friction
   double largest_shear_stress; ///< of ShearLimited
@@ -69,10 +78,13 @@ struct ContactPair {
   double tangential_penalty;
   Located<double> allowed_penetration;
 
+  bool is_between_bodies() const { return tool.value.empty(); }
+
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 
 private:
+  void parse_bodies(Reader &reader);
   void parse_friction(Reader &reader);
 };
 

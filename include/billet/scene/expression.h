@@ -35,9 +35,10 @@ private:
   std::string text_, origin_;
   std::string variables_;
   std::vector<parameters::Amplitude> amplitudes_;
-  // The parser takes amplitudes as constants and is made anew when the time changes.
+  // The parser takes amplitudes as constants and is made anew when the time changes, if the text has any.
   mutable std::unique_ptr<dealii::FunctionParser<3>> parser_;
   mutable double parsed_time_ = 0.;
+  mutable bool uses_amplitudes_ = false;
 };
 
 } // namespace billet

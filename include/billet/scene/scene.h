@@ -29,18 +29,34 @@ struct Hold {
   const Expression *value = nullptr; ///< none: 0
 };
 
+/// What acts on a body besides tools and other bodies.
+struct Load {
+  using Kind = parameters::Load::Kind;
+  using Direction = parameters::Load::Direction;
+  Kind kind;
+  std::vector<unsigned int> boundary_ids;
+  std::vector<Expression> values; ///< of an acceleration three, of a pressure one
+  double coefficient;             ///< of springs [force/length³], of dashpots [force time/length³]
+  Direction direction;
+  dealii::Tensor<1, 3> vector; ///< unit, where the direction is one
+};
+
 /// What a body is made of and how it is held; its mesh is elsewhere.
 struct Body {
   std::string name;
   MaterialLaw material;
   double young_modulus;
+  double density; ///< of the undeformed body
   std::vector<Hold> holds;
   std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by the holds
+  std::vector<Load> loads;
+  std::vector<Expression> initial_velocity; ///< three, of the position
 };
 
 /// Boundary faces of a body that may touch a tool.
 struct ContactPair {
   std::string name;
+  const parameters::ContactPair *input; ///< where it comes from, for messages
   std::size_t body;
   std::vector<unsigned int> boundary_ids;
   std::size_t tool;
@@ -55,11 +71,29 @@ struct ContactPair {
   }
 };
 
+/// Boundary faces of two bodies, or of one and the same, that may touch each other.
+struct BodyPair {
+  std::string name;
+  const parameters::ContactPair *input; ///< where it comes from, for messages
+  std::array<std::size_t, 2> bodies;
+  std::array<std::vector<unsigned int>, 2> boundary_ids; ///< of a pair with itself: both alike
+  bool is_self_contact;
+  parameters::ContactPair::Facets facets;
+  bool two_passes, edges;
+  FrictionLaw friction;
+  bool penalty_is_factor;
+  parameters::ContactPair::PenaltyOf penalty_of;
+  double normal_penalty, tangential_penalty;
+
+  bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
+};
+
 /// What the scene asks of the program. Nothing that is false here is allocated or run.
 struct Capabilities {
   bool plasticity = false;
   bool contact = false;
   bool friction = false;
+  bool body_contact = false;
   bool moving_supports = false;
   bool unsymmetric_matrix = false;
 };
@@ -69,11 +103,14 @@ class Scene {
 public:
   /// Throws InputError.
   explicit Scene(const parameters::Scene &parameters);
+  Scene(const Scene &) = delete; // parts of it refer to each other
+  Scene &operator=(const Scene &) = delete;
 
   const parameters::Scene &parameters() const { return parameters_; }
   const std::vector<Body> &bodies() const { return bodies_; }
   const std::vector<Tool> &tools() const { return tools_; }
   const std::vector<ContactPair> &pairs() const { return pairs_; }
+  const std::vector<BodyPair> &body_pairs() const { return body_pairs_; }
   const Capabilities &capabilities() const { return capabilities_; }
   /// The scene's choice, `automatic` resolved.
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
@@ -89,14 +126,16 @@ public:
   void describe(std::ostream &stream) const;
 
 private:
+  void make_pairs();
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;
 
-  parameters::Scene parameters_;
+  const parameters::Scene parameters_;
   std::vector<Body> bodies_;
   std::vector<Tool> tools_;
   std::vector<ContactPair> pairs_;
+  std::vector<BodyPair> body_pairs_;
   Capabilities capabilities_;
   parameters::ContactTangent contact_tangent_;
 };

@@ -6,6 +6,7 @@
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/direct_solver.h"
 #include "billet/solve/newton.h"
+#include "billet/solve/solution.h"
 
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
@@ -15,29 +16,10 @@
 
 namespace billet {
 
-/// Energies since time 0, on all ranks the same [energy].
-struct EnergyLedger {
-  double elastic = 0.;
-  double plastic = 0.;
-  double contact = 0.;  ///< stored in penalty springs
-  double friction = 0.; ///< dissipated
-  double external = 0.; ///< work of tools and prescribed displacements
-  double drift() const { return external - elastic - plastic - contact - friction; }
-};
-
-/// Where the scene stands at the end of an accepted step.
-struct SolutionState {
-  double time = 0.;
-  Vector displacements; ///< ghosted
-  std::vector<ContactLoad> tool_loads;
-  std::vector<Placement> placements;
-  EnergyLedger energies;
-};
-
 /// Equilibrium of all forces, R = F_int − F_c = 0, step by step: the sum of the parts as one nonlinear
 /// problem, with commit on acceptance and nothing to undo on failure, since the state at the start of a step
 /// is never written to.
-class QuasiStatic final : public NonlinearProblem {
+class QuasiStatic final : public NonlinearProblem, public Solution {
 public:
   QuasiStatic(const Scene &scene, const Discretization &discretization);
 
@@ -51,13 +33,16 @@ public:
   /// The unknowns, displacements and travels of tools that press with a force, at the start of the step.
   Epetra_Vector unknowns() const;
 
-  const SolutionState &state() const { return state_; }
+  const SolutionState &state() const override { return state_; }
+  std::vector<ElementSummary> summarize(const std::size_t body) const override {
+    return internal_.summarize(body, state_.displacements);
+  }
+  std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
+  std::array<std::size_t, 2> history_sizes() const override;
+  std::string method() const override { return direct_->name(); }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
   const Supports &supports() const { return supports_; }
-  std::string linear_solver_name() const { return direct_->name(); }
-  /// Doubles of history on all ranks: of elements, of contact.
-  std::array<std::size_t, 2> history_sizes() const;
 
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
   bool compute_tangent(const Epetra_Vector &x) override;

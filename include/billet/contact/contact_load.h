@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_CONTACT_LOAD_H
+#define BILLET_CONTACT_CONTACT_LOAD_H
+
+#include "billet/contact/traction.h"
+#include "billet/discretization/discretization.h"
+
+#include <array>
+#include <vector>
+
+namespace billet {
+
+/// What a contact pair does to the scene.
+struct ContactLoad {
+  dealii::Tensor<1, 3> force; ///< on the body, by the tool or the second body [force]
+  dealii::Tensor<1, 3>
+      moment;       ///< about the tool's moved centre; of two bodies, about the origin [force length]
+  double area = 0.; ///< current area in contact [length²]
+  double stored_energy = 0.; ///< in the penalty springs [energy]
+  double dissipation = 0.;   ///< by friction in this step [energy]
+  double deepest = 0.;       ///< largest penetration [length]
+
+  ContactLoad &operator+=(const ContactLoad &other);
+};
+
+/// Sums, and for the penetration the maximum, over all ranks.
+ContactLoad sum_over_ranks(const ContactLoad &local, MPI_Comm communicator);
+
+/// State of a slave node, for output.
+struct ContactNodeReport {
+  std::array<DofIndex, 3> dofs;
+  ContactStatus status;
+  double pressure, gap, slip;
+  double area; ///< this rank's share
+  dealii::Tensor<1, 3> traction;
+};
+
+} // namespace billet
+
+#endif

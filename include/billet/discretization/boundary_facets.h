@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_BOUNDARY_FACETS_H
+#define BILLET_DISCRETIZATION_BOUNDARY_FACETS_H
+
+#include "billet/discretization/discretization.h"
+
+#include <array>
+#include <vector>
+
+namespace billet {
+
+/// A boundary face of an owned element. Corners in lexicographic order, (−1,−1), (1,−1), (−1,1), (1,1),
+/// turned so that ∂x/∂ξ × ∂x/∂η points out of the body.
+struct BoundaryFacet {
+  std::array<std::array<DofIndex, 3>, 4> dofs;
+  std::array<dealii::Point<3>, 4> corners; ///< undeformed
+
+  /// Of the undeformed facet, half the cross product of its diagonals [length²].
+  dealii::Tensor<1, 3> area_vector() const {
+    return 0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]);
+  }
+};
+
+/// Facets of a body whose boundary id is among `boundary_ids`, on this rank.
+std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization, std::size_t body,
+                                                   const std::vector<unsigned int> &boundary_ids);
+
+/// Shape functions and their derivatives at one of the four Gauss points (±1/√3, ±1/√3), weights 1, of a
+/// facet.
+struct FacetPoint {
+  std::array<double, 4> N, N_xi, N_eta;
+};
+const std::array<FacetPoint, 4> &facet_points();
+
+} // namespace billet
+
+#endif

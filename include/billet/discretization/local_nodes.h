@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_LOCAL_NODES_H
+#define BILLET_DISCRETIZATION_LOCAL_NODES_H
+
+#include "billet/discretization/discretization.h"
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <unordered_map>
+#include <vector>
+
+namespace billet {
+
+/// A vector at each local node: x, y, z and one more, so that a node begins at a multiple of 32 bytes.
+using NodalVectors = dealii::AlignedVector<double>;
+constexpr unsigned int nodal_stride = 4;
+
+inline dealii::Tensor<1, 3> get_vector(const double *nodal_vectors, const unsigned int node) {
+  const double *v = nodal_vectors + std::size_t{nodal_stride} * node;
+  return dealii::Tensor<1, 3>({v[0], v[1], v[2]});
+}
+inline void add_vector(double *nodal_vectors, const unsigned int node, const dealii::Tensor<1, 3> &value) {
+  double *v = nodal_vectors + std::size_t{nodal_stride} * node;
+  for (unsigned int i = 0; i < 3; ++i)
+    v[i] += value[i];
+}
+
+/// The nodes of the elements that a rank owns, numbered from 0 as its elements name them, for schemes without
+/// a matrix. A node at elements of several ranks is on each of them; what they add to it is summed up by
+/// sum_shared(), on all of them in the same order, so that all have the same bits.
+class LocalNodes {
+public:
+  explicit LocalNodes(const Discretization &discretization);
+
+  const Discretization &discretization() const { return discretization_; }
+  unsigned int size() const { return static_cast<unsigned int>(dofs_.size()); }
+  /// Nodes of a body's elements, in the order of Discretization::elements().
+  const std::vector<std::array<unsigned int, n_element_nodes>> &elements(const std::size_t body) const {
+    return elements_[body];
+  }
+  /// Undeformed.
+  const NodalVectors &positions() const { return positions_; }
+  const std::array<DofIndex, 3> &dofs(const unsigned int node) const { return dofs_[node]; }
+  /// Of the node whose first dof this is; numbers::invalid_unsigned_int if it is not here.
+  unsigned int find(DofIndex first_dof) const;
+  /// Whether this rank is the one that speaks for the node in sums over all ranks.
+  bool is_owned(const unsigned int node) const { return is_owned_[node]; }
+
+  NodalVectors make_vectors() const { return NodalVectors(std::size_t{nodal_stride} * size(), 0.); }
+  /// Replaces the entries of shared nodes by their sums over the ranks. Collective.
+  void sum_shared(NodalVectors &values) const;
+  /// Copies into a ghosted vector. Collective.
+  void copy(const NodalVectors &from, Vector &to) const;
+
+private:
+  void find_sharers();
+
+  const Discretization &discretization_;
+  std::vector<std::array<DofIndex, 3>> dofs_;
+  std::unordered_map<DofIndex, unsigned int> index_;
+  std::vector<std::vector<std::array<unsigned int, n_element_nodes>>> elements_;
+  NodalVectors positions_;
+  std::vector<bool> is_owned_;
+
+  struct Neighbour {
+    unsigned int rank;
+    std::vector<unsigned int> nodes; ///< shared with it, in the order of their dofs
+  };
+  /// Where the parts of a shared node's sum stand, in the order of the ranks: which neighbour, and at which
+  /// of its entries; this rank itself is own_part.
+  struct SharedNode {
+    unsigned int node;
+    std::vector<std::pair<unsigned int, unsigned int>> parts;
+  };
+  static constexpr unsigned int own_part = dealii::numbers::invalid_unsigned_int;
+  std::vector<Neighbour> neighbours_;
+  std::vector<SharedNode> shared_;
+};
+
+} // namespace billet
+
+#endif

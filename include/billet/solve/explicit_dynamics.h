@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_EXPLICIT_DYNAMICS_H
+#define BILLET_SOLVE_EXPLICIT_DYNAMICS_H
+
+#include "billet/contact/rigid_contact.h"
+#include "billet/discretization/held_motion.h"
+#include "billet/forces/external_loads.h"
+#include "billet/mechanics/explicit_block.h"
+#include "billet/solve/free_tool.h"
+#include "billet/solve/solution.h"
+
+#include <memory>
+#include <vector>
+
+namespace billet {
+
+/// M a = F_ext + F_c − F_int by central differences with a lumped mass:
+///   v_{n+½} = v_{n−½} + ½ (Δt_{n−1} + Δt_n) M⁻¹ F_n,   u_{n+1} = u_n + Δt_n v_{n+½}.
+/// A step has two parts. prepare_step() computes the forces at t_n and the velocities after it: then the
+/// state at t_n is complete. finish_step() moves on to t_{n+1}.
+///
+/// The energies are those that the scheme keeps: kinetic ½ v_{n−½}·M v_{n+½}, works by the trapezoidal rule.
+/// In a linear system with equal steps their sum is constant to round-off.
+class ExplicitDynamics final : public Solution {
+public:
+  ExplicitDynamics(const Scene &scene, const Discretization &discretization);
+
+  /// Forces at the current time, then a step that is stable and ends at `event` or at a whole number of such
+  /// steps before it; the velocities after it. Throws SolutionFailure where the state is not admissible.
+  void prepare_step(double event);
+  void finish_step();
+
+  double time() const { return time_; }
+  double step_length() const { return step_; }
+  unsigned int n_steps() const { return n_steps_; }
+  /// By mass scaling, on all ranks [mass].
+  double added_mass() const { return added_mass_; }
+
+  /// After prepare_step(): brings the state for output up to date. Collective.
+  void update_state();
+  /// Part of the largest energy so far by which the energies of the last update_state() fail to balance.
+  double relative_drift() const;
+
+  const SolutionState &state() const override { return state_; }
+  std::vector<ElementSummary> summarize(std::size_t body) const override;
+  std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
+  std::array<std::size_t, 2> history_sizes() const override;
+  std::string method() const override;
+
+private:
+  void make_blocks();
+  void make_masses();
+  void set_initial_motion();
+  /// F_n into forces_, and bounds on the step. Any failure shows on all ranks.
+  void compute_forces();
+  void compute_internal_forces();
+  void compute_contact_forces();
+  void remove_tools();
+  double stable_step() const;
+  void choose_step(double event);
+  void kick();
+  /// What this step's forces do in the half step at velocities `v` that is `half` long.
+  void add_works(const NodalVectors &v, double half);
+  [[noreturn]] void fail(const std::string &why) const;
+
+  const Scene &scene_;
+  const Discretization &discretization_;
+  const parameters::ExplicitDynamics &parameters_;
+  LocalNodes nodes_;
+  HeldMotion held_;
+  std::vector<std::unique_ptr<ExplicitBlock>> blocks_; ///< by body
+  std::unique_ptr<ExternalLoads> loads_;
+  std::vector<RigidContact> contacts_;
+  std::vector<FreeTool> tools_;
+  std::vector<ContactLoad> tool_loads_;                      ///< at t_n, of this rank
+  std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools, of this rank, as they were
+
+  std::vector<double> masses_;    ///< of the nodes, on all their ranks alike
+  NodalVectors u_, v_, v_before_; ///< displacements at t_n, velocities after and before it
+  NodalVectors forces_;           ///< F_n, of all ranks
+  NodalVectors external_;         ///< part of F_n by loads and removed tools, of this rank; if there are any
+  NodalVectors supports_;         ///< what the supports add to F_n, of all ranks
+  NodalVectors bounds_;           ///< at the nodes, beside the elements' own: of stiffness, of damping
+  double element_step_ = 0.;      ///< stable step of the elements of all ranks
+  double time_ = 0., step_ = 0., step_before_ = 0.;
+  double event_ = 0.;                        ///< that the planned steps lead to
+  unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
+  double added_mass_ = 0.;
+  double largest_energy_ = 0.;
+  struct Works {
+    double external = 0., friction = 0., viscous = 0., hourglass = 0.;
+  };
+  Works works_; ///< since time 0, of this rank
+  double hourglass_energy_ = 0.;
+  SolutionState state_;
+};
+
+} // namespace billet
+
+#endif

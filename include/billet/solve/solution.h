@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_SOLUTION_H
+#define BILLET_SOLVE_SOLUTION_H
+
+#include "billet/contact/contact_load.h"
+#include "billet/discretization/discretization.h"
+#include "billet/geometry/placement.h"
+#include "billet/mechanics/element_block.h"
+
+#include <vector>
+
+namespace billet {
+
+/// Energies since time 0, on all ranks the same [energy].
+struct EnergyLedger {
+  double initial = 0.; ///< what the scene starts with
+  double kinetic = 0.;
+  double elastic = 0.;
+  double plastic = 0.;
+  double contact = 0.;   ///< stored in penalty springs
+  double friction = 0.;  ///< dissipated
+  double viscous = 0.;   ///< dissipated by bulk viscosity
+  double hourglass = 0.; ///< stored in, and dissipated by, hourglass control
+  double external = 0.;  ///< work of tools, prescribed displacements and loads
+
+  double total() const { return kinetic + elastic + plastic + contact + friction + viscous + hourglass; }
+  double drift() const { return initial + external - total(); }
+};
+
+/// Where the scene stands at the end of an accepted step.
+struct SolutionState {
+  double time = 0.;
+  Vector displacements; ///< ghosted
+  Vector velocities;    ///< ghosted; of explicit scenes, else empty
+  std::vector<ContactLoad> tool_loads;
+  std::vector<Placement> placements;
+  std::vector<ContactLoad> body_pair_loads; ///< on the first body
+  EnergyLedger energies;
+  dealii::Tensor<1, 3> momentum, angular_momentum; ///< of explicit scenes, about the origin
+};
+
+/// What output may ask of a scene that is being solved.
+class Solution {
+public:
+  virtual ~Solution() = default;
+  virtual const SolutionState &state() const = 0;
+  /// One entry for each owned element of the body, in the order of Discretization::elements().
+  virtual std::vector<ElementSummary> summarize(std::size_t body) const = 0;
+  /// Of every contact pair, tools first, the slave nodes on this rank.
+  virtual std::vector<std::vector<ContactNodeReport>> report_contacts() const = 0;
+  /// Doubles of history on all ranks: of elements, of contact.
+  virtual std::array<std::size_t, 2> history_sizes() const = 0;
+  /// How it is solved, for the console.
+  virtual std::string method() const = 0;
+};
+
+} // namespace billet
+
+#endif

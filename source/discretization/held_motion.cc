@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/discretization/held_motion.h"
+
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
+  for (const auto &[dof, held] : collect_held_nodes(scene, nodes.discretization())) {
+    Node node{nodes.find(dof), held.position, {}};
+    if (node.node == dealii::numbers::invalid_unsigned_int) // of a ghost cell alone
+      continue;
+    // Gram-Schmidt on the planes' normals. One that depends on those before it adds nothing.
+    for (const Hold *hold : held.holds) {
+      Direction direction{hold->normal, {}};
+      if (hold->value != nullptr)
+        direction.terms.push_back({hold, 1.});
+      for (const auto &before : node.directions) {
+        const double part = hold->normal * before.e;
+        direction.e -= part * before.e;
+        for (const auto &term : before.terms)
+          direction.terms.push_back({term.hold, -part * term.weight});
+      }
+      const double length = direction.e.norm();
+      if (length < 1e-8) // unit normals
+        continue;
+      direction.e /= length;
+      for (auto &term : direction.terms)
+        term.weight /= length;
+      node.directions.push_back(direction);
+    }
+    nodes_.push_back(node);
+  }
+}
+
+double HeldMotion::value(const Direction &direction, const double t, const dealii::Point<3> &position) {
+  double sum = 0.;
+  for (const auto &term : direction.terms)
+    sum += term.weight * term.hold->value->value(t, position);
+  return sum;
+}
+
+void HeldMotion::set_displacements(const double t, NodalVectors &displacements) const {
+  for (const auto &node : nodes_)
+    for (const auto &direction : node.directions)
+      add_vector(
+          displacements.data(), node.node,
+          (value(direction, t, node.position) - get_vector(displacements.data(), node.node) * direction.e) *
+              direction.e);
+}
+
+void HeldMotion::constrain(const double t, const double dt, const NodalVectors &displacements,
+                           const std::vector<double> &masses, NodalVectors &velocities,
+                           NodalVectors &impulses) const {
+  for (const auto &node : nodes_) {
+    Tensor<1, 3> change;
+    const Tensor<1, 3> velocity = get_vector(velocities.data(), node.node);
+    for (const auto &direction : node.directions) {
+      // From where the node is, so that round-off does not add up.
+      const double wanted = (value(direction, t + dt, node.position) -
+                             get_vector(displacements.data(), node.node) * direction.e) /
+                            dt;
+      change += (wanted - velocity * direction.e) * direction.e;
+    }
+    add_vector(velocities.data(), node.node, change);
+    add_vector(impulses.data(), node.node, masses[node.node] * change);
+  }
+}
+
+} // namespace billet

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/forces/external_loads.h"
+
+#include "billet/discretization/boundary_facets.h"
+
+#include <algorithm>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+std::array<unsigned int, 4> local_corners(const BoundaryFacet &facet, const LocalNodes &nodes) {
+  std::array<unsigned int, 4> corners{};
+  for (unsigned int a = 0; a < 4; ++a)
+    corners[a] = nodes.find(facet.dofs[a][0]);
+  return corners;
+}
+
+/// ∂x/∂ξ × ∂x/∂η at a Gauss point.
+template <class Position> Tensor<1, 3> area_vector_at(const FacetPoint &point, const Position &position) {
+  Tensor<1, 3> g_1, g_2;
+  for (unsigned int a = 0; a < 4; ++a) {
+    g_1 += point.N_xi[a] * position(a);
+    g_2 += point.N_eta[a] * position(a);
+  }
+  return dealii::cross_product_3d(g_1, g_2);
+}
+
+} // namespace
+
+ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses)
+    : nodes_(nodes), masses_(std::move(masses)) {
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b)
+    for (const auto &load : scene.bodies()[b].loads)
+      switch (load.kind) {
+      case Load::Kind::acceleration: {
+        Acceleration acceleration{&load, {}};
+        for (const auto &element : nodes.elements(b))
+          acceleration.nodes.insert(acceleration.nodes.end(), element.begin(), element.end());
+        auto &all = acceleration.nodes;
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        accelerations_.push_back(acceleration);
+        break;
+      }
+      case Load::Kind::pressure: {
+        Pressure pressure{&load, {}};
+        for (const auto &facet : collect_boundary_facets(nodes.discretization(), b, load.boundary_ids)) {
+          dealii::Point<3> centre;
+          for (const auto &corner : facet.corners)
+            centre += 0.25 * corner;
+          pressure.facets.push_back({local_corners(facet, nodes), centre});
+        }
+        pressures_.push_back(pressure);
+        break;
+      }
+      case Load::Kind::spring:
+      case Load::Kind::dashpot:
+        add_resistances(load, b);
+        break;
+      }
+}
+
+void ExternalLoads::add_resistances(const Load &load, const std::size_t body) {
+  for (const auto &facet : collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids)) {
+    std::array<double, 4> areas{};
+    for (const auto &point : facet_points()) {
+      const Tensor<1, 3> area =
+          area_vector_at(point, [&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); });
+      for (unsigned int a = 0; a < 4; ++a)
+        areas[a] += point.N[a] * area.norm();
+    }
+    const auto corners = local_corners(facet, nodes_);
+    for (unsigned int a = 0; a < 4; ++a) {
+      Resistance resistance{corners[a], load.direction != Load::Direction::all, load.vector, 0., 0.};
+      if (load.direction == Load::Direction::normal)
+        resistance.direction = facet.area_vector() / facet.area_vector().norm();
+      (load.kind == Load::Kind::spring ? resistance.stiffness : resistance.damping) =
+          load.coefficient * areas[a];
+      resistances_.push_back(resistance);
+    }
+  }
+}
+
+void ExternalLoads::add_forces(const double t, const NodalVectors &displacements,
+                               const NodalVectors &velocities, NodalVectors &forces) const {
+  for (const auto &acceleration : accelerations_) {
+    Tensor<1, 3> a;
+    for (unsigned int i = 0; i < 3; ++i)
+      a[i] = acceleration.load->values[i].value(t);
+    for (const unsigned int node : acceleration.nodes)
+      add_vector(forces.data(), node, masses_[node] * a);
+  }
+  for (const auto &pressure : pressures_)
+    for (const auto &facet : pressure.facets) {
+      const double p = pressure.load->values[0].value(t, facet.centre);
+      std::array<Tensor<1, 3>, 4> positions;
+      for (unsigned int a = 0; a < 4; ++a)
+        positions[a] = get_vector(nodes_.positions().data(), facet.nodes[a]) +
+                       get_vector(displacements.data(), facet.nodes[a]);
+      for (const auto &point : facet_points()) {
+        const Tensor<1, 3> area = area_vector_at(point, [&](const unsigned int a) { return positions[a]; });
+        for (unsigned int a = 0; a < 4; ++a)
+          add_vector(forces.data(), facet.nodes[a], -p * point.N[a] * area);
+      }
+    }
+  for (const auto &resistance : resistances_) {
+    Tensor<1, 3> force = -resistance.stiffness * get_vector(displacements.data(), resistance.node) -
+                         resistance.damping * get_vector(velocities.data(), resistance.node);
+    if (resistance.has_direction)
+      force = (force * resistance.direction) * resistance.direction;
+    add_vector(forces.data(), resistance.node, force);
+  }
+}
+
+void ExternalLoads::add_bounds(NodalVectors &bounds) const {
+  for (const auto &resistance : resistances_)
+    add_vector(bounds.data(), resistance.node, Tensor<1, 3>({resistance.stiffness, resistance.damping, 0.}));
+}
+
+} // namespace billet

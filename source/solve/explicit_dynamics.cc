@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/explicit_dynamics.h"
+
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <sstream>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+ExplicitFormulation make_formulation(const parameters::Scene &scene, const parameters::Body &body) {
+  using Kinematics = parameters::Material::Kinematics;
+  using Instructions = parameters::ExplicitDynamics::Instructions;
+  const auto &dynamics = scene.explicit_dynamics;
+  ExplicitFormulation formulation;
+  formulation.element = body.element.value == parameters::Body::ElementType::one_point
+                            ? ExplicitFormulation::Element::one_point
+                            : ExplicitFormulation::Element::mean_dilatation;
+  switch (body.material.kinematics.value) {
+  case Kinematics::hencky:
+    formulation.kinematics = ExplicitFormulation::Kinematics::hencky;
+    break;
+  case Kinematics::neo_hookean:
+    formulation.kinematics = ExplicitFormulation::Kinematics::neo_hookean;
+    break;
+  case Kinematics::hypoelastic:
+    formulation.kinematics = ExplicitFormulation::Kinematics::hypoelastic;
+    break;
+  }
+  formulation.linear_viscosity = dynamics.linear_viscosity;
+  formulation.quadratic_viscosity = dynamics.quadratic_viscosity;
+  formulation.hourglass_stiffness = dynamics.hourglass_stiffness;
+  switch (dynamics.instructions) {
+  case Instructions::automatic:
+    formulation.instructions = InstructionSet::automatic;
+    break;
+  case Instructions::scalar:
+    formulation.instructions = InstructionSet::scalar;
+    break;
+  case Instructions::sse2:
+    formulation.instructions = InstructionSet::sse2;
+    break;
+  case Instructions::avx2:
+    formulation.instructions = InstructionSet::avx2;
+    break;
+  case Instructions::avx512:
+    formulation.instructions = InstructionSet::avx512;
+    break;
+  }
+  return formulation;
+}
+
+double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+} // namespace
+
+ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
+    : scene_(scene), discretization_(discretization), parameters_(scene.parameters().explicit_dynamics),
+      nodes_(discretization), held_(scene, nodes_) {
+  make_blocks();
+  make_masses();
+  for (std::size_t p = 0; p < scene.pairs().size(); ++p) {
+    contacts_.emplace_back(scene, p, discretization, parameters::ContactTangent::consistent);
+    contacts_.back().bind(nodes_);
+  }
+  for (std::size_t i = 0; i < scene.tools().size(); ++i)
+    tools_.emplace_back(scene.tools()[i], scene.parameters().tools[i].motion);
+  tool_loads_.resize(tools_.size());
+  fading_forces_.resize(tools_.size());
+  u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
+  set_initial_motion();
+  state_.tool_loads.resize(tools_.size());
+  state_.placements.resize(tools_.size());
+  state_.displacements = discretization.make_ghosted_vector();
+  state_.velocities = discretization.make_ghosted_vector();
+}
+
+void ExplicitDynamics::make_blocks() {
+  fail_together(discretization_.communicator(), [&] {
+    for (std::size_t b = 0; b < scene_.bodies().size(); ++b) {
+      const Body &body = scene_.bodies()[b];
+      const auto &input = scene_.parameters().bodies[b];
+      try {
+        blocks_.push_back(
+            make_explicit_block(body.material, body.density, make_formulation(scene_.parameters(), input)));
+      } catch (const std::invalid_argument &error) {
+        throw InputError(input.origin + ": " + error.what());
+      }
+      std::size_t offender = 0;
+      if (!blocks_.back()->initialize(nodes_.elements(b), nodes_.positions().data(), offender)) {
+        std::ostringstream message;
+        message << input.origin << ": the element with its centre at ("
+                << discretization_.elements(b)[offender].cell->center()
+                << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
+        throw InputError(message.str());
+      }
+    }
+  });
+}
+
+void ExplicitDynamics::make_masses() {
+  std::vector<double> local(nodes_.size(), 0.);
+  for (const auto &block : blocks_)
+    block->add_masses(local.data());
+  loads_ = std::make_unique<ExternalLoads>(scene_, nodes_, local);
+  NodalVectors sums = nodes_.make_vectors();
+  for (unsigned int node = 0; node < nodes_.size(); ++node)
+    sums[std::size_t{nodal_stride} * node] = local[node];
+  nodes_.sum_shared(sums);
+  masses_.resize(nodes_.size());
+  for (unsigned int node = 0; node < nodes_.size(); ++node)
+    masses_[node] = sums[std::size_t{nodal_stride} * node];
+}
+
+void ExplicitDynamics::set_initial_motion() {
+  fail_together(discretization_.communicator(), [&] {
+    check_before_start([&] {
+      for (std::size_t b = 0; b < blocks_.size(); ++b)
+        for (const auto &element : nodes_.elements(b))
+          for (const unsigned int node : element) {
+            const dealii::Point<3> position(get_vector(nodes_.positions().data(), node));
+            for (unsigned int i = 0; i < 3; ++i)
+              v_[std::size_t{nodal_stride} * node + i] =
+                  scene_.bodies()[b].initial_velocity[i].value(0., position);
+          }
+    });
+  });
+  // Where planes contradict each other it shows here.
+  const Supports supports(scene_, discretization_);
+  check_before_start([&] {
+    supports.at_time(0.);
+    supports.at_time(scene_.parameters().time_stepping.end_time);
+  });
+  held_.set_displacements(0., u_);
+}
+
+void ExplicitDynamics::fail(const std::string &why) const {
+  std::ostringstream message;
+  message << scene_.parameters().file_name << ": at time " << time_ << " after " << n_steps_ << " steps "
+          << why;
+  throw SolutionFailure(message.str());
+}
+
+void ExplicitDynamics::compute_internal_forces() {
+  element_step_ = std::numeric_limits<double>::infinity();
+  hourglass_energy_ = 0.;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const auto result =
+        blocks_[b]->advance({u_.data(), v_.data(), forces_.data()}, n_steps_ == 0 ? 0. : step_);
+    if (result.inverted < blocks_[b]->size()) {
+      dealii::Point<3> centre;
+      for (const unsigned int node : nodes_.elements(b)[result.inverted])
+        centre += 0.125 * (get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node));
+      std::ostringstream why;
+      why << "an element of body '" << scene_.bodies()[b].name << "' at (" << centre
+          << ") is inside out or not a number: try a smaller 'Safety factor', more bulk viscosity, a softer "
+             "penalty or a mesh that is less distorted there";
+      fail(why.str());
+    }
+    element_step_ = std::min(element_step_, result.stable_step);
+    works_.viscous += result.viscous_work;
+    works_.hourglass += result.hourglass_work;
+    hourglass_energy_ += result.hourglass_energy;
+  }
+}
+
+void ExplicitDynamics::compute_contact_forces() {
+  std::fill(tool_loads_.begin(), tool_loads_.end(), ContactLoad());
+  for (auto &contact : contacts_) {
+    const FreeTool &tool = tools_[contact.tool()];
+    contact.start_step(tool.before(), tool.now(), n_steps_ == 0 ? 0. : step_);
+    contact.update(u_);
+    contact.add_forces(forces_, bounds_);
+    const ContactLoad load = contact.local_load();
+    tool_loads_[contact.tool()] += load;
+    works_.friction += load.dissipation;
+    contact.commit();
+  }
+}
+
+void ExplicitDynamics::remove_tools() {
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    if (!tools_[i].is_gone(time_))
+      continue;
+    if (!fading_forces_[i]) {
+      fading_forces_[i] = std::make_unique<NodalVectors>(nodes_.make_vectors());
+      NodalVectors ignored = nodes_.make_vectors();
+      for (auto &contact : contacts_)
+        if (contact.tool() == i) {
+          contact.add_forces(*fading_forces_[i], ignored);
+          contact.remove_tool();
+        }
+      works_.external -= tool_loads_[i].stored_energy; // what its penalty springs held goes with it
+    }
+    const Tool &gone = scene_.tools()[i];
+    const double left =
+        gone.release_time() > 0. ? 1. - (time_ - gone.removal_time()) / gone.release_time() : 0.;
+    if (left > 0.)
+      for (std::size_t k = 0; k < external_.size(); ++k)
+        external_[k] += left * (*fading_forces_[i])[k];
+  }
+}
+
+void ExplicitDynamics::compute_forces() {
+  forces_.fill(0.);
+  bounds_.fill(0.);
+  external_.fill(0.);
+  std::exception_ptr failure;
+  try {
+    remove_tools();
+    compute_internal_forces();
+    compute_contact_forces();
+    loads_->add_forces(time_, u_, v_, external_);
+    loads_->add_bounds(bounds_);
+  } catch (const SolutionFailure &) { // of this rank
+    failure = std::current_exception();
+    element_step_ = -1.;
+  }
+  for (std::size_t k = 0; k < forces_.size(); ++k)
+    forces_[k] += external_[k];
+  nodes_.sum_shared(forces_);
+  nodes_.sum_shared(bounds_);
+  element_step_ = dealii::Utilities::MPI::min(failure ? -1. : stable_step(), discretization_.communicator());
+  if (element_step_ < 0.)
+    fail_together(discretization_.communicator(), [&failure] {
+      if (failure)
+        std::rethrow_exception(failure);
+    });
+}
+
+double ExplicitDynamics::stable_step() const {
+  // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
+  double stiffest = 0., most_damped = 0.;
+  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+    const double *bounds = &bounds_[std::size_t{nodal_stride} * node];
+    stiffest = std::max(stiffest, bounds[0] / masses_[node]);
+    most_damped = std::max(most_damped, bounds[1] / masses_[node]);
+  }
+  const double a = 1. / (element_step_ * element_step_) + 0.25 * stiffest, b = 0.5 * most_damped;
+  return 2. / (b + std::sqrt(b * b + 4. * a));
+}
+
+void ExplicitDynamics::choose_step(const double event) {
+  const double largest = parameters_.safety_factor * element_step_;
+  // A step that may be kept is kept, though it could be a little longer: the scheme likes equal steps.
+  if (n_planned_ > 0 && step_ <= largest && step_ > 0.9 * largest) {
+    --n_planned_;
+    return;
+  }
+  event_ = event;
+  const double remaining = event - time_;
+  const double n = std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
+  step_ = remaining / n;
+  n_planned_ = static_cast<unsigned int>(std::min(n, 1e9)) - 1;
+  if (!(time_ + step_ > time_) || !(n < 1e15))
+    fail("the stable step of " + std::to_string(largest) + " is too short for the clock");
+}
+
+void ExplicitDynamics::kick() {
+  const bool is_first = n_steps_ == 0;
+  const double half_sum = is_first ? step_ : 0.5 * (step_before_ + step_);
+  v_before_ = v_;
+  // At the start v_ is v_0, and v_{−½} follows below.
+  const double weight = is_first ? 0.5 * step_ : half_sum;
+  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+    const double factor = weight / masses_[node];
+    for (unsigned int i = 0; i < 3; ++i)
+      v_[std::size_t{nodal_stride} * node + i] += factor * forces_[std::size_t{nodal_stride} * node + i];
+  }
+  supports_.fill(0.);
+  held_.constrain(time_, step_, u_, masses_, v_, supports_);
+  for (double &impulse : supports_)
+    impulse /= weight;
+  if (is_first)
+    for (std::size_t k = 0; k < v_.size(); ++k)
+      v_before_[k] = 2. * v_before_[k] - v_[k];
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const ContactLoad load = tools_[i].wants_load()
+                                 ? sum_over_ranks(tool_loads_[i], discretization_.communicator())
+                                 : ContactLoad();
+    tools_[i].kick(time_, load, step_before_, step_, is_first);
+  }
+}
+
+void ExplicitDynamics::add_works(const NodalVectors &v, const double half) {
+  const bool is_first_rank = dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0;
+  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+    const std::size_t k = std::size_t{nodal_stride} * node;
+    works_.external += half * dot(&external_[k], &v[k]);
+    if (nodes_.is_owned(node))
+      works_.external += half * dot(&supports_[k], &v[k]);
+  }
+  for (std::size_t i = 0; i < tools_.size(); ++i)
+    if (!tools_[i].is_gone(time_))
+      works_.external += tools_[i].motion_work(tool_loads_[i]) + (is_first_rank ? tools_[i].load_work() : 0.);
+}
+
+void ExplicitDynamics::prepare_step(const double event) {
+  compute_forces();
+  step_before_ = step_;
+  choose_step(event);
+  kick();
+  if (n_steps_ > 0)
+    add_works(v_before_, 0.5 * step_before_);
+}
+
+void ExplicitDynamics::finish_step() {
+  for (std::size_t k = 0; k < u_.size(); ++k)
+    u_[k] += step_ * v_[k];
+  for (auto &tool : tools_)
+    tool.move(time_, step_);
+  add_works(v_, 0.5 * step_);
+  time_ = n_planned_ == 0 ? event_ : time_ + step_;
+  ++n_steps_;
+}
+
+void ExplicitDynamics::update_state() {
+  const MPI_Comm communicator = discretization_.communicator();
+  state_.time = time_;
+  nodes_.copy(u_, state_.displacements);
+  NodalVectors v = v_;
+  for (std::size_t k = 0; k < v.size(); ++k)
+    v[k] = 0.5 * (v_[k] + v_before_[k]);
+  nodes_.copy(v, state_.velocities);
+
+  enum {
+    kinetic,
+    elastic,
+    plastic,
+    contact,
+    friction,
+    viscous,
+    hourglass,
+    external,
+    momentum,
+    angular = momentum + 3
+  };
+  std::vector<double> sums(angular + 3, 0.);
+  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+    if (!nodes_.is_owned(node))
+      continue;
+    const std::size_t k = std::size_t{nodal_stride} * node;
+    sums[kinetic] += 0.5 * masses_[node] * dot(&v_[k], &v_before_[k]);
+    const Tensor<1, 3> p = masses_[node] * get_vector(v.data(), node);
+    const Tensor<1, 3> L = dealii::cross_product_3d(
+        get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node), p);
+    for (unsigned int i = 0; i < 3; ++i) {
+      sums[momentum + i] += p[i];
+      sums[angular + i] += L[i];
+    }
+  }
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (std::size_t e = 0; e < blocks_[b]->size(); ++e) {
+      const ElementSummary summary = blocks_[b]->summarize(e, u_.data());
+      sums[elastic] += summary.elastic_energy;
+      sums[plastic] += summary.plastic_work;
+    }
+  for (const auto &load : tool_loads_)
+    sums[contact] += load.stored_energy;
+  sums[friction] = works_.friction;
+  sums[viscous] = works_.viscous;
+  sums[hourglass] = works_.hourglass + hourglass_energy_;
+  sums[external] = works_.external;
+  std::vector<double> totals(sums.size());
+  dealii::Utilities::MPI::sum(sums, communicator, totals);
+
+  EnergyLedger &energies = state_.energies;
+  energies.kinetic = totals[kinetic];
+  energies.elastic = totals[elastic];
+  energies.plastic = totals[plastic];
+  energies.contact = totals[contact];
+  energies.friction = totals[friction];
+  energies.viscous = totals[viscous];
+  energies.hourglass = totals[hourglass];
+  energies.external = totals[external];
+  for (unsigned int i = 0; i < 3; ++i) {
+    state_.momentum[i] = totals[momentum + i];
+    state_.angular_momentum[i] = totals[angular + i];
+  }
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    energies.kinetic += tools_[i].kinetic_energy();
+    state_.momentum += tools_[i].momentum();
+    state_.tool_loads[i] = sum_over_ranks(tool_loads_[i], communicator);
+    state_.placements[i] = tools_[i].now();
+  }
+  if (n_steps_ == 0)
+    energies.initial = energies.total();
+  largest_energy_ =
+      std::max({largest_energy_, energies.total(), std::abs(energies.initial + energies.external)});
+}
+
+double ExplicitDynamics::relative_drift() const {
+  return largest_energy_ > 0. ? state_.energies.drift() / largest_energy_ : 0.;
+}
+
+std::vector<ElementSummary> ExplicitDynamics::summarize(const std::size_t body) const {
+  std::vector<ElementSummary> summaries;
+  for (std::size_t e = 0; e < blocks_[body]->size(); ++e)
+    summaries.push_back(blocks_[body]->summarize(e, u_.data()));
+  return summaries;
+}
+
+std::vector<std::vector<ContactNodeReport>> ExplicitDynamics::report_contacts() const {
+  std::vector<std::vector<ContactNodeReport>> reports;
+  for (const auto &contact : contacts_)
+    reports.push_back(contact.report());
+  return reports;
+}
+
+std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
+  std::array<std::size_t, 2> sizes{};
+  for (const auto &block : blocks_)
+    sizes[0] += block->size() * block->history_size();
+  for (const auto &contact : contacts_)
+    sizes[1] += contact.history_size();
+  for (auto &size : sizes)
+    size = dealii::Utilities::MPI::sum(size, discretization_.communicator());
+  return sizes;
+}
+
+std::string ExplicitDynamics::method() const { return "central differences"; }
+
+} // namespace billet

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/free_tool.h"
+
+namespace billet {
+
+FreeTool::FreeTool(const Tool &tool, const parameters::Motion &motion)
+    : tool_(tool), inertia_(motion.inertia), rate_(motion.initial_rate), rate_before_(rate_),
+      before_(tool.placement(0.)), now_(before_) {}
+
+double FreeTool::resistance(const ContactLoad &load) const {
+  return tool_.control() == Tool::Control::moment ? load.moment * tool_.rotation_axis()
+                                                  : load.force * tool_.force_direction();
+}
+
+void FreeTool::kick(const double t, const ContactLoad &load, const double step_before, const double step,
+                    const bool is_first) {
+  if (tool_.control() == Tool::Control::stop)
+    has_stopped_ = has_stopped_ || resistance(load) >= tool_.load(t);
+  if (!is_free())
+    return;
+  load_ = tool_.load(t);
+  const double acceleration = (load_ - resistance(load)) / inertia_;
+  rate_before_ = is_first ? rate_ - 0.5 * step * acceleration : rate_;
+  rate_ = rate_before_ + 0.5 * (is_first ? 2. * step : step_before + step) * acceleration;
+}
+
+void FreeTool::move(const double t, const double dt) {
+  before_ = now_;
+  offset_before_ = offset_;
+  if (has_stopped_)
+    return;
+  if (is_free())
+    offset_ += dt * rate_;
+  now_ = tool_.placement(t + dt, offset_);
+}
+
+dealii::Tensor<1, 3> FreeTool::momentum() const {
+  return tool_.control() == Tool::Control::force
+             ? 0.5 * inertia_ * (rate_before_ + rate_) * tool_.force_direction()
+             : dealii::Tensor<1, 3>();
+}
+
+double FreeTool::motion_work(const ContactLoad &local) const {
+  // The offset's share is work between tool and bodies, of which the tool's kinetic energy keeps account.
+  const double turn = now_.rotation_angle - before_.rotation_angle;
+  double work =
+      local.force * (now_.translation - before_.translation) + local.moment * tool_.rotation_axis() * turn;
+  if (is_free())
+    work -= resistance(local) * (offset_ - offset_before_);
+  return 0.5 * work;
+}
+
+} // namespace billet
