@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_EXPLICIT_ONE_POINT_H
+#define BILLET_MECHANICS_EXPLICIT_ONE_POINT_H
+
+#include "billet/mechanics/explicit/brick.h"
+
+// The one-point brick: stored energy V ψ(F̄) of the mean deformation gradient F̄ = (1/V) ∫ F dV, plus that of
+// the deformation which F̄ does not see, ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄ (a_1, a_2, a_3)_0: zero
+// in linear fields, unchanged by rotations. doc/theory.md has the derivation.
+
+namespace billet::explicit_kernels {
+namespace {
+
+/// Places of an element's numbers.
+namespace one_point {
+constexpr unsigned int volume = 0, inverse_det = 1, mean_bound = 2, hourglass_bound = 3;
+constexpr unsigned int beta = 4;    ///< J̄_k = Σ_m m β_mk over the modes a and b: 3 m + k
+constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
+// History: v and Ω of the last call, ĥ_0, then the point's.
+constexpr unsigned int hourglass = 2, point = 14;
+} // namespace one_point
+
+/// Stress-like numbers of the hourglass strains `h` (of b_1, b_2, b_3, c, in the element's own directions),
+/// per volume, and the energy per volume.
+struct HourglassModuli {
+  double plane, coupling; ///< E/(1 − ν²)/3, and ν times that
+  double shear, axial;    ///< G/3, E/9
+  double bending_bound;   ///< E/(1 − ν)/3
+
+  explicit HourglassModuli(const Material &material) {
+    const double K = material.bulk, G = material.shear;
+    const double E = 9. * K * G / (3. * K + G), nu = (3. * K - 2. * G) / (6. * K + 2. * G);
+    plane = E / (1. - nu * nu) / 3.;
+    coupling = nu * plane;
+    shear = G / 3.;
+    axial = E / 9.;
+    bending_bound = E / (1. - nu) / 3.;
+  }
+
+  /// Bending stretches two edges linearly along the third direction; torsion shears linearly.
+  BILLET_INLINE Real respond(const Real h[4][3], const Real ratio[6], Real s[4][3]) const {
+    for (unsigned int i = 0; i < 3; ++i) {
+      const unsigned int j = (i + 1) % 3, k = (i + 2) % 3; // linear along i: h_k has (i, j), h_j has (i, k)
+      s[k][j] = plane * h[k][j] + coupling * h[j][k];
+      s[j][k] = plane * h[j][k] + coupling * h[k][j];
+      s[3][i] = axial * h[3][i];
+    }
+    const Real g12 = shear * (h[0][0] * ratio[0] + h[1][1] * ratio[2]),
+               g13 = shear * (h[0][0] * ratio[1] + h[2][2] * ratio[4]),
+               g23 = shear * (h[1][1] * ratio[3] + h[2][2] * ratio[5]);
+    s[0][0] = g12 * ratio[0] + g13 * ratio[1];
+    s[1][1] = g12 * ratio[2] + g23 * ratio[3];
+    s[2][2] = g13 * ratio[4] + g23 * ratio[5];
+    Real energy{};
+    for (unsigned int m = 0; m < 4; ++m)
+      energy += 0.5 * dot(h[m], s[m]);
+    return energy;
+  }
+
+  /// Largest stiffness of y in h = J̄⁻¹ y per volume, from `metric` = J̄⁻¹ J̄⁻ᵀ and a bound of its eigenvalues.
+  BILLET_INLINE Real bound(const Real metric[6], const Real eigenvalue, const Real ratio[6]) const {
+    const Real m0 = metric[0], m1 = metric[1], m2 = metric[2];
+    const Real o0 = m0 * ratio[0] * ratio[1], o1 = m1 * ratio[2] * ratio[3], o2 = m2 * ratio[4] * ratio[5];
+    const Real g12 = m0 * ratio[0] * ratio[0] + m1 * ratio[2] * ratio[2],
+               g13 = m0 * ratio[1] * ratio[1] + m2 * ratio[4] * ratio[4],
+               g23 = m1 * ratio[3] * ratio[3] + m2 * ratio[5] * ratio[5];
+    return bending_bound * eigenvalue + shear * max(max(g12 + o0 + o1, g13 + o0 + o2), g23 + o1 + o2);
+  }
+};
+
+/// Columns of J̄.
+BILLET_INLINE void compute_mean(const Modes &modes, const double *constants, Real columns[3][3]) {
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i) {
+      Real sum{};
+      for (unsigned int m = 0; m < 6; ++m)
+        sum += modes.m[m][i] * load(constants + (one_point::beta + 3 * m + k) * n_lanes);
+      columns[k][i] = sum;
+    }
+}
+
+struct HourglassResult {
+  Real energy, work, bound;
+};
+
+/// Forces of modes b and c, and those of J̄'s columns added to `mean_forces`. In plasticity the stored energy
+/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0.
+template <bool is_plastic>
+BILLET_INLINE HourglassResult add_hourglass(const Material &material, const Modes &x, const Map &map,
+                                            const Real metric[6], const Real eigenvalue,
+                                            const double *constants, double *history, const Real yield_stress,
+                                            Modes &forces, Real mean_forces[3][3]) {
+  const HourglassModuli moduli(material);
+  const Real volume = load(constants + one_point::volume * n_lanes);
+  Real c[4][3], h[4][3], s[4][3], ratio[6];
+  for (unsigned int k = 0; k < 6; ++k)
+    ratio[k] = load(constants + (one_point::ratios + k) * n_lanes);
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k) {
+      c[m][k] = map.inverse_det * dot(map.cofactor[k], x.m[3 + m]);
+      h[m][k] = c[m][k] - load(history + (one_point::hourglass + 3 * m + k) * n_lanes);
+    }
+  Real density = moduli.respond(h, ratio, s);
+  HourglassResult result;
+  Real factor = material.hourglass_stiffness * volume;
+  result.work = Real{};
+  if constexpr (is_plastic) {
+    const Real limit = yield_stress * yield_stress * (1. / (6. * material.shear));
+    if (any(density > limit)) {
+      const Real share = limit / max(density, limit);
+      const Real root = square_root(share);
+      result.work = factor * density * (1. - share);
+      density *= share;
+      for (unsigned int m = 0; m < 4; ++m)
+        for (unsigned int k = 0; k < 3; ++k) {
+          h[m][k] *= root;
+          s[m][k] *= root;
+          store(history + (one_point::hourglass + 3 * m + k) * n_lanes, c[m][k] - h[m][k]);
+        }
+    }
+  }
+  result.energy = factor * density;
+
+  factor *= map.inverse_det;
+  Real c2{}, h2{};
+  for (unsigned int m = 0; m < 4; ++m) {
+    c2 += dot(c[m], c[m]);
+    h2 += dot(h[m], h[m]);
+    for (unsigned int i = 0; i < 3; ++i) {
+      const Real t = factor * (map.cofactor[0][i] * s[m][0] + map.cofactor[1][i] * s[m][1] +
+                               map.cofactor[2][i] * s[m][2]);
+      forces.m[3 + m][i] += t;
+      for (unsigned int k = 0; k < 3; ++k)
+        mean_forces[k][i] -= t * c[m][k];
+    }
+  }
+  result.bound = material.hourglass_stiffness * volume * moduli.bound(metric, eigenvalue, ratio) *
+                 (1. + c2 + square_root(h2) * (2. + c2)) *
+                 load(constants + one_point::hourglass_bound * n_lanes);
+  return result;
+}
+
+template <class Law, bool is_plastic>
+BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &functions, const Modes &delta,
+                               const double *constants, const Real J, const Map &map, double *history,
+                               Real dev_tau[6], Watch &watch) {
+  if constexpr (is_rate_form<Law>) {
+    Real d[3][3];
+    compute_mean(delta, constants, d);
+    Map middle;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+        middle.j[k][i] = map.j[k][i] - 0.5 * d[k][i];
+    middle.complete();
+    watch.failed |= !(middle.det > 0.);
+    Law::template update<is_plastic>(material, functions, middle, d, history, dev_tau, watch);
+  } else
+    Law::template update<is_plastic>(material, functions, map, J, history, dev_tau, watch);
+}
+
+template <class Law, bool is_plastic>
+BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Material &material,
+                                           const LaneFunctions &functions, const Step &step,
+                                           const std::size_t batch, Totals &totals, Result &result) {
+  const Layout &layout = elements.layout;
+  const std::uint32_t *nodes = elements.nodes + batch * 8 * n_lanes;
+  const double *constants = elements.constants + batch * layout.n_constants * n_lanes;
+  double *history = elements.history + batch * layout.n_history * n_lanes;
+
+  Modes x, delta;
+  gather_modes<true>(elements.reference_positions, step.displacements, nodes, x);
+  if constexpr (is_rate_form<Law>)
+    gather_increment(step, nodes, delta);
+  Map map;
+  compute_mean(x, constants, map.j);
+  map.complete();
+  const Real J = map.det * load(constants + one_point::inverse_det * n_lanes);
+  const Real reference_volume = load(constants + one_point::volume * n_lanes);
+  Real stress[6], metric[6];
+  Watch watch;
+  double *point_history = history + one_point::point * n_lanes;
+  update_mean<Law, is_plastic>(material, functions, delta, constants, J, map, point_history, stress, watch);
+  map.compute_metric(metric);
+  for (Real &component : metric)
+    component *= map.inverse_det * map.inverse_det;
+  const Real eigenvalue = bound_eigenvalue(metric);
+  const Real omega = reference_volume * eigenvalue * load(constants + one_point::mean_bound * n_lanes);
+
+  const Real mean_tau = material.bulk * logarithm(J);
+  const Real volume = reference_volume * J;
+  const Damping damping =
+      compute_viscosity(material, volume, load(history), load(history + n_lanes), step.inverse_dt);
+  store(history, volume);
+  store(history + n_lanes, omega);
+  const Real factor = reference_volume * map.inverse_det, pressure = mean_tau + J * damping.pressure;
+  for (unsigned int k = 0; k < 6; ++k)
+    stress[k] = factor * (stress[k] + (k < 3 ? pressure : Real{}));
+  Real mean_forces[3][3];
+  for (unsigned int k = 0; k < 3; ++k)
+    multiply(stress, map.cofactor[k], mean_forces[k]);
+
+  Modes forces{};
+  Real yield_stress{};
+  if constexpr (is_plastic)
+    yield_stress = material.hardening == nullptr
+                       ? material.yield_stress +
+                             material.hardening_modulus * load(point_history + Law::n_tensor * n_lanes)
+                       : load(point_history + (Law::n_tensor + 1) * n_lanes);
+  const HourglassResult hourglass = add_hourglass<is_plastic>(material, x, map, metric, eigenvalue, constants,
+                                                              history, yield_stress, forces, mean_forces);
+  for (unsigned int m = 0; m < 6; ++m)
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        forces.m[m][i] += mean_forces[k][i] * load(constants + (one_point::beta + 3 * m + k) * n_lanes);
+  const std::size_t first = batch * n_lanes;
+  const unsigned int n = elements.n_elements - first < n_lanes
+                             ? static_cast<unsigned int>(elements.n_elements - first)
+                             : n_lanes;
+  scatter_modes(forces, nodes, n, step.forces);
+
+  const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
+  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), damping.work,
+             hourglass.energy, hourglass.work);
+  const Mask bad = watch.failed | !(map.det > 0. && map.det < 1e300);
+  if (__builtin_expect(any(bad), 0))
+    note_failure(bad, first, result);
+}
+
+template <class Law, bool is_plastic>
+void advance_one_point(const Elements &elements, const Material &material, const LaneFunctions &functions,
+                       const Step &step, Result &result) {
+  const std::size_t n_batches = (elements.n_elements + n_lanes - 1) / n_lanes;
+  Totals totals;
+  result.inverted = elements.n_elements;
+  for (std::size_t batch = 0; batch < n_batches; ++batch) {
+    prefetch(elements, step, batch + 2, n_batches, is_rate_form<Law>);
+    advance_one_point_batch<Law, is_plastic>(elements, material, functions, step, batch, totals, result);
+  }
+  totals.finish(result);
+}
+
+} // namespace
+} // namespace billet::explicit_kernels
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_EXPLICIT_BLOCK_H
+#define BILLET_MECHANICS_EXPLICIT_BLOCK_H
+
+#include "billet/mechanics/element_block.h"
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace billet {
+
+/// What a kernel is compiled for: 1, 2, 4 or 8 elements at once. `automatic` is the widest that the processor
+/// knows.
+enum class InstructionSet { automatic, scalar, sse2, avx2, avx512 };
+
+/// The widest instruction set that was compiled and that this processor has.
+InstructionSet best_instruction_set();
+
+/// Whether it was compiled and this processor has it.
+bool is_available(InstructionSet instructions);
+
+/// How the elements of a body are computed in explicit dynamics.
+struct ExplicitFormulation {
+  enum class Element {
+    mean_dilatation, ///< 2 × 2 × 2 points, the element of MeanDilatationKinematics
+    one_point        ///< uniform gradient with physical stabilisation, see doc/theory.md
+  };
+  /// All share the volumetric law κ ln J (Kirchhoff) and the yield condition in Kirchhoff stress.
+  enum class Kinematics {
+    hencky,      ///< F = F_e F_p, stress linear in the elastic logarithmic strain: HenckyPlasticity
+    neo_hookean, ///< F = F_e F_p, dev τ = G dev b̄_e (Simo & Hughes 1998, box 9.1, with det b̄_e = 1 kept)
+    hypoelastic  ///< rate form: midpoint strain increments, rotation of Hughes & Winget (1980)
+  };
+
+  Element element = Element::mean_dilatation;
+  Kinematics kinematics = Kinematics::hencky;
+  double linear_viscosity = 0.06;   ///< c_1 of the bulk viscosity ρ L (c_1 c |d| + c_2² L d²); ≥ 0
+  double quadratic_viscosity = 1.2; ///< c_2 of it, acts in compression only; ≥ 0
+  double hourglass_stiffness = 1.;  ///< factor on the one-point element's physical stabilisation; > 0
+  InstructionSet instructions = InstructionSet::automatic;
+};
+
+/// All elements of one body on one rank, for central differences. An explicit step is never taken back:
+/// history advances in place, one beat only. Internally elements stand in batches as wide as the instruction
+/// set; sums over the nodes are made in the order of the elements.
+class ExplicitBlock {
+public:
+  virtual ~ExplicitBlock() = default;
+
+  /// `elements` holds local node indices in lexicographic order (ξ fastest), `reference_positions` three
+  /// coordinates of each node at stride 4 [length]. False, with the index of the first offender, if an
+  /// element is degenerate or inverted.
+  virtual bool initialize(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
+                          const double *reference_positions, std::size_t &offender) = 0;
+
+  virtual std::size_t size() const = 0;
+
+  /// Nodal vectors, x, y, z and an unused number for each node, 32-byte aligned.
+  struct Nodes {
+    const double *displacements; ///< [length]
+    const double *velocities;    ///< mean of the step: (displacements − those of the last call)/dt
+    double *forces;              ///< [force]
+  };
+
+  struct StepResult {
+    double stable_step;      ///< safe for every element, viscosity counted [time]
+    double viscous_work;     ///< dissipated by bulk viscosity in this step, ≥ 0 [energy]
+    double hourglass_energy; ///< stored by the stabilisation now [energy]
+    double hourglass_work;   ///< dissipated by the stabilisation in this step, ≥ 0 [energy]
+    std::size_t inverted;    ///< an element with det F ≤ 0 or not finite, or size()
+  };
+
+  /// Subtracts internal and viscous forces at these displacements from `forces` and advances the history by
+  /// dt, the time since the last call (0 in the first). After an inverted element was found forces and
+  /// history are of no more use.
+  virtual StepResult advance(const Nodes &nodes, double dt) = 0;
+
+  /// Adds the lumped masses ρ ∫ N_a, all positive, one number for each node.
+  virtual void add_masses(double *masses) const = 0;
+
+  /// At the displacements of the last call.
+  virtual ElementSummary summarize(std::size_t element, const double *displacements) const = 0;
+
+  /// Doubles of history kept per element.
+  virtual std::size_t history_size() const = 0;
+};
+
+/// `density` is per reference volume. Throws std::invalid_argument, with the reason, for an instruction set
+/// that is not available and for numbers out of range. Every element goes with every kinematics.
+std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, double density,
+                                                   const ExplicitFormulation &formulation);
+
+} // namespace billet
+
+#endif

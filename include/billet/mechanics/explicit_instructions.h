@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_EXPLICIT_INSTRUCTIONS_H
+#define BILLET_MECHANICS_EXPLICIT_INSTRUCTIONS_H
+
+#include "billet/mechanics/explicit/kernel.h"
+#include "billet/mechanics/explicit_block.h"
+
+#include <stdexcept>
+
+namespace billet {
+
+/// Throws std::invalid_argument if they were not compiled or this processor cannot run them.
+const explicit_kernels::KernelTable &find_kernels(InstructionSet instructions);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/explicit_block.h"
+
+#include "billet/material/plastic.h"
+#include "billet/mechanics/explicit_instructions.h"
+#include "billet/mechanics/explicit_storage.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <type_traits>
+
+namespace billet {
+
+namespace {
+
+using Element = ExplicitFormulation::Element;
+using Kinematics = ExplicitFormulation::Kinematics;
+
+/// Elasticity, as a hardening law that is never asked.
+struct NoHardening {
+  static double stress(const double) { return 0.; }
+  static double work(const double) { return 0.; }
+};
+
+template <class Hardening>
+double harden(const void *hardening, const double q, const double m, const double alpha,
+              double &yield_stress) {
+  const auto &law = *static_cast<const Hardening *>(hardening);
+  const double delta = solve_consistency(law, q, m, alpha);
+  yield_stress = law.stress(alpha + delta);
+  return delta;
+}
+
+bool compute_logarithm(const double *b, double *deviator, double &mean) {
+  PrincipalElasticState state;
+  dealii::SymmetricTensor<2, 3> tensor;
+  for (unsigned int k = 0; k < 6; ++k)
+    tensor[symmetric_pairs[k][0]][symmetric_pairs[k][1]] = b[k];
+  if (!compute_principal_state(tensor, state))
+    return false;
+  for (unsigned int k = 0; k < 6; ++k) {
+    deviator[k] = 0.;
+    for (unsigned int a = 0; a < 3; ++a)
+      deviator[k] += 2. * state.deviatoric_log_strains[a] * state.directions[a][symmetric_pairs[k][0]] *
+                     state.directions[a][symmetric_pairs[k][1]];
+  }
+  mean = 2. * state.volumetric_log_strain / 3.;
+  return true;
+}
+
+template <class Hardening> class Block final : public ExplicitBlock {
+public:
+  static constexpr bool has_plasticity = !std::is_same_v<Hardening, NoHardening>;
+  static constexpr bool is_linear = std::is_same_v<Hardening, LinearHardening>;
+
+  Block(const ElasticModuli &elastic, Hardening hardening, const double density,
+        const ExplicitFormulation &formulation)
+      : formulation_(formulation), hardening_(std::move(hardening)),
+        storage_(find_kernels(formulation.instructions).n_lanes, formulation, has_plasticity,
+                 has_plasticity && !is_linear),
+        kernel_(find_kernels(formulation.instructions)
+                    .kernels[formulation.element == Element::one_point ? 1 : 0]
+                            [static_cast<unsigned int>(formulation.kinematics)][has_plasticity ? 1 : 0]) {
+    material_ = {};
+    material_.bulk = elastic.bulk;
+    material_.shear = elastic.shear;
+    material_.density = density;
+    material_.wave_speed = std::sqrt((elastic.bulk + 4. / 3. * elastic.shear) / density);
+    material_.linear_viscosity = formulation.linear_viscosity;
+    material_.quadratic_viscosity = formulation.quadratic_viscosity;
+    material_.hourglass_stiffness = formulation.hourglass_stiffness;
+    if constexpr (is_linear) {
+      material_.yield_stress = hardening_.yield_stress;
+      material_.hardening_modulus = hardening_.modulus;
+    } else if constexpr (has_plasticity) {
+      material_.hardening = &hardening_;
+      functions_.harden = &harden<Hardening>;
+    }
+    functions_.logarithm = &compute_logarithm;
+  }
+
+  bool initialize(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
+                  const double *reference_positions, std::size_t &offender) override {
+    return storage_.initialize(elements, reference_positions, material_, hardening_.stress(0.), offender);
+  }
+
+  std::size_t size() const override { return storage_.size(); }
+  std::size_t history_size() const override { return storage_.layout().n_history; }
+
+  StepResult advance(const Nodes &nodes, const double dt) override {
+    explicit_kernels::Result result{};
+    const explicit_kernels::Step step{nodes.displacements, nodes.velocities, nodes.forces,
+                                      dt > 0. ? 1. / dt : 0., dt};
+    kernel_(storage_.elements(), material_, functions_, step, result);
+    return {1. / result.largest_rate, result.viscous_work, result.hourglass_energy, result.hourglass_work,
+            result.inverted};
+  }
+
+  void add_masses(double *masses) const override { storage_.add_masses(material_.density, masses); }
+
+  ElementSummary summarize(const std::size_t element, const double *displacements) const override {
+    ElementSummary summary;
+    double reference_volume = 0., current_volume = 0.;
+    for (const PointState &point : storage_.compute_states(element, displacements)) {
+      const double w = point.reference_volume;
+      const double mean_tau = material_.bulk * std::log(point.volume_ratio);
+      dealii::SymmetricTensor<2, 3> tau = point.tensor;
+      double energy = 0.5 * mean_tau * std::log(point.volume_ratio);
+      if (formulation_.kinematics == Kinematics::hypoelastic)
+        energy += tau * tau / (4. * material_.shear);
+      else if (formulation_.kinematics == Kinematics::neo_hookean) {
+        const double scale = 1. / std::cbrt(dealii::determinant(tau)); // det b̄_e = 1
+        energy += 0.5 * material_.shear * (scale * dealii::trace(tau) - 3.);
+        tau = material_.shear * scale * dealii::deviator(tau);
+      } else {
+        std::array<double, 6> b{}, log_b{};
+        double mean = 0.;
+        for (unsigned int k = 0; k < 6; ++k)
+          b[k] = tau[symmetric_pairs[k][0]][symmetric_pairs[k][1]];
+        compute_logarithm(b.data(), log_b.data(), mean);
+        for (unsigned int k = 0; k < 6; ++k)
+          tau[symmetric_pairs[k][0]][symmetric_pairs[k][1]] = material_.shear * log_b[k];
+        energy += tau * tau / (4. * material_.shear);
+      }
+      summary.cauchy_stress += w * (tau + mean_tau * dealii::unit_symmetric_tensor<3>());
+      summary.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
+      summary.elastic_energy += w * energy;
+      summary.plastic_work += w * hardening_.work(point.equivalent_plastic_strain);
+      reference_volume += w;
+      current_volume += w * point.volume_ratio;
+    }
+    if (reference_volume > 0.) {
+      summary.cauchy_stress /= current_volume;
+      summary.equivalent_plastic_strain /= reference_volume;
+    }
+    return summary;
+  }
+
+private:
+  ExplicitFormulation formulation_;
+  Hardening hardening_;
+  explicit_kernels::Material material_;
+  explicit_kernels::LaneFunctions functions_{};
+  ExplicitStorage storage_;
+  explicit_kernels::Kernel kernel_;
+};
+
+void require(const bool holds, const char *reason) {
+  if (!holds)
+    throw std::invalid_argument(reason);
+}
+
+} // namespace
+
+std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, const double density,
+                                                   const ExplicitFormulation &formulation) {
+  require(material.elastic.bulk > 0. && material.elastic.shear > 0., "elastic moduli must be positive");
+  require(density > 0., "the density must be positive");
+  require(formulation.linear_viscosity >= 0. && formulation.quadratic_viscosity >= 0.,
+          "bulk viscosity must not be negative");
+  require(formulation.element != Element::one_point || formulation.hourglass_stiffness > 0.,
+          "a one-point element without hourglass stiffness is a mechanism");
+  return std::visit(
+      [&](const auto &hardening) -> std::unique_ptr<ExplicitBlock> {
+        using Hardening = std::decay_t<decltype(hardening)>;
+        if constexpr (std::is_same_v<Hardening, std::monostate>)
+          return std::make_unique<Block<NoHardening>>(material.elastic, NoHardening{}, density, formulation);
+        else
+          return std::make_unique<Block<Hardening>>(material.elastic, hardening, density, formulation);
+      },
+      material.hardening);
+}
+
+} // namespace billet
