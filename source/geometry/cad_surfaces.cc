@@ -312,7 +312,7 @@ SurfacePatches make(const SurfaceInput &input) {
       sewing.Perform();
       shape = sewing.SewedShape();
     }
-    BRepMesh_IncrementalMesh(shape, chord_deviation * size_of(shape), false, chord_angle);
+    const BRepMesh_IncrementalMesh facets(shape, chord_deviation * size_of(shape), false, chord_angle);
     const double accuracy = border_accuracy(shape);
     const TopTools_IndexedMapOfShape faces = faces_of(shape);
     for (int i = 1; i <= faces.Extent(); ++i)
