@@ -61,6 +61,13 @@ public:
     return low + (high - low) * static_cast<double>(engine_()) / 4294967296.;
   }
 
+  dealii::Tensor<1, 3> vector(const double size) {
+    dealii::Tensor<1, 3> result;
+    for (unsigned int i = 0; i < 3; ++i)
+      result[i] = (*this)(-size, size);
+    return result;
+  }
+
   dealii::Tensor<2, 3> tensor(const double size) {
     dealii::Tensor<2, 3> result;
     for (unsigned int i = 0; i < 3; ++i)
@@ -72,8 +79,7 @@ public:
   dealii::Tensor<2, 3> rotation() {
     dealii::Tensor<1, 3> axis;
     do
-      for (unsigned int i = 0; i < 3; ++i)
-        axis[i] = (*this)(-1., 1.);
+      axis = vector(1.);
     while (!(axis.norm() > 0.1 && axis.norm() < 1.));
     return dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
         dealii::Tensor<1, 3>(axis / axis.norm()), (*this)(0., 2. * M_PI));

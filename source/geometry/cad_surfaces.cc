@@ -49,7 +49,6 @@ namespace billet {
 namespace {
 
 using Kind = SurfaceParameter::Kind;
-using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
 
 #ifdef DEAL_II_WITH_OPENCASCADE
 
@@ -297,11 +296,11 @@ double border_accuracy(const TopoDS_Shape &shape) {
   return accuracy;
 }
 
-Patches make(const SurfaceInput &input) {
+SurfacePatches make(const SurfaceInput &input) {
   const double scale = input.positive("Scale");
   const auto translation = input.vector("Translation");
   TopoDS_Shape shape = choose_faces(input, read_shape(input));
-  Patches patches;
+  SurfacePatches patches;
   try {
     gp_Trsf placement;
     placement.SetScale(gp_Pnt(), scale);
@@ -313,7 +312,7 @@ Patches make(const SurfaceInput &input) {
       sewing.Perform();
       shape = sewing.SewedShape();
     }
-    BRepMesh_IncrementalMesh(shape, chord_deviation * size_of(shape), false, chord_angle);
+    const BRepMesh_IncrementalMesh facets(shape, chord_deviation * size_of(shape), false, chord_angle);
     const double accuracy = border_accuracy(shape);
     const TopTools_IndexedMapOfShape faces = faces_of(shape);
     for (int i = 1; i <= faces.Extent(); ++i)
@@ -327,7 +326,7 @@ Patches make(const SurfaceInput &input) {
 
 #else
 
-Patches make(const SurfaceInput &input) {
+SurfacePatches make(const SurfaceInput &input) {
   input.reject("Shape", "another shape: the deal.II that this program is built with has no OpenCASCADE");
   return {};
 }

@@ -14,7 +14,6 @@ namespace billet {
 namespace {
 
 using Kind = SurfaceParameter::Kind;
-using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
 using Sketch = std::array<CurveSketch, 4>;
 
 const std::string curves_meaning =
@@ -79,8 +78,8 @@ void check_sides(std::vector<Side> sides) {
             print(sides[i].end) + ": their normals oppose each other");
 }
 
-Patches read_patches(std::istream &stream, const std::string &name) {
-  Patches patches;
+SurfacePatches read_patches(std::istream &stream, const std::string &name) {
+  SurfacePatches patches;
   std::vector<Side> sides;
   std::string line;
   for (unsigned int number = 1; std::getline(stream, line); ++number) {
@@ -112,13 +111,12 @@ SurfaceType coons_patch_type() {
           "The surface that four curves span, bilinearly blended.",
           {{"Curves", "", Kind::text, "The " + curves_meaning}},
           [](const SurfaceInput &input) {
-            Patches patches;
             try {
-              patches.push_back(std::make_unique<CoonsPatch>(read_curves(input.parts("Curves"))));
+              return single_patch<CoonsPatch>(read_curves(input.parts("Curves")));
             } catch (const std::invalid_argument &error) {
               input.reject("Curves", std::string("a Coons patch; ") + error.what());
+              throw;
             }
-            return patches;
           }};
 }
 
@@ -132,13 +130,12 @@ SurfaceType coons_patches_type() {
           [](const SurfaceInput &input) {
             const std::string name = input.file("File");
             std::ifstream stream(name);
-            Patches patches;
             try {
-              patches = read_patches(stream, name);
+              return read_patches(stream, name);
             } catch (const std::invalid_argument &error) {
               input.reject("File", std::string("a file of Coons patches; ") + error.what());
+              throw;
             }
-            return patches;
           }};
 }
 

@@ -66,7 +66,7 @@ CurvedTriangle::Iterate CurvedTriangle::start_below(const Point &x) const {
   return at(x, u, v, edges);
 }
 
-CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) const {
+CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) {
   const Matrix g = metric(here.point), b = bending(here.arm, here.point);
   const Matrix newton{g.uu - b.uu, g.uv - b.uv, g.vv - b.vv};
   const double slope_u = -(here.arm * here.point.p_u), slope_v = -(here.arm * here.point.p_v);

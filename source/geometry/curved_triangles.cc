@@ -212,9 +212,8 @@ CurvedTriangle::Seam CurvedTriangles::seam_at(const unsigned int facet, const un
   return {static_cast<float>(0.5 * (a + b)), static_cast<float>(b - a)};
 }
 
-std::vector<std::unique_ptr<const SurfacePatch>>
-CurvedTriangles::patches(const std::shared_ptr<const CurvedTriangles> &triangles) {
-  std::vector<std::unique_ptr<const SurfacePatch>> result;
+SurfacePatches CurvedTriangles::patches(const std::shared_ptr<const CurvedTriangles> &triangles) {
+  SurfacePatches result;
   for (unsigned int f = 0; f < triangles->mesh_.facets.size(); ++f)
     if (triangles->facets_.areas[f] > 0.)
       result.push_back(std::make_unique<TrianglePatch>(triangles, f));

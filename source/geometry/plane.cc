@@ -37,10 +37,10 @@ namespace {
 const SurfaceParameter normal_parameter{"Normal", "0, 0, 1", Kind::text,
                                         "Normal out of the tool, towards the bodies."};
 
-/// Borders as lines from a to b in the plane of the axes' x (towards b) and y, the normal.
-Profile flat_profile(const double from, const double to) {
+/// A line along x, y being the normal; closed where it begins on the axis that it is revolved about.
+Profile flat_profile(const double from, const double to, const bool is_closed = false) {
   return Profile({Profile::Segment::line(Profile::Point({from, 0.}), Profile::Point({to, 0.}))},
-                 Profile::Outside::left);
+                 Profile::Outside::left, is_closed);
 }
 
 } // namespace
@@ -50,9 +50,7 @@ SurfaceType plane_type() {
           "An infinite plane.",
           {{"Point", "0, 0, 0", Kind::text, "A point of the plane. [length]"}, normal_parameter},
           [](const SurfaceInput &input) {
-            std::vector<std::unique_ptr<const SurfacePatch>> patches;
-            patches.push_back(std::make_unique<Plane>(input.vector("Point"), input.direction("Normal")));
-            return patches;
+            return single_patch<Plane>(input.vector("Point"), input.direction("Normal"));
           }};
 }
 
@@ -74,10 +72,8 @@ SurfaceType rectangle_type() {
             Axes axes(input.vector("Centre"), normal, direction);
             axes.y = normal;
             axes.z = dealii::cross_product_3d(axes.x, axes.y);
-            std::vector<std::unique_ptr<const SurfacePatch>> patches;
-            patches.push_back(std::make_unique<ExtrudedProfile>(flat_profile(-0.5 * length, 0.5 * length),
-                                                                axes, -0.5 * width, 0.5 * width));
-            return patches;
+            return single_patch<ExtrudedProfile>(flat_profile(-0.5 * length, 0.5 * length), axes,
+                                                 -0.5 * width, 0.5 * width);
           }};
 }
 
@@ -92,13 +88,8 @@ SurfaceType disc_type() {
             const double radius = input.positive("Radius"), inner = input.not_negative("Inner radius");
             if (inner >= radius)
               input.reject("Inner radius", "a number below the radius");
-            const Profile profile(
-                {Profile::Segment::line(Profile::Point({inner, 0.}), Profile::Point({radius, 0.}))},
-                Profile::Outside::left, inner == 0.);
-            std::vector<std::unique_ptr<const SurfacePatch>> patches;
-            patches.push_back(std::make_unique<RevolvedProfile>(
-                profile, Axes(input.vector("Centre"), input.direction("Normal"))));
-            return patches;
+            return single_patch<RevolvedProfile>(flat_profile(inner, radius, inner == 0.),
+                                                 Axes(input.vector("Centre"), input.direction("Normal")));
           }};
 }
 

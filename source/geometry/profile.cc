@@ -106,7 +106,7 @@ bool Segment::contains(const Point &point, const double slack) const {
 Profile::Profile(std::vector<Segment> segments, const Outside outside, const bool closed_start,
                  const bool closed_end)
     : segments_(std::move(segments)), side_(outside == Outside::left ? 1. : -1.), closed_start_(closed_start),
-      closed_end_(closed_end), is_loop_(false), size_(0.) {
+      closed_end_(closed_end) {
   for (const auto &segment : segments_) {
     size_ = std::max({size_, (segment.end - segment.start).norm(), segment.radius});
     size_ = std::max(size_, (segment.end - segments_.front().start).norm());

@@ -13,11 +13,11 @@ namespace {
 
 using Kind = SurfaceParameter::Kind;
 using Point = Profile::Point;
-using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
 
-const std::string corners_meaning = "Corners, separated by semicolons: 'x, y', with ': r' after it for a "
-                                    "fillet of radius r there, and with 'via x, y "
-                                    "to' before it where an arc leads to it instead of a line. ";
+const std::string corners_meaning =
+    "Corners, separated by semicolons: 'x, y', with ': r' after it for a fillet of "
+    "radius r there, and with 'via x, y to' before it where an arc leads to "
+    "it instead of a line. ";
 const SurfaceParameter outside_parameter{
     "Outside", "left", Kind::choice,
     "left|right: Where the bodies are, for one who walks along the corners."};
@@ -99,10 +99,8 @@ SurfaceType revolved_profile_type() {
               input.reject("Corners", "a profile on one side of the axis, x >= 0");
             const Profile closed(segments, read_outside(input), std::abs(segments.front().start[0]) <= tiny,
                                  std::abs(segments.back().end[0]) <= tiny);
-            Patches patches;
-            patches.push_back(std::make_unique<RevolvedProfile>(
-                closed, Axes(input.vector("Origin"), input.direction("Axis"))));
-            return patches;
+            return single_patch<RevolvedProfile>(closed,
+                                                 Axes(input.vector("Origin"), input.direction("Axis")));
           }};
 }
 
@@ -128,10 +126,8 @@ SurfaceType extruded_profile_type() {
                 input.reject("Length", "a number > 0, or nothing");
               half = 0.5 * length[0];
             }
-            Patches patches;
-            patches.push_back(std::make_unique<ExtrudedProfile>(
-                profile, Axes(input.vector("Origin"), axis, direction), -half, half));
-            return patches;
+            return single_patch<ExtrudedProfile>(profile, Axes(input.vector("Origin"), axis, direction),
+                                                 -half, half);
           }};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/rigid_surface.h"
 
-#include <deal.II/base/symmetric_tensor.h>
+#include "billet/geometry/frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ bool is_between(const Tensor<1, 3> &normal, const std::vector<Tensor<1, 3>> &nor
   return std::acos(std::clamp(normal * mean, -1., 1.)) <= 2. * widest + slack;
 }
 
-std::vector<BoundingBox> boxes_of(const std::vector<std::unique_ptr<const SurfacePatch>> &patches) {
+std::vector<BoundingBox> boxes_of(const SurfacePatches &patches) {
   std::vector<BoundingBox> boxes;
   boxes.reserve(patches.size());
   for (const auto &patch : patches)
@@ -38,7 +38,7 @@ std::vector<BoundingBox> boxes_of(const std::vector<std::unique_ptr<const Surfac
 
 } // namespace
 
-RigidSurface::RigidSurface(std::vector<std::unique_ptr<const SurfacePatch>> patches)
+RigidSurface::RigidSurface(SurfacePatches patches)
     : patches_(std::move(patches)), tree_(boxes_of(patches_)), box_(BoundingBox::empty()) {
   for (const auto &patch : patches_) {
     const BoundingBox box = patch->bounding_box();
@@ -133,9 +133,7 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   }
   projection.gap = projection.gap < 0. ? -distance : distance;
   projection.normal = arm / projection.gap;
-  const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
-  projection.turning =
-      (identity - dealii::outer_product(projection.normal, projection.normal)) / projection.gap;
+  projection.turning = projector_across(projection.normal) / projection.gap;
   if (std::abs(arm * around.edge) <= along_edge * distance + tolerance_)
     projection.turning += turning_along_edge(projection, nearest, patch, around) *
                           dealii::outer_product(around.edge, around.edge);

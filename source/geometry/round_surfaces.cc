@@ -13,7 +13,6 @@ namespace {
 using Kind = SurfaceParameter::Kind;
 using Point = Profile::Point;
 using Segment = Profile::Segment;
-using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
 
 constexpr double degree = M_PI / 180.;
 
@@ -37,7 +36,7 @@ double in_range(const SurfaceInput &input, const std::string &key, const double 
   return value;
 }
 
-Patches revolve(const SurfaceInput &input, const std::string &origin_key, const Profile &profile) {
+SurfacePatches revolve(const SurfaceInput &input, const std::string &origin_key, const Profile &profile) {
   const auto axis = input.direction("Axis");
   const double sector = input.number("Sector");
   if (!(sector > 0. && sector <= 360.))
@@ -51,9 +50,7 @@ Patches revolve(const SurfaceInput &input, const std::string &origin_key, const 
     axes = Axes(origin, axis, start);
   } else if (input.is_set("Start"))
     input.reject("Start", "no value: the surface goes all around");
-  Patches patches;
-  patches.push_back(std::make_unique<RevolvedProfile>(profile, axes, 0., sector * degree));
-  return patches;
+  return single_patch<RevolvedProfile>(profile, axes, 0., sector * degree);
 }
 
 /// Walked upwards (counter-clockwise, for an arc), the axis is on the left.

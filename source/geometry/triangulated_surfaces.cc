@@ -11,7 +11,6 @@ namespace billet {
 namespace {
 
 using Kind = SurfaceParameter::Kind;
-using Patches = std::vector<std::unique_ptr<const SurfacePatch>>;
 
 /// Points of one corner that a file's rounding to single precision, or to six digits, has parted; over the
 /// size of the surface.
@@ -41,7 +40,7 @@ TriangleEdges connect(const SurfaceInput &input, const TriangleMesh &mesh) {
   }
 }
 
-Patches make(const SurfaceInput &input) {
+SurfacePatches make(const SurfaceInput &input) {
   const double scale = input.positive("Scale");
   const auto translation = input.vector("Translation");
   const double sharp_angle = input.number("Sharp angle");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/trimmed_surface.h"
 
-#include <deal.II/base/symmetric_tensor.h>
+#include "billet/geometry/frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,8 +98,7 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
     if (mean.norm() < smooth_pole && least > 0.) { // or its tip
       result.gap = arm * mean < 0. ? -arm.norm() : arm.norm();
       result.normal = arm / result.gap;
-      const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
-      result.turning = (identity - dealii::outer_product(result.normal, result.normal)) / result.gap;
+      result.turning = projector_across(result.normal) / result.gap;
     }
     return result;
   }
@@ -160,8 +159,7 @@ void TrimmedSurface::add_cap(const Edge &pole) {
     cap.curvature += at_foot(point, point.p, d_.side).turning / double(ring.size());
     cap.radius = std::min(cap.radius, 0.5 * (point.p - cap.position).norm());
   }
-  const Tensor<2, 3> across =
-      Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) - dealii::outer_product(cap.normal, cap.normal);
+  const Tensor<2, 3> across = projector_across(cap.normal);
   cap.curvature = across * cap.curvature * across;
   caps_.push_back(cap);
 }
@@ -169,8 +167,7 @@ void TrimmedSurface::add_cap(const Edge &pole) {
 ClosestPoint TrimmedSurface::Cap::project(const Tensor<1, 3> &x) const {
   const Tensor<1, 3> arm = x - position;
   const double height = arm * normal;
-  const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
-  const Tensor<2, 3> stretch = identity + height * curvature;
+  const Tensor<2, 3> stretch = Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) + height * curvature;
   const bool is_focus = std::abs(dealii::determinant(stretch)) < 1e-12; // all around is as near
   const Tensor<2, 3> shrink = is_focus ? Tensor<2, 3>() : dealii::invert(stretch);
   const Tensor<1, 3> aside = shrink * (arm - height * normal);
@@ -179,7 +176,7 @@ ClosestPoint TrimmedSurface::Cap::project(const Tensor<1, 3> &x) const {
   result.normal = normal + curvature * aside;
   result.normal /= result.normal.norm();
   result.gap = (x - result.position) * result.normal;
-  const Tensor<2, 3> across = identity - dealii::outer_product(result.normal, result.normal);
+  const Tensor<2, 3> across = projector_across(result.normal);
   result.turning = across * shrink * curvature * across;
   return result;
 }

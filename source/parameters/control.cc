@@ -43,7 +43,8 @@ void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Step control", "automatic", Patterns::Selection("automatic|fixed"),
       "automatic: the step follows the iterations that the last one needed, and a failed step is cut and "
-      "tried again; fixed: equal steps, a failed one ends the run.");
+      "tried again; fixed: equal steps, shorter only where the next stop or output time is nearer; a failed "
+      "one ends the run.");
   prm.declare_entry("Initial step", "0.01", Patterns::Double(),
                     "First step; every step where they are fixed. [time]");
   prm.declare_entry("Smallest step", "1e-6", Patterns::Double(),

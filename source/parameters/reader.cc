@@ -113,7 +113,7 @@ unsigned int parse_count(const std::string &text) {
 
 std::string Reader::file(const std::string &key) const {
   const std::string written = text(key);
-  const std::string name = written.empty() || written.front() == '/' ? written : file_.folder() + written;
+  std::string name = written.empty() || written.front() == '/' ? written : file_.folder() + written;
   std::ifstream stream(name);
   if (!stream || std::filesystem::is_directory(name))
     reject(key, "a file that can be read ('" + name + "' cannot)");

@@ -166,7 +166,7 @@ void Tool::declare(ParameterHandler &prm, const std::vector<std::pair<std::strin
 
 void Tool::parse(Reader &reader) {
   origin = reader.origin();
-  std::vector<std::unique_ptr<const SurfacePatch>> patches;
+  SurfacePatches patches;
   reader.in("Surfaces", [&] {
     for (const auto &part : reader.names())
       reader.in(part, [&] {

@@ -308,8 +308,7 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
       status = solver->step();
     report.converged = status == NOX::StatusTest::Converged;
     x = epetra(solver->getSolutionGroup().getX());
-  } catch (const char *nox_error) { // NOX throws C strings
-    report.failure = nox_error;
+  } catch (const char *) { // where a correction cannot be computed; NOX's text, "NOX Error", says nothing
   }
   if (!report.converged && report.failure.empty())
     report.failure =

@@ -193,6 +193,30 @@ bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx
   return std::isfinite(du.l2_norm());
 }
 
+bool QuasiStatic::stay_at_rest(const double t) {
+  const double t_n = state_.time;
+  if (has_lost_pace_)
+    return false;
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
+    if (fading_forces_[i] && fading(t, i) != fading(t_n, i))
+      return false;
+    if (fading_forces_[i] || stopped_[i])
+      continue;
+    const Tool &tool = scene_.tools()[i];
+    const Placement before = tool.placement(t_n), after = tool.placement(t);
+    if (after.translation != before.translation || after.rotation_angle != before.rotation_angle ||
+        (tool.control() != Tool::Control::motion && tool.load(t) != tool.load(t_n)))
+      return false;
+  }
+  bool supports_move = false;
+  supports_.change(t_n, t, supports_move);
+  if (supports_move)
+    return false;
+  trial_ = u_n_;
+  offsets_ = offsets_n_;
+  return true;
+}
+
 bool QuasiStatic::continue_increment(const double t, const double previous_step) {
   if (has_lost_pace_)
     return false;
@@ -301,11 +325,12 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
       pressing.push_back(i);
   }
   choose_unknown_tools(pressing);
-  const bool may_continue =
-      scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation &&
-      previous_step > 0. && continue_increment(t, previous_step);
+  const bool needs_no_solution =
+      previous_step > 0. && (stay_at_rest(t) || (scene_.parameters().solver.predictor ==
+                                                     parameters::Solver::Predictor::extrapolation &&
+                                                 continue_increment(t, previous_step)));
   NewtonIteration linear_step{};
-  const bool has_guess = may_continue || follow_tangent(t, linear_step);
+  const bool has_guess = needs_no_solution || follow_tangent(t, linear_step);
   start_step(t);
   if (!has_guess) {
     report.failure = !tool_failure_.empty()        ? tool_failure_
@@ -316,7 +341,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   Vector x = trial_;
   std::vector<double> offsets = offsets_;
   report = iterate(offsets, x);
-  if (!may_continue)
+  if (!needs_no_solution)
     report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
 
   // A tool that has gone too far is drawn back to where it presses with its stop force.

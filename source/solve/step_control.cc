@@ -19,25 +19,27 @@ StepControl::StepControl(const parameters::TimeStepping &parameters, const doubl
 }
 
 double StepControl::target() const {
-  double target = parameters_.end_time;
-  if (interval_ > 0.)
-    target = std::min(target, (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_);
   const auto next = std::upper_bound(stops_.begin(), stops_.end(), time_);
-  return next == stops_.end() ? target : std::min(target, *next);
+  const double target = next == stops_.end() ? parameters_.end_time : std::min(parameters_.end_time, *next);
+  if (interval_ == 0.)
+    return target;
+  const double output = (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_;
+  // 100 times 0.29 is less than 29: no step of that length.
+  return output < target - slack * interval_ ? output : target;
 }
 
 double StepControl::next_time() const {
-  const double remaining = target() - time_;
-  if (parameters_.control == parameters::TimeStepping::Control::fixed && interval_ == 0. && stops_.empty()) {
-    // The n-th step ends at n times the step, so that a thousand of them add no round-off.
-    const double end = (n_steps_ + 1) * step_;
-    return end >= parameters_.end_time - slack * step_ ? parameters_.end_time : end;
-  }
+  const double target = this->target();
+  if (parameters_.control == parameters::TimeStepping::Control::fixed)
+    return end_on_grid() >= target - slack * step_ ? target : end_on_grid();
+  const double remaining = target - time_;
   if (remaining <= step_ * (1. + slack))
-    return target();
+    return target;
   // Two halves rather than a full step and a sliver.
   return time_ + (remaining < 1.5 * step_ ? 0.5 * remaining : step_);
 }
+
+double StepControl::end_on_grid() const { return grid_start_ + (n_on_grid_ + 1) * step_; }
 
 double StepControl::next_step() const { return next_time() - time_; }
 
@@ -45,8 +47,12 @@ void StepControl::accept(const unsigned int n_iterations) {
   const double taken = next_step();
   time_ = next_time();
   ++n_steps_;
-  if (parameters_.control == parameters::TimeStepping::Control::fixed)
+  if (parameters_.control == parameters::TimeStepping::Control::fixed) {
+    const bool was_cut = time_ < end_on_grid() - slack * step_;
+    grid_start_ = was_cut ? time_ : grid_start_;
+    n_on_grid_ = was_cut ? 0 : n_on_grid_ + 1;
     return;
+  }
   if (n_iterations <= parameters_.few_iterations)
     step_ = std::min(parameters_.largest_step, std::max(step_, taken) * parameters_.growth_factor);
   else if (n_iterations >= parameters_.many_iterations)

@@ -31,16 +31,10 @@
 #include <gp_Ax2.hxx>
 
 using namespace billet;
-using billet::testing::check;
-using billet::testing::check_surface;
-using billet::testing::make_surface;
-using billet::testing::Random;
-using billet::testing::WorstError;
+using namespace billet::testing;
 using dealii::Tensor;
 
 namespace {
-
-using Surface = std::shared_ptr<const RigidSurface>;
 
 Surface through_step(const TopoDS_Shape &shape, const std::string &lines = "") {
   STEPControl_Writer writer;
@@ -58,10 +52,6 @@ Surface through_iges(const TopoDS_Shape &shape) {
   return make_surface("CAD", "set File = shape.iges");
 }
 
-Tensor<1, 3> random_point(Random &random, const double reach) {
-  return Tensor<1, 3>({random(-reach, reach), random(-reach, reach), random(-reach, reach)});
-}
-
 /// Two descriptions of one surface, outside of curvature centres and edges within: gap, normal and turning.
 void check_same(const std::string &name, const Surface &surface, const Surface &truth, const double reach,
                 const double tolerance) {
@@ -69,7 +59,7 @@ void check_same(const std::string &name, const Surface &surface, const Surface &
   WorstError gap, normal, turning;
   unsigned int n = 0;
   for (unsigned int i = 0; i < 2000; ++i) {
-    const auto x = random_point(random, i % 10 == 0 ? 30. * reach : reach);
+    const auto x = random.vector(i % 10 == 0 ? 30. * reach : reach);
     const auto a = surface->project(x), b = truth->project(x);
     if (!b.exists || b.turning.norm() > 100. / reach)
       continue;
@@ -142,7 +132,7 @@ void check_rounded_box(const std::string &name, const Surface &box, const double
   Random random;
   WorstError error;
   for (unsigned int i = 0; i < 2000; ++i) {
-    const auto x = half + random_point(random, i % 2 == 0 ? 4. : 50.);
+    const auto x = half + random.vector(i % 2 == 0 ? 4. : 50.);
     const auto p = box->project(x);
     error.add(p.exists ? std::abs(p.gap - rounded_box_gap(x, half, 0.7)) : 1.);
   }
@@ -175,7 +165,7 @@ void check_wave() {
   double u_0 = 0., u_1 = 0., v_0 = 0., v_1 = 0.;
   spline->Bounds(u_0, u_1, v_0, v_1);
   for (unsigned int i = 0; i < 500; ++i) {
-    const auto x = random_point(random, i % 2 == 0 ? 40. : 4.);
+    const auto x = random.vector(i % 2 == 0 ? 40. : 4.);
     const double distance = std::abs(face->project(x).gap);
     constexpr unsigned int n = 60;
     for (unsigned int a = 0; a <= n; ++a)
@@ -266,5 +256,5 @@ int main() {
       *through_step(BRepAlgoAPI_Common(BRepBuilderAPI_MakeFace(wave(), 1e-6).Shape(), post).Shape()), origin,
       3.);
   check_wave();
-  return billet::testing::exit_code();
+  return exit_code();
 }

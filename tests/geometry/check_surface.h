@@ -25,9 +25,7 @@ inline void check_surface(const std::string &name, const RigidSurface &surface,
   for (unsigned int i = 0; i < n_points; ++i) {
     // A tenth of the points far away.
     const double reach = i % 10 == 0 ? 30. * size : size;
-    Tensor<1, 3> x = centre;
-    for (unsigned int c = 0; c < 3; ++c)
-      x[c] += random(-reach, reach);
+    const Tensor<1, 3> x = centre + random.vector(reach);
     const auto here = surface.project(x);
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto &point : picture.points)

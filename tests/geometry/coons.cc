@@ -8,10 +8,7 @@
 #include <sstream>
 
 using namespace billet;
-using billet::testing::check;
-using billet::testing::check_surface;
-using billet::testing::make_surface;
-using billet::testing::WorstError;
+using namespace billet::testing;
 using Point = dealii::Tensor<1, 3>;
 using Jet = CoonsPatch::Jet;
 
@@ -120,7 +117,7 @@ void check_curves() {
 /// u and v run along the circle and the axis, or along x and y.
 void check_closed_forms() {
   const CoonsPatch round = make_patch(cylinder), bilinear = make_patch(saddle);
-  testing::Random random;
+  Random random;
   WorstError of_cylinder, of_saddle;
   for (unsigned int i = 0; i < 100; ++i) {
     const double u = random(0., 1.), v = random(0., 1.), a = M_PI / 3., c = std::cos(a * u),
@@ -157,7 +154,7 @@ void check_closed_forms() {
 
 void check_derivatives(const Example &example) {
   const CoonsPatch patch = make_patch(example.curves);
-  testing::Random random;
+  Random random;
   WorstError first, second, across;
   const double h = 1e-3;
   unsigned int n = 0;
@@ -173,10 +170,10 @@ void check_derivatives(const Example &example) {
       continue;
     ++n;
     const auto by_u = [&](const auto member) {
-      return testing::central_difference([&](const double s) { return patch.at(u + s, v).*member; }, h);
+      return central_difference([&](const double s) { return patch.at(u + s, v).*member; }, h);
     };
     const auto by_v = [&](const auto member) {
-      return testing::central_difference([&](const double s) { return patch.at(u, v + s).*member; }, h);
+      return central_difference([&](const double s) { return patch.at(u, v + s).*member; }, h);
     };
     first.add((by_u(&Jet::position) - jet.u).norm() + (by_v(&Jet::position) - jet.v).norm());
     second.add((by_u(&Jet::u) - jet.uu).norm() + (by_v(&Jet::u) - jet.uv).norm());
@@ -208,7 +205,7 @@ double distance_to(const std::vector<Point> &points, const Point &x) {
 void check_against_points(const Example &example) {
   const CoonsPatch patch = make_patch(example.curves);
   const std::vector<Point> grid = points_of(patch);
-  testing::Random random;
+  Random random;
   WorstError nearer, farther, again;
   const std::vector<Point> about{example.centre,
                                  example.centre,
@@ -258,7 +255,7 @@ void check_degenerate() {
   // Where Newton's method runs into the pole along a wrong side.
   const CoonsPatch triangle = make_patch(sail);
   const std::vector<Point> grid = points_of(triangle);
-  testing::Random random;
+  Random random;
   WorstError nearer;
   for (unsigned int i = 0; i < 1000; ++i) {
     const Point x({2.9 + random(0., 2.), 2. + random(-0.5, 0.5), random(-1.5, 1.5)});
@@ -292,5 +289,5 @@ int main() {
     check_against_points(example);
   }
   check_degenerate();
-  return testing::exit_code();
+  return exit_code();
 }

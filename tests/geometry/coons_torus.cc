@@ -7,10 +7,7 @@
 #include <sstream>
 
 using namespace billet;
-using billet::testing::check;
-using billet::testing::check_surface;
-using billet::testing::make_surface;
-using billet::testing::WorstError;
+using namespace billet::testing;
 using Point = dealii::Tensor<1, 3>;
 
 namespace {
@@ -37,7 +34,7 @@ std::string arc(const double around_0, const double along_0, const double around
 }
 
 /// The fillet in n × n patches.
-std::shared_ptr<const RigidSurface> make_fillet(const unsigned int n) {
+Surface make_fillet(const unsigned int n) {
   const std::string name = "fillet_" + std::to_string(n * n) + ".txt";
   std::ofstream file(name);
   file << "# four arcs a line\n\n";
@@ -59,7 +56,7 @@ struct Errors {
 };
 
 Errors errors_against(const RigidSurface &torus, const RigidSurface &fillet) {
-  testing::Random random;
+  Random random;
   WorstError gap, normal, jump_of_gap, jump_of_normal;
   for (unsigned int i = 0; i < 4000; ++i) {
     const Point x = on_torus(random(0.02, 0.98) * quarter, random(0.02, 0.98) * quarter, random(-0.3, 0.6));
@@ -118,5 +115,5 @@ int main() {
     }
     before = errors;
   }
-  return testing::exit_code();
+  return exit_code();
 }

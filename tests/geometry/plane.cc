@@ -15,13 +15,8 @@ int main() {
   billet::testing::Random random;
   WorstError gap_error, normal_error, picture_error, round_trip_error, rigid_error;
   for (unsigned int i = 0; i < 1000; ++i) {
-    Tensor<1, 3> point, x, z;
-    z[2] = 1.;
-    for (unsigned int c = 0; c < 3; ++c) {
-      point[c] = random(-10., 10.);
-      x[c] = random(-10., 10.);
-    }
-    const Tensor<1, 3> normal = random.rotation() * z;
+    const Tensor<1, 3> point = random.vector(10.), x = random.vector(10.);
+    const Tensor<1, 3> normal = random.rotation() * Tensor<1, 3>({0., 0., 1.});
     const Plane plane(point, normal);
     const auto projection = plane.closest_point(x);
     const Tensor<1, 3> foot = x - projection.gap * projection.normal;

@@ -4,9 +4,7 @@
 #include "check_surface.h"
 
 using namespace billet;
-using billet::testing::check;
-using billet::testing::check_surface;
-using billet::testing::make_surface;
+using namespace billet::testing;
 using dealii::Tensor;
 
 namespace {
@@ -116,15 +114,15 @@ int main() {
                 origin, 5.);
 
   // The same surface, described in two ways.
-  testing::Random random;
-  testing::WorstError spheres, tori;
+  Random random;
+  WorstError spheres, tori;
   const auto drawn =
       make_surface("revolved profile", "set Outside = right\nset Corners = 0, -2 ; via 2, 0 to 0, 2");
   const auto round = make_surface("sphere", "set Radius = 2");
   const auto fillet = make_surface("torus", "set Centre = 0, 0, -2\nset Ring radius = 7\nset Tube radius = "
                                             "2\nset From angle = 90\nset To angle = 180\n");
   for (unsigned int i = 0; i < 1000; ++i) {
-    const Tensor<1, 3> x({random(-8., 8.), random(-8., 8.), random(-8., 8.)});
+    const Tensor<1, 3> x = random.vector(8.);
     spheres.add(std::abs(drawn->project(x).gap - round->project(x).gap));
     const auto piece = fillet->project(x);
     if (piece.exists)
@@ -134,12 +132,12 @@ int main() {
   check("the die's fillet is a torus", tori.value(), 1e-12);
 
   // Sets: a wall and a floor that meet in a concave edge, in a convex edge, and not at all.
-  const testing::SurfacePart floor{"rectangle", "set Centre = 2, 0, 0\nset Length = 4\nset Width = 10"};
-  const testing::SurfacePart wall{
+  const SurfacePart floor{"rectangle", "set Centre = 2, 0, 0\nset Length = 4\nset Width = 10"};
+  const SurfacePart wall{
       "rectangle",
       "set Centre = 0, 0, 2\nset Normal = 1, 0, 0\nset Direction = 0, 0, 1\nset Length = 4\nset Width = 10"};
-  const testing::SurfacePart side{"rectangle", "set Centre = 0, 0, -2\nset Normal = -1, 0, 0\nset Direction "
-                                               "= 0, 0, 1\nset Length = 4\nset Width = 10"};
+  const SurfacePart side{"rectangle", "set Centre = 0, 0, -2\nset Normal = -1, 0, 0\nset Direction "
+                                      "= 0, 0, 1\nset Length = 4\nset Width = 10"};
   const auto corner = make_surface({floor, wall}), ridge = make_surface({floor, side}),
              alone = make_surface({floor});
   check_surface("corner of floor and wall", *corner, origin, 4.);
@@ -160,5 +158,5 @@ int main() {
   check_gap("inside the ridge", *ridge, Tensor<1, 3>({0.3, 0., -0.2}), -0.2);
   check("beyond the border: no surface", !alone->project(Tensor<1, 3>({-0.3, 0., -0.4})).exists);
   check("... but a distance", std::abs(alone->project(Tensor<1, 3>({-0.3, 0., -0.4})).gap - 0.5), 1e-14);
-  return billet::testing::exit_code();
+  return exit_code();
 }

@@ -7,24 +7,14 @@
 #include "billet/geometry/curved_triangles.h"
 
 using namespace billet;
-using billet::testing::check;
-using billet::testing::check_surface;
-using billet::testing::make_surface;
-using billet::testing::Random;
-using billet::testing::WorstError;
+using namespace billet::testing;
 using dealii::Tensor;
 
 namespace {
 
-using Surface = std::shared_ptr<const RigidSurface>;
-
 Surface read(const TriangleMesh &mesh, const std::string &lines = "") {
-  testing::write_ascii(mesh, "surface.stl");
+  write_ascii(mesh, "surface.stl");
   return make_surface("STL", "set File = surface.stl\n" + lines);
-}
-
-Tensor<1, 3> random_point(Random &random, const double reach) {
-  return Tensor<1, 3>({random(-reach, reach), random(-reach, reach), random(-reach, reach)});
 }
 
 /// Distance of x from a flat triangle: from its inside, or from its sides.
@@ -49,9 +39,9 @@ void check_closest_point(const std::string &name, const double bend, const doubl
   for (unsigned int i = 0; i < 300; ++i) {
     std::array<Tensor<1, 3>, 3> corners, bends;
     for (auto &corner : corners)
-      corner = random_point(random, 1.);
+      corner = random.vector(1.);
     for (auto &b : bends)
-      b = random_point(random, bend);
+      b = random.vector(bend);
     const Tensor<1, 3> flat = dealii::cross_product_3d(Tensor<1, 3>(corners[1] - corners[0]),
                                                        Tensor<1, 3>(corners[2] - corners[0]));
     if (flat.norm() < 0.5)
@@ -62,7 +52,7 @@ void check_closest_point(const std::string &name, const double bend, const doubl
     const CurvedTriangle triangle(corners, bends, seams);
     const auto shape = triangle.shape();
     for (unsigned int j = 0; j < 20; ++j) {
-      const Tensor<1, 3> x = random_point(random, reach);
+      const Tensor<1, 3> x = random.vector(reach);
       const auto closest = triangle.closest_point(x, shape);
       const double distance = (x - closest.position).norm();
       constexpr unsigned int n = 40;
@@ -92,7 +82,7 @@ Errors errors_near(const Surface &exact, const Approximation &surface, const dou
   Random random;
   WorstError gap, normal;
   for (unsigned int n = 0; n < 2000;) {
-    Tensor<1, 3> x = random_point(random, size);
+    Tensor<1, 3> x = random.vector(size);
     auto truth = exact->project(x);
     if (!truth.exists || std::abs(truth.gap) > 0.1 * size || x[2] < least_z)
       continue;
@@ -136,7 +126,7 @@ void check_cube() {
   WorstError outside, inside, moved;
   const auto elsewhere = read(testing::cube(), "set Scale = 2\nset Translation = 3, 0, -1\n");
   for (unsigned int i = 0; i < 1000; ++i) {
-    const Tensor<1, 3> x = random_point(random, 3.);
+    const Tensor<1, 3> x = random.vector(3.);
     double square = 0., depth = 1.;
     for (unsigned int c = 0; c < 3; ++c) {
       square += std::pow(std::max(0., std::abs(x[c]) - 1.), 2);
@@ -155,18 +145,18 @@ void check_cube() {
 }
 
 void check_files() {
-  TriangleMesh mesh = testing::torus(3., 1., 12);
+  TriangleMesh mesh = torus(3., 1., 12);
   for (auto &point : mesh.points)
     for (unsigned int c = 0; c < 3; ++c)
       point[c] = std::round(1024. * point[c]) / 1024.; // single precision holds it
-  testing::write_ascii(mesh, "ascii.stl");
-  testing::write_binary(mesh, "binary.stl");
+  write_ascii(mesh, "ascii.stl");
+  write_binary(mesh, "binary.stl");
   const auto ascii = make_surface("STL", "set File = ascii.stl");
   const auto binary = make_surface("STL", "set File = binary.stl");
   Random random;
   WorstError difference;
   for (unsigned int i = 0; i < 500; ++i) {
-    const auto x = random_point(random, 5.);
+    const auto x = random.vector(5.);
     const auto a = ascii->project(x), b = binary->project(x);
     difference.add(std::abs(a.gap - b.gap) + (a.normal - b.normal).norm() + (a.turning - b.turning).norm());
   }
@@ -174,12 +164,12 @@ void check_files() {
 }
 
 void check_brute_force() {
-  const TriangleMesh mesh = testing::torus(3., 1., 12);
+  const TriangleMesh mesh = torus(3., 1., 12);
   const auto surface = read(mesh, "set Smoothing = false");
   Random random;
   WorstError error;
   for (unsigned int i = 0; i < 1000; ++i) {
-    const auto x = random_point(random, i % 2 == 0 ? 5. : 100.);
+    const auto x = random.vector(i % 2 == 0 ? 5. : 100.);
     double nearest = 1e9;
     for (const auto &[a, b, c] : mesh.facets)
       nearest = std::min(nearest, distance_from_facet(x, {mesh.points[a], mesh.points[b], mesh.points[c]}));
@@ -192,19 +182,19 @@ void check_brute_force() {
 /// surface lies before it.
 void check_closed(const double sharp_angle) {
   Random random;
-  TriangleMesh mesh = testing::torus(3., 1., 8);
+  TriangleMesh mesh = torus(3., 1., 8);
   const std::vector<Tensor<1, 3>> points = mesh.points;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j)
       if ((points[j] - points[i]).norm() < 1e-9) { // the seams' points come twice
-        mesh.points[i] = j < i ? mesh.points[j] : points[i] + random_point(random, 0.25);
+        mesh.points[i] = j < i ? mesh.points[j] : points[i] + random.vector(0.25);
         break;
       }
   const auto surface = read(mesh, "set Sharp angle = " + std::to_string(sharp_angle));
   unsigned int n_missing = 0;
   for (unsigned int i = 0; i < 6000; ++i) {
     const double reach = i % 3 == 0 ? 5. : i % 3 == 1 ? 30. : 1000.;
-    n_missing += surface->project(random_point(random, reach)).exists ? 0 : 1;
+    n_missing += surface->project(random.vector(reach)).exists ? 0 : 1;
   }
   check("a closed surface has no slits, sharp from " + std::to_string(static_cast<int>(sharp_angle)) +
             " degrees",
@@ -233,16 +223,16 @@ double largest_kink(const TriangleMesh &mesh) {
 }
 
 void check_kinks() {
-  check("sphere of 320 triangles: one normal along edges", largest_kink(testing::icosphere(2)), 1e-8);
-  const double coarse = largest_kink(weld(testing::torus(3., 1., 16), 1e-9)),
-               fine = largest_kink(weld(testing::torus(3., 1., 32), 1e-9));
+  check("sphere of 320 triangles: one normal along edges", largest_kink(icosphere(2)), 1e-8);
+  const double coarse = largest_kink(weld(torus(3., 1., 16), 1e-9)),
+               fine = largest_kink(weld(torus(3., 1., 32), 1e-9));
   check("torus of 1024 triangles: nearly one normal along edges", coarse, 2e-4);
   check("torus: of fifth order in their size", fine / coarse, 1. / 25.);
 }
 
 /// A can with caps, coarse: its rims are sharp and round, its caps flat.
 void check_can() {
-  const auto can = read(testing::revolve({{0., -1.}, {2., -1.}, {2., 1.}, {0., 1.}}, 24));
+  const auto can = read(revolve({{0., -1.}, {2., -1.}, {2., 1.}, {0., 1.}}, 24));
   check_surface("can with sharp rims", *can, {}, 3.);
   Random random;
   WorstError cap, rim;
@@ -297,15 +287,13 @@ int main() {
   check_sliver();
 
   const Tensor<1, 3> origin;
-  check_surface("sphere of 80 triangles", *read(testing::icosphere(1), "set Sharp angle = 60"), origin, 2.);
-  check_surface("sphere of 1280 triangles", *read(testing::icosphere(3)), origin, 2.);
-  check_surface("sphere of 320 triangles from inside", *read(testing::icosphere(2), "set Side = inside"),
-                origin, 0.9);
-  check_surface("sphere of 320 flat triangles", *read(testing::icosphere(2), "set Smoothing = false"), origin,
-                2.);
-  check_surface("torus", *read(testing::torus(3., 1., 16)), origin, 5.);
+  check_surface("sphere of 80 triangles", *read(icosphere(1), "set Sharp angle = 60"), origin, 2.);
+  check_surface("sphere of 1280 triangles", *read(icosphere(3)), origin, 2.);
+  check_surface("sphere of 320 triangles from inside", *read(icosphere(2), "set Side = inside"), origin, 0.9);
+  check_surface("sphere of 320 flat triangles", *read(icosphere(2), "set Smoothing = false"), origin, 2.);
+  check_surface("torus", *read(torus(3., 1., 16)), origin, 5.);
 
-  const auto half = read(testing::revolve({{1., 0.}, {2., 0.}, {2., 1.}}, 24, 0.5), "set Closed = false");
+  const auto half = read(revolve({{1., 0.}, {2., 0.}, {2., 1.}}, 24, 0.5), "set Closed = false");
   check_surface("open surface", *half, origin, 3.);
   check("open surface: beyond the border there is none",
         !half->project(Tensor<1, 3>({0., -1.5, 0.1})).exists &&
@@ -314,12 +302,11 @@ int main() {
 
   check_order(
       "sphere", make_surface("sphere", "set Radius = 1"),
-      [](const unsigned int i) { return testing::icosphere(i + 1); }, 1.2, "set Sharp angle = 60\n", 3.5, 2.5,
-      500.);
+      [](const unsigned int i) { return icosphere(i + 1); }, 1.2, "set Sharp angle = 60\n", 3.5, 2.5, 500.);
   check_order(
       "torus", make_surface("torus", "set Ring radius = 3\nset Tube radius = 1"),
-      [](const unsigned int i) { return testing::torus(3., 1., 12U << i); }, 4., "set Sharp angle = 60\n",
-      2.8, 1.8, 30.);
+      [](const unsigned int i) { return torus(3., 1., 12U << i); }, 4., "set Sharp angle = 60\n", 2.8, 1.8,
+      30.);
   // A die: flange, fillet and wall.
   check_order(
       "die", make_surface("revolved profile", "set Corners = 5, -4 ; 5, 0 : 2 ; 12, 0"),
@@ -331,8 +318,8 @@ int main() {
           polygon.push_back({7. + 2. * std::cos(angle), -2. + 2. * std::sin(angle)});
         }
         polygon.push_back({5., -4.});
-        return testing::revolve(polygon, 32 * n);
+        return revolve(polygon, 32 * n);
       },
       8., "set Closed = false\n", 2., 1., 100., -3.9);
-  return billet::testing::exit_code();
+  return exit_code();
 }

@@ -134,6 +134,38 @@ int main(int argc, char *argv[]) {
         1e-6);
   check("... an elastic billet", closing.problem.state().placements[0].translation[2] < -1.);
 
+  // A block between a plane and a platen that presses, and lets go: nothing but friction and the platen holds
+  // it.
+  parameters::Scene held = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
+  held.amplitudes.push_back(make_amplitude("load", {0., 1., 2.}, {0., 1., 0.}));
+  held.bodies[0].supports.clear();
+  held.bodies[0].material.yield_stress = 1e6;
+  held.tools[0].motion.translation.value = {"0", "0", "0"};
+  held.tools[0].motion.rotation_angle.value = "0";
+  held.tools.push_back(held.tools[0]);
+  held.tools[1].name = "platen";
+  held.tools[1].surface =
+      testing::make_plane(dealii::Tensor<1, 3>({0., 0., 1.}), dealii::Tensor<1, 3>({0., 0., -1.}));
+  held.tools[1].motion.control = parameters::Motion::Control::force;
+  held.tools[1].motion.direction = dealii::Tensor<1, 3>({0., 0., -1.});
+  held.tools[1].motion.load.value = "20*load";
+  held.pairs.push_back(held.pairs[0]);
+  held.pairs[1].boundary_ids.value = {5};
+  held.pairs[1].tool.value = "platen";
+  held.time_stepping.control = parameters::TimeStepping::Control::automatic;
+  held.time_stepping.end_time = 5.;
+  held.solver.force_tolerance = 1e-6;
+  SceneRun let_go(held);
+  double pressed_by = 0.;
+  unsigned int n_late = 0;
+  let_go.finish([&](const NewtonReport &report) {
+    pressed_by = std::max(pressed_by, let_go.load().force[2]);
+    n_late += let_go.control.time() > 2.2 ? static_cast<unsigned int>(report.iterations.size()) : 0;
+  });
+  check("a block that is let go: it was pressed", pressed_by > 15.);
+  check("... is at rest", let_go.load().force.norm() + let_go.load(1).force.norm(), 1e-6);
+  check("... without iterations", n_late == 0 && let_go.control.n_cuts() < 5);
+
   // Springback.
   for (const double release : {0., 0.2}) {
     parameters::Scene sprung = smooth;

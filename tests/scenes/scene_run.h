@@ -64,9 +64,7 @@ inline parameters::Scene read_shipped_scene(const std::string &name) {
 /// An infinite plane as the surface of a tool.
 inline std::shared_ptr<const RigidSurface> make_plane(const dealii::Tensor<1, 3> &point,
                                                       const dealii::Tensor<1, 3> &normal) {
-  std::vector<std::unique_ptr<const SurfacePatch>> patches;
-  patches.push_back(std::make_unique<Plane>(point, normal));
-  return std::make_shared<const RigidSurface>(std::move(patches));
+  return std::make_shared<const RigidSurface>(single_patch<Plane>(point, normal));
 }
 
 inline void set_fixed_steps(parameters::Scene &parameters, const unsigned int n) {

@@ -6,6 +6,7 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::WorstError;
 
 namespace {
 
@@ -23,6 +24,14 @@ parameters::TimeStepping make_parameters(const bool automatic) {
   p.shrink_factor = 0.5;
   p.cut_factor = 0.25;
   return p;
+}
+
+void check_times(const std::string &name, StepControl control, const std::vector<double> &times) {
+  WorstError error;
+  std::size_t i = 0;
+  for (; !control.is_finished() && i < times.size(); ++i, control.accept(1))
+    error.add(std::abs(control.next_time() - times[i]));
+  check(name, control.is_finished() && i == times.size() ? error.value() : 1., 1e-15);
 }
 
 } // namespace
@@ -69,6 +78,38 @@ int main() {
     const auto hits = [&](const double t) { return std::find(times.begin(), times.end(), t) != times.end(); };
     check("stops at multiples of the interval", hits(0.3) && hits(0.6) && hits(3 * 0.3) && hits(1.));
     check("without slivers before them", least >= 0.05);
+  }
+  {
+    auto p = make_parameters(false);
+    p.end_time = 0.7; // 0.7, 0.07 and 0.01 have no finite binary form
+    p.initial_step = 0.01;
+    StepControl control(p, 0.07);
+    WorstError error;
+    for (; !control.is_finished(); control.accept(1))
+      error.add(std::abs(control.next_step() - 0.01));
+    check("fixed steps between output times a whole number of steps apart", control.n_steps() == 70);
+    check("all have the length asked for", error.value(), 1e-15);
+  }
+  {
+    auto p = make_parameters(false);
+    p.stops = {0.45};
+    check_times("fixed steps, output in between: only the last before it is cut", StepControl(p, 0.25),
+                {0.1, 0.2, 0.25, 0.35, 0.45, 0.5, 0.6, 0.7, 0.75, 0.85, 0.95, 1.});
+  }
+  for (const bool automatic : {false, true}) {
+    auto p = make_parameters(automatic);
+    p.end_time = 58.;
+    p.initial_step = p.largest_step = 0.29;
+    p.stops = {29.};
+    StepControl control(p, 0.29); // 100 times this is less than 29
+    double least = 1.;
+    bool stopped = false;
+    for (; !control.is_finished(); control.accept(6)) {
+      least = std::min(least, control.next_step());
+      stopped = stopped || control.next_time() == 29.;
+    }
+    check(std::string(automatic ? "automatic" : "fixed") + " steps: none of the length of round-off",
+          stopped && least > 0.28 && control.n_steps() == 200);
   }
   return billet::testing::exit_code();
 }

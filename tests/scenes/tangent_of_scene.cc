@@ -2,84 +2,19 @@
 // The assembled tangent of a whole scene (elements, contact, supports) against central differences of its
 // residual, with nodes that stick, slip and enter, on tools of every shape that turn and move, for every
 // friction law.
-#include "scene_run.h"
-
-#include "../geometry/make_surface.h"
+#include "tangent_check.h"
 
 #include <deal.II/base/mpi.h>
-
-#include <Epetra_Map.h>
-#include <Epetra_Vector.h>
 
 #include <fstream>
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::make_curved;
 using billet::testing::SceneRun;
+using billet::testing::tangent_error;
 
 namespace {
-
-/// Runs to time t, starts one more step, and continues the last increment into it: there K⁻¹ (∂R/∂u v) must
-/// be v. Unknown travels of tools are among the u.
-double tangent_error(SceneRun &run, const double t, const unsigned int n_directions) {
-  QuasiStatic &problem = run.problem;
-  run.advance(); // from here on the unknowns of all steps are alike
-  Epetra_Vector before(problem.unknowns()), point(before);
-  while (run.control.time() < t) {
-    before = problem.unknowns();
-    run.advance();
-  }
-  point = problem.unknowns();
-  point.Update(-0.7, before, 1.7);
-  problem.start_step(run.control.next_time());
-  Epetra_Vector plus(point), minus(point), difference(point), solution(point), v(point);
-  testing::Random random;
-  testing::WorstError error;
-  for (unsigned int k = 0; k < n_directions; ++k) {
-    Vector direction = run.discretization.make_owned_vector();
-    const auto &owned = run.discretization.owned_dofs();
-    for (const auto i : owned)
-      direction(i) = random(-1., 1.);
-    direction.compress(dealii::VectorOperation::insert);
-    run.problem.supports().homogeneous().distribute(direction);
-    const Epetra_Vector &displacements = *direction.trilinos_vector()(0);
-    for (int i = 0; i < v.MyLength(); ++i)
-      v[i] = i < displacements.MyLength() ? displacements[i] : random(-1., 1.);
-    const double h = 1e-7;
-    difference.PutScalar(0.);
-    for (const auto &[offset, weight] :
-         {std::pair<double, double>{1., 8.}, {-1., -8.}, {2., -1.}, {-2., 1.}}) {
-      plus = point;
-      plus.Update(offset * h, v, 1.);
-      if (!problem.compute_residual(plus, minus))
-        return 1.;
-      difference.Update(weight / (12. * h), minus, 1.);
-    }
-    if (!problem.compute_tangent(point) || !problem.solve_tangent(difference, solution))
-      return 1.;
-    solution.Update(-1., v, 1.);
-    double wrong = 0., whole = 0.;
-    solution.Norm2(&wrong);
-    v.Norm2(&whole);
-    error.add(wrong / whole);
-  }
-  return error.value();
-}
-
-/// The block is pressed onto a curved tool, shoved and turned over it.
-parameters::Scene make_curved(const testing::SurfacePart &part, const double friction_coefficient) {
-  parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
-  scene.bodies[0].supports[0].displacement.value = {"0.04*t", "0.03*t - 0.01*z*t", "-0.08*t"};
-  scene.bodies[0].material.yield_stress = 1e6;
-  scene.tools[0].surface = testing::make_surface(part.shape, part.lines);
-  scene.tools[0].motion.rotation_axis = dealii::Tensor<1, 3>({2. / 7., 3. / 7., 6. / 7.});
-  scene.tools[0].motion.rotation_angle.value = "0.05*t";
-  scene.tools[0].motion.translation.value = {"0.01*t", "0", "0.01*t"};
-  scene.pairs[0].friction_coefficient = friction_coefficient;
-  scene.pairs[0].allowed_penetration.value = 1.;
-  scene.time_stepping.initial_step = 0.1;
-  return scene;
-}
 
 /// A few triangles of a paraboloid that touches the block, smoothed by their reading.
 void write_dome(const std::string &name) {
@@ -115,33 +50,17 @@ void check_curved() {
       {"torus", "set Centre = 0.45, 0.55, -8\nset Axis = 0, 1, 0\nset Ring radius = 5\nset Tube radius = 3"},
       {"torus",
        "set Centre = 0.45, 0.55, 4.98\nset Axis = 0, 1, 0.05\nset Ring radius = 7\nset Tube radius = 2"},
-      {"extruded profile", "set Origin = 0.45, 0.55, -0.05\nset Axis = 0, 1, 0\nset Outside = right\nset "
-                           "Corners = -2, -0.6 ; via 0, "
-                           "0.05 to 2, -0.6"},
-      {"coons patch",
-       "set Curves = arc: -1, -1, -0.3 via 0.5, -1, -0.04 to 2, -1, -0.3 ; arc: 2, -1, -0.3 via 2, 0.5, "
-       "-0.2 to 2, 2, -0.3 ; arc: 2, 2, -0.3 via 0.5, 2, -0.04 to -1, 2, -0.3 ; arc: -1, 2, -0.3 via -1, "
-       "0.5, -0.2 to -1, -1, -0.3"},
+      {"extruded profile", "set Origin = 0.45, 0.55, -0.05\nset Axis = 0, 1, 0\nset Outside = right\n"
+                           "set Corners = -2, -0.6 ; via 0, 0.05 to 2, -0.6"},
+      {"coons patch", "set Curves = arc: -1, -1, -0.3 via 0.5, -1, -0.04 to 2, -1, -0.3 ; "
+                      "arc: 2, -1, -0.3 via 2, 0.5, -0.2 to 2, 2, -0.3 ; "
+                      "arc: 2, 2, -0.3 via 0.5, 2, -0.04 to -1, 2, -0.3 ; "
+                      "arc: -1, 2, -0.3 via -1, 0.5, -0.2 to -1, -1, -0.3"},
       {"STL", "set Closed = false\nset File = dome.stl"},
       {"revolved profile",
        "set Origin = 0.45, 0.55, 0\nset Corners = 0, 0 ; 0.35, 0 : 1 ; 1, -0.2\nset Outside = left"}};
   for (const auto &part : parts)
-    for (const double friction : {0.8, 0.03, 0.}) {
-      const std::string state = friction > 0.5  ? ", much friction"
-                                : friction > 0. ? ", little friction"
-                                                : ", no friction";
-      parameters::Scene scene = make_curved(part, friction);
-      scene.solver.contact_tangent = parameters::ContactTangent::exact;
-      SceneRun exact(scene);
-      check(part.shape + state + ": exact tangent", tangent_error(exact, 0.75, 3), 1e-6);
-      unsigned int n_touch = 0, n_stick = 0;
-      for (const auto &node : exact.problem.contacts()[0].report()) {
-        n_touch += node.status != ContactStatus::open;
-        n_stick += node.status == ContactStatus::stick;
-      }
-      check(part.shape + state + ": contact is as meant",
-            n_touch > 3 && (friction > 0.5 ? n_stick > 0 : n_stick < n_touch));
-    }
+    testing::check_curved(part.shape, part);
   // A tool that presses with a force, and one that a moment turns: the bordered system.
   for (const auto &[name, friction] : {std::pair<std::string, double>{"force, much friction", 0.8},
                                        {"force, little friction", 0.03},

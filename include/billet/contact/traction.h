@@ -42,17 +42,20 @@ struct TangentialIncrement {
 };
 
 /// Friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40)); the slave's normal
-/// points against n. With L(p, γ/Δt) the friction law's limit:
-///   trial   t* = t_n − k_t Δg
-///   stick   |t*| ≤ L(p, 0):  t = t*        slip   else:  |t*| − k_t γ = L(p, γ/Δt),  t = L t*/|t*|
-/// For Coulomb's law L = μ p. `gap` < 0; `tangential_n` is the traction at the start of the step. Tangents,
-/// with β = L/|t*|, t̂ = t*/|t*|, ρ = L_v/(k_t Δt + L_v), L_p and L_v the limit's slopes, and areas held:
-///   stick                  k_n n⊗n + k_t P                                                          (58)
-///   consistent             k_n n⊗n + β k_t (P − t̂⊗t̂) + L_p (1 − ρ) k_n t̂⊗n + ρ k_t t̂⊗t̂ (55)-(57) continuum
-///   the same with β = 1                                                      (50) symmetrised upper: the
-///   triangle of (57) that holds the coupling t̂⊗n, mirrored; lower: the one
-///                          that does not; mean: half of each
-///   exact                  consistent, with the increment's gradient in place of P
+/// points against n. With L(p, γ/Δt) the friction law's limit, μ p for Coulomb's law:
+/// - trial: t* = t_n − k_t Δg;
+/// - stick, if |t*| ≤ L(p, 0): t = t*;
+/// - slip otherwise: |t*| − k_t γ = L(p, γ/Δt), t = L t*/|t*|.
+///
+/// `gap` < 0; `tangential_n` is the traction at the start of the step. Tangents per area, with β = L/|t*|,
+/// t̂ = t*/|t*|, ρ = L_v/(k_t Δt + L_v), and L_p and L_v the limit's slopes:
+/// - stick: k_n n⊗n + k_t P, eq. (58);
+/// - consistent: k_n n⊗n + β k_t (P − t̂⊗t̂) + L_p (1 − ρ) k_n t̂⊗n + ρ k_t t̂⊗t̂, eqs. (55)-(57);
+/// - continuum: the same with β = 1, eq. (50);
+/// - symmetrised upper: the triangle of the consistent one that holds the coupling t̂⊗n, mirrored;
+/// - symmetrised lower: the triangle that does not, mirrored;
+/// - symmetrised mean: half of each;
+/// - exact: as for stick and consistent, with the increment's gradient in place of P.
 template <class Law>
 FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness, ContactTangent tangent,
                                double gap, const std::array<double, 2> &tangential_n,

@@ -81,7 +81,7 @@ private:
   SurfacePoint quadratic_point_at(double u, double v) const;
   Iterate at(const Point &x, double u, double v, const std::array<bool, 3> &at) const;
   Iterate start_below(const Point &x) const;
-  Step choose_step(const Iterate &here) const;
+  static Step choose_step(const Iterate &here);
   Iterate descend(const Point &x, Iterate here) const;
   Iterate at_edge(const Point &x, unsigned int i, double t) const;
   Iterate nearest_on_edge(const Point &x, unsigned int i) const;

@@ -29,8 +29,7 @@ public:
   CurvedTriangles(const TriangleMesh &mesh, const TriangleEdges &edges, double sharp_angle, bool is_smoothed);
 
   /// A patch for each facet that has an area.
-  static std::vector<std::unique_ptr<const SurfacePatch>>
-  patches(const std::shared_ptr<const CurvedTriangles> &triangles);
+  static SurfacePatches patches(const std::shared_ptr<const CurvedTriangles> &triangles);
 
   CurvedTriangle triangle(const unsigned int facet) const {
     const auto &corners = mesh_.facets[facet];

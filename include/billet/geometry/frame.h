@@ -2,15 +2,21 @@
 #ifndef BILLET_GEOMETRY_FRAME_H
 #define BILLET_GEOMETRY_FRAME_H
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 namespace billet {
 
+/// P = I − n⊗n, which takes away the part along the unit vector `n`.
+inline dealii::Tensor<2, 3> projector_across(const dealii::Tensor<1, 3> &n) {
+  return dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) - dealii::outer_product(n, n);
+}
+
 /// Contact reference system (CRS): right-handed, q × r = n.
 struct Frame {
   dealii::Tensor<1, 3> q, r, n;
-  /// How the frame spins about n when n turns by δn: δq = −(q·δn) n + (spin·δn) r, δr = −(r·δn) n − (spin·δn)
-  /// q.
+  /// How the frame spins about n when n turns by δn:
+  ///   δq = −(q·δn) n + (spin·δn) r,  δr = −(r·δn) n − (spin·δn) q.
   dealii::Tensor<1, 3> spin;
 
   /// Any frame about the unit vector `n`; the same for the same n.
@@ -32,8 +38,8 @@ struct Frame {
   /// This frame, carried along by the rotation of the tool and then turned onto the new normal `n`
   /// (Bittencourt & Creus 1998, eqs. (4), (5) with the sign of (5) mended and the spin of the tool added):
   ///   q* = R q,  r = n × q* / |n × q*|,  q = r × n.
-  /// Where the normal has turned onto q* the frame follows r instead. With δr across r in the plane of δn ×
-  /// q*,
+  /// Where the normal has turned onto q* the frame follows r instead. With δr across r in the plane of
+  /// δn × q*,
   ///   spin = −(q*·n)/(q*·q) r,  or, following r* = R r,  (r*·n)/(r*·r) q.
   Frame transported(const dealii::Tensor<2, 3> &rotation, const dealii::Tensor<1, 3> &n_new) const {
     Frame frame;

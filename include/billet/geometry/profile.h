@@ -72,8 +72,8 @@ private:
 
   std::vector<Segment> segments_;
   double side_; ///< of the normal: 1 left, −1 right
-  bool closed_start_, closed_end_, is_loop_;
-  double size_;
+  bool closed_start_, closed_end_, is_loop_ = false;
+  double size_ = 0.;
 };
 
 /// A corner of a profile as a user draws it.

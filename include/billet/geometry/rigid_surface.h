@@ -16,7 +16,7 @@ constexpr double touching_gap = 1e-9;
 /// distance to the edge; beyond a border that no other patch shares there is no surface.
 class RigidSurface {
 public:
-  explicit RigidSurface(std::vector<std::unique_ptr<const SurfacePatch>> patches);
+  explicit RigidSurface(SurfacePatches patches);
 
   struct Projection {
     bool exists;                 ///< whether the surface lies before the point; else only the gap is set
@@ -55,7 +55,7 @@ private:
   double turning_along_edge(const Projection &projection, const ClosestPoint &nearest, unsigned int patch,
                             const Neighbours &around) const;
 
-  std::vector<std::unique_ptr<const SurfacePatch>> patches_;
+  SurfacePatches patches_;
   BoxTree tree_;
   BoundingBox box_;
   double tolerance_ = 0.; ///< patches that come nearer than this to each other meet [length]

@@ -5,6 +5,8 @@
 #include <deal.II/base/tensor.h>
 
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -91,6 +93,15 @@ public:
   /// Adds facets to the picture.
   virtual void draw(const PictureRegion &region, SurfacePicture &picture) const = 0;
 };
+
+using SurfacePatches = std::vector<std::unique_ptr<const SurfacePatch>>;
+
+/// A patch of type `Patch`, made of these arguments, and no other.
+template <class Patch, class... Arguments> SurfacePatches single_patch(Arguments &&...arguments) {
+  SurfacePatches patches;
+  patches.push_back(std::make_unique<Patch>(std::forward<Arguments>(arguments)...));
+  return patches;
+}
 
 } // namespace billet
 

@@ -50,7 +50,7 @@ struct SurfaceType {
   std::string name;
   std::string meaning;
   std::vector<SurfaceParameter> parameters;
-  std::function<std::vector<std::unique_ptr<const SurfacePatch>>(const SurfaceInput &)> make;
+  std::function<SurfacePatches(const SurfaceInput &)> make;
 };
 
 const std::vector<SurfaceType> &surface_types();

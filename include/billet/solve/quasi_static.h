@@ -52,8 +52,10 @@ public:
 
 private:
   void build_matrix();
-  // First guesses of a step, into trial_. The last increment, continued; false where tools or supports change
-  // their pace:
+  // First guesses of a step, into trial_. The last state, where nothing drives the bodies on; false where
+  // something does:
+  bool stay_at_rest(double t);
+  // the last increment, continued; false where tools or supports change their pace:
   bool continue_increment(double t, double previous_step);
   // one linear step from the last state, into which the motion of tools and supports is put; false where it
   // has no solution:

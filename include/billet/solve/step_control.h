@@ -9,6 +9,9 @@
 namespace billet {
 
 /// Chooses the step: fixed, or by the iterations that the last one needed. Knows nothing of what is solved.
+///
+/// Fixed steps have the length that was asked for, save the last one before a stop or an output time that is
+/// no multiple of it away.
 class StepControl {
 public:
   /// Steps also end at the `stops`, and at multiples of `interval`, unless it is 0.
@@ -32,12 +35,16 @@ public:
 
 private:
   double target() const;
+  double end_on_grid() const;
 
   parameters::TimeStepping parameters_;
   double interval_;
   std::vector<double> stops_; ///< ascending
   double time_ = 0.;
   double step_;
+  /// The n-th fixed step ends at n times the step from here, so that a thousand of them add no round-off.
+  double grid_start_ = 0.;
+  unsigned int n_on_grid_ = 0;
   unsigned int n_steps_ = 0, n_cuts_ = 0;
 };
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_TESTS_TANGENT_CHECK_H
+#define BILLET_TESTS_TANGENT_CHECK_H
+
+#include "scene_run.h"
+
+#include "../geometry/make_surface.h"
+
+#include <Epetra_Map.h>
+#include <Epetra_Vector.h>
+
+namespace billet::testing {
+
+/// Runs to time t, starts one more step, and continues the last increment into it: there K⁻¹ (∂R/∂u v) must
+/// be v. Unknown travels of tools are among the u.
+inline double tangent_error(SceneRun &run, const double t, const unsigned int n_directions) {
+  QuasiStatic &problem = run.problem;
+  run.advance(); // from here on the unknowns of all steps are alike
+  Epetra_Vector before(problem.unknowns()), point(before);
+  while (run.control.time() < t) {
+    before = problem.unknowns();
+    run.advance();
+  }
+  point = problem.unknowns();
+  point.Update(-0.7, before, 1.7);
+  problem.start_step(run.control.next_time());
+  Epetra_Vector plus(point), minus(point), difference(point), solution(point), v(point);
+  Random random;
+  WorstError error;
+  for (unsigned int k = 0; k < n_directions; ++k) {
+    Vector direction = run.discretization.make_owned_vector();
+    const auto &owned = run.discretization.owned_dofs();
+    for (const auto i : owned)
+      direction(i) = random(-1., 1.);
+    direction.compress(dealii::VectorOperation::insert);
+    run.problem.supports().homogeneous().distribute(direction);
+    const Epetra_Vector &displacements = *direction.trilinos_vector()(0);
+    for (int i = 0; i < v.MyLength(); ++i)
+      v[i] = i < displacements.MyLength() ? displacements[i] : random(-1., 1.);
+    const double h = 1e-7;
+    difference.PutScalar(0.);
+    for (const auto &[offset, weight] :
+         {std::pair<double, double>{1., 8.}, {-1., -8.}, {2., -1.}, {-2., 1.}}) {
+      plus = point;
+      plus.Update(offset * h, v, 1.);
+      if (!problem.compute_residual(plus, minus))
+        return 1.;
+      difference.Update(weight / (12. * h), minus, 1.);
+    }
+    if (!problem.compute_tangent(point) || !problem.solve_tangent(difference, solution))
+      return 1.;
+    solution.Update(-1., v, 1.);
+    double wrong = 0., whole = 0.;
+    solution.Norm2(&wrong);
+    v.Norm2(&whole);
+    error.add(wrong / whole);
+  }
+  return error.value();
+}
+
+/// The block is pressed onto a curved tool, shoved and turned over it.
+inline parameters::Scene make_curved(const SurfacePart &part, const double friction_coefficient) {
+  parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
+  scene.bodies[0].supports[0].displacement.value = {"0.04*t", "0.03*t - 0.01*z*t", "-0.08*t"};
+  scene.bodies[0].material.yield_stress = 1e6;
+  scene.tools[0].surface = make_surface(part.shape, part.lines);
+  scene.tools[0].motion.rotation_axis = dealii::Tensor<1, 3>({2. / 7., 3. / 7., 6. / 7.});
+  scene.tools[0].motion.rotation_angle.value = "0.05*t";
+  scene.tools[0].motion.translation.value = {"0.01*t", "0", "0.01*t"};
+  scene.pairs[0].friction_coefficient = friction_coefficient;
+  scene.pairs[0].allowed_penetration.value = 1.;
+  scene.time_stepping.initial_step = 0.1;
+  return scene;
+}
+
+/// The exact tangent of that scene, most nodes sticking, most slipping, and without friction.
+inline void check_curved(const std::string &name, const SurfacePart &part) {
+  for (const double friction : {0.8, 0.03, 0.}) {
+    const std::string state = friction > 0.5  ? ", much friction"
+                              : friction > 0. ? ", little friction"
+                                              : ", no friction";
+    parameters::Scene scene = make_curved(part, friction);
+    scene.solver.contact_tangent = parameters::ContactTangent::exact;
+    SceneRun exact(scene);
+    check(name + state + ": exact tangent", tangent_error(exact, 0.75, 3), 1e-6);
+    unsigned int n_touch = 0, n_stick = 0;
+    for (const auto &node : exact.problem.contacts()[0].report()) {
+      n_touch += node.status != ContactStatus::open;
+      n_stick += node.status == ContactStatus::stick;
+    }
+    check(name + state + ": contact is as meant",
+          n_touch > 3 && (friction > 0.5 ? n_stick > 0 : n_stick < n_touch));
+  }
+}
+
+} // namespace billet::testing
+
+#endif
