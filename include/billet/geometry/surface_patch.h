@@ -32,11 +32,26 @@ struct BoundingBox {
     add(other.low);
     add(other.high);
   }
+  void enlarge(const double distance) {
+    for (unsigned int i = 0; i < 3; ++i) {
+      low[i] -= distance;
+      high[i] += distance;
+    }
+  }
   /// Square of the distance to the nearest point of the box.
   double distance_square(const dealii::Tensor<1, 3> &point) const {
     double sum = 0.;
     for (unsigned int i = 0; i < 3; ++i) {
       const double outside = std::max({low[i] - point[i], point[i] - high[i], 0.});
+      sum += outside * outside;
+    }
+    return sum;
+  }
+  /// The same to another box; infinite if one of the two is empty.
+  double distance_square(const BoundingBox &other) const {
+    double sum = 0.;
+    for (unsigned int i = 0; i < 3; ++i) {
+      const double outside = std::max({low[i] - other.high[i], other.low[i] - high[i], 0.});
       sum += outside * outside;
     }
     return sum;
