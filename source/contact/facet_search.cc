@@ -78,12 +78,15 @@ void FacetSearch::rebuild(const Positions &positions_n, const Positions &positio
   candidates_.clear();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveNode &slave = slaves_[s];
-    // A sphere around its way.
+    BoundingBox way = BoundingBox::empty();
+    way.add(positions_n[slave.node]);
+    way.add(positions[slave.node]);
+    // The tree knows spheres only: one around the way.
     const Tensor<1, 3> middle = 0.5 * (positions_n[slave.node] + positions[slave.node]);
     const double square = 0.25 * (positions[slave.node] - positions_n[slave.node]).norm_square();
     first_candidate_[s] = candidates_.size();
     tree.visit_near(middle, square, [&](const unsigned int facet) {
-      if (!is_excluded(slave, facets_[facet]))
+      if (boxes[facet].overlaps(way) && !is_excluded(slave, facets_[facet]))
         candidates_.push_back(facet);
     });
     std::sort(candidates_.begin() + static_cast<std::ptrdiff_t>(first_candidate_[s]), candidates_.end(),

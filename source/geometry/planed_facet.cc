@@ -65,6 +65,8 @@ FacetProjection PlanedFacet::project(const Tensor<1, 3> &x, const FacetLimits &l
   const Tensor<1, 3> in_plane = arm - projection.gap * normal_;
   projection.excess = compute_excess(in_plane);
   projection.exists = projection.excess <= limits.tolerance && projection.gap >= -limits.reach;
+  if (!projection.exists)
+    return projection;
   projection.parameters = compute_parameters(in_plane);
   projection.weights = facet::weights(projection.parameters);
   const Tensor<1, 3> missing = in_plane - facet::interpolate(projection.weights, corners_);

@@ -128,8 +128,10 @@ template <class Facet> void check_degenerate(const std::string &name) {
   }
   check(name + ": two corners in one place are a triangle", n_wrong == 0);
   check(name + ": its gap, normal and weights", error.value(), 1e-13);
-  const FacetProjection tip = Facet(triangle).project(triangle[0] - vector(0.3, 0.3, 0.1), {});
-  check(name + ": beyond its tip", !tip.exists && std::isfinite(tip.gap) && std::isfinite(tip.weights[0]));
+  const Tensor<1, 3> beyond = triangle[0] - vector(0.3, 0.3, 0.1);
+  const FacetProjection tip = Facet(triangle).project(beyond, {1.});
+  check(name + ": beyond its tip", !Facet(triangle).project(beyond, {}).exists && std::isfinite(tip.gap) &&
+                                       std::isfinite(tip.weights[0]) && std::isfinite(tip.parameters[0]));
 
   const Tensor<1, 3> a = vector(0.1, 0.7, 0.3), d = vector(0.3, -0.2, 0.9);
   const std::vector<FacetCorners> none{
@@ -201,7 +203,7 @@ void check_planed() {
     if (i % 3 == 2)
       x[1] = x[0];
     const Tensor<1, 3> at = point_near(random, x, 2., 0.3);
-    const FacetProjection p = PlanedFacet(x).project(at, {});
+    const FacetProjection p = PlanedFacet(x).project(at, {100.});
     const Tensor<1, 3> arm = at - facet::interpolate(p.weights, x);
     across.add((arm - (arm * p.normal) * p.normal).norm());
   }

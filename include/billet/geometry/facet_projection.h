@@ -56,8 +56,8 @@ struct FacetLimits {
 
 /// A node x before a facet or behind it.
 struct FacetProjection {
-  /// The node is straight above or below the facet, within its limits. The rest is filled in anyway, as long
-  /// as the facet has an area.
+  /// The node is straight above or below the facet, within its limits. Else there may be no weights, and, if
+  /// the facet has no area, nothing at all.
   bool exists = false;
   dealii::Tensor<1, 3> normal; ///< unit, out of the body
   double gap = 0.;             ///< along the normal, negative where the node has penetrated [length]

@@ -47,14 +47,12 @@ struct BoundingBox {
     }
     return sum;
   }
-  /// The same to another box; infinite if one of the two is empty.
-  double distance_square(const BoundingBox &other) const {
-    double sum = 0.;
-    for (unsigned int i = 0; i < 3; ++i) {
-      const double outside = std::max({low[i] - other.high[i], other.low[i] - high[i], 0.});
-      sum += outside * outside;
-    }
-    return sum;
+  /// Whether the two have a point in common; an empty box has none.
+  bool overlaps(const BoundingBox &other) const {
+    bool all = true;
+    for (unsigned int i = 0; i < 3; ++i)
+      all = all && low[i] <= other.high[i] && other.low[i] <= high[i];
+    return all;
   }
 };
 
