@@ -34,6 +34,12 @@ struct BoundingBox {
     add(other.low);
     add(other.high);
   }
+  void enlarge(const double distance) {
+    for (unsigned int i = 0; i < 3; ++i) {
+      low[i] -= distance;
+      high[i] += distance;
+    }
+  }
   /// Square of the distance to the nearest point of the box.
   double distance_square(const dealii::Tensor<1, 3> &point) const {
     double sum = 0.;
@@ -42,6 +48,13 @@ struct BoundingBox {
       sum += outside * outside;
     }
     return sum;
+  }
+  /// Whether the two have a point in common; an empty box has none.
+  bool overlaps(const BoundingBox &other) const {
+    bool all = true;
+    for (unsigned int i = 0; i < 3; ++i)
+      all = all && low[i] <= other.high[i] && other.low[i] <= high[i];
+    return all;
   }
 };
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_REACTION_H
+#define BILLET_CONTACT_FACET_REACTION_H
+
+#include "billet/geometry/facet_projection.h"
+
+namespace billet {
+
+/// The forces on a facet's corners that balance a force F on a node at x, and its moment:
+///   F_I = −w_I F + ω × r_I,   Σ_I (r_I·r_I 1 − r_I⊗r_I) ω = −(x − Σ w_I x_I) × F
+/// with r_I = x_I − ¼ Σ x_J. The weights alone balance a force along x − Σ w_I x_I, such as a pressure; the
+/// second term, of no resultant and the least there is, is the moment of friction across the gap. The facet
+/// must have an area, and the weights the sum 1.
+FacetCorners compute_facet_reaction(const FacetCorners &corners, const std::array<double, 4> &weights,
+                                    const dealii::Tensor<1, 3> &x, const dealii::Tensor<1, 3> &force);
+
+} // namespace billet
+
+#endif

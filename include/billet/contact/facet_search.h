@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_SEARCH_H
+#define BILLET_CONTACT_FACET_SEARCH_H
+
+#include "billet/geometry/facet_projection.h"
+#include "billet/geometry/surface_patch.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace billet {
+
+/// A four-node facet of a deformable body's surface.
+struct SurfaceFacet {
+  std::array<unsigned int, 4> nodes; ///< in the order of FacetCorners
+  unsigned int surface;              ///< to which body it belongs
+  std::uint64_t key;                 ///< the same on any number of ranks
+  /// A node that has not touched the facet and is farther behind it than this belongs elsewhere [length]: a
+  /// fraction of the facet's size, and less than the wall below it is thick.
+  double reach;
+};
+
+/// A node that may touch facets.
+struct SlaveNode {
+  unsigned int node;
+  unsigned int surface;
+};
+
+/// Finds the facets that are near slave nodes, while all of them move.
+///
+/// Each slave has a list of candidates: every facet that is within its reach of the node now, or was on the
+/// way of both, in straight lines, from the start of the step. A list holds facets within reach + margin, so
+/// that it stays right until nodes have moved by more than the margin relative to each other: only then are
+/// lists made anew. The displacements since then lie in a box, whose diagonal no relative displacement
+/// exceeds, and which no motion in common makes larger.
+///
+/// A node is never a candidate's slave if the candidate belongs to it, or shares a node with a facet that
+/// does. Building lists takes O(n log n), with a tree of the facets' boxes; looking them up, nothing.
+class FacetSearch {
+public:
+  enum class Partners {
+    other_surfaces,          ///< facets of the node's own surface are no candidates
+    other_surfaces_and_self, ///< they are, but for those around the node
+  };
+
+  using Positions = std::vector<dealii::Tensor<1, 3>>;
+
+  /// `margin` > 0 [length]
+  FacetSearch(Partners partners, double margin);
+
+  /// Another surface than before: lists have to be made before they are looked up.
+  void set_surface(std::vector<SurfaceFacet> facets, std::vector<SlaveNode> slaves);
+
+  /// The box of all displacements since lists were made, of the nodes at these positions.
+  BoundingBox compute_motion(const Positions &positions) const;
+  /// Whether lists are no longer right after these displacements, on one rank or joined over many.
+  bool is_outdated(const BoundingBox &motion) const;
+
+  /// Makes lists. `positions_n` are those at the start of the step, of every node that facets and slaves
+  /// name.
+  void rebuild(const Positions &positions_n, const Positions &positions);
+
+  /// Makes lists if they are outdated, or there are none. To be called at every new position.
+  void update(const Positions &positions_n, const Positions &positions);
+
+  const std::vector<SurfaceFacet> &facets() const { return facets_; }
+  const std::vector<SlaveNode> &slaves() const { return slaves_; }
+
+  /// Calls visit(facet) for each candidate of a slave, by rising keys. Both are indices of the lists above.
+  template <class Visit> void visit_candidates(const std::size_t slave, const Visit &visit) const {
+    for (std::size_t i = first_candidate_[slave]; i < first_candidate_[slave + 1]; ++i)
+      visit(candidates_[i]);
+  }
+
+  /// Calls visit(facet) once for each facet that shares nodes with this one.
+  template <class Visit> void visit_ring(const unsigned int facet, const Visit &visit) const {
+    const auto &nodes = facets_[facet].nodes;
+    for (unsigned int a = 0; a < 4; ++a)
+      for (std::size_t i = first_around_[nodes[a]]; i < first_around_[nodes[a] + 1]; ++i) {
+        bool is_new = around_[i] != facet;
+        for (unsigned int b = 0; b < a; ++b)
+          is_new = is_new && !has_node(facets_[around_[i]], nodes[b]);
+        if (is_new)
+          visit(around_[i]);
+      }
+  }
+
+  std::size_t n_rebuilds() const { return n_rebuilds_; }
+  std::size_t n_candidates() const { return candidates_.size(); }
+
+private:
+  static bool has_node(const SurfaceFacet &facet, const unsigned int node) {
+    return facet.nodes[0] == node || facet.nodes[1] == node || facet.nodes[2] == node ||
+           facet.nodes[3] == node;
+  }
+  bool is_excluded(const SlaveNode &slave, const SurfaceFacet &facet) const;
+
+  Partners partners_;
+  double margin_;
+  std::vector<SurfaceFacet> facets_;
+  std::vector<SlaveNode> slaves_;
+  /// Facets around node i: around_[first_around_[i]], ..., before first_around_[i + 1].
+  std::vector<std::size_t> first_around_;
+  std::vector<unsigned int> around_;
+  Positions built_at_;
+  std::vector<std::size_t> first_candidate_;
+  std::vector<unsigned int> candidates_;
+  std::size_t n_rebuilds_ = 0;
+};
+
+} // namespace billet
+
+#endif

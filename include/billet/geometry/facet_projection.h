@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_FACET_PROJECTION_H
+#define BILLET_GEOMETRY_FACET_PROJECTION_H
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <limits>
+
+namespace billet {
+
+/// Corners of a facet at (ξ, η) = (−1, −1), (1, −1), (−1, 1), (1, 1), deal.II's order, such that the area
+/// vector ∂x/∂ξ × ∂x/∂η points out of the body.
+using FacetCorners = std::array<dealii::Tensor<1, 3>, 4>;
+
+namespace facet {
+
+/// The signs of ξ and η at the corners.
+inline constexpr std::array<std::array<double, 2>, 4> signs{{{-1., -1.}, {1., -1.}, {-1., 1.}, {1., 1.}}};
+
+/// The corners in the order in which they follow each other around the facet.
+inline constexpr std::array<unsigned int, 4> around{0, 1, 3, 2};
+
+/// Bilinear shape functions; their sum is 1 anywhere, and they are >= 0 inside.
+inline std::array<double, 4> weights(const std::array<double, 2> &parameters) {
+  std::array<double, 4> w{};
+  for (unsigned int a = 0; a < 4; ++a)
+    w[a] = 0.25 * (1. + signs[a][0] * parameters[0]) * (1. + signs[a][1] * parameters[1]);
+  return w;
+}
+
+/// Σ w_I x_I
+inline dealii::Tensor<1, 3> interpolate(const std::array<double, 4> &weights,
+                                        const std::array<dealii::Tensor<1, 3>, 4> &values) {
+  return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2] + weights[3] * values[3];
+}
+
+/// Whether diagonals with this cross product span an area: else the facet has no normal.
+inline bool has_area(const dealii::Tensor<1, 3> &diagonal_0, const dealii::Tensor<1, 3> &diagonal_1,
+                     const dealii::Tensor<1, 3> &cross_product) {
+  // What rounding of the corners' coordinates may leave of a facet that is a line.
+  constexpr double least = 1e-12;
+  return cross_product.norm() > least * std::max(diagonal_0.norm_square(), diagonal_1.norm_square());
+}
+
+} // namespace facet
+
+/// How far from a facet a node may be and still belong to it.
+struct FacetLimits {
+  /// How far beyond an edge its projection may lie, relative to the facet's extent across that edge: so that
+  /// no node is lost in the seam of two facets whose planes, or normals, do not fit together.
+  double tolerance = 0.02;
+  /// A node whose gap is < −reach has not come through this facet [length].
+  double reach = std::numeric_limits<double>::infinity();
+};
+
+/// A node x before a facet or behind it.
+struct FacetProjection {
+  /// The node is straight above or below the facet, within its limits. Else there may be no weights, and, if
+  /// the facet has no area, nothing at all.
+  bool exists = false;
+  dealii::Tensor<1, 3> normal; ///< unit, out of the body
+  double gap = 0.;             ///< along the normal, negative where the node has penetrated [length]
+  /// Of the facet's corners. Their sum is 1, and, where `exists`, x − Σ w_I x_I is parallel to the normal: a
+  /// force along it at x and −w_I times that force at the corners balance, and so do their moments.
+  std::array<double, 4> weights{};
+  std::array<double, 2> parameters{}; ///< (ξ, η), where a search for the next projection starts
+  /// How far the projection lies beyond the border, as FacetLimits::tolerance; 0 inside.
+  double excess = std::numeric_limits<double>::infinity();
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/geometry/bilinear_facet.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+constexpr double last_step = 1e-9; // of parameters: what Newton's method leaves after it is round-off
+
+double into_range(const double value, const double range) { return std::min(std::max(value, -range), range); }
+
+} // namespace
+
+BilinearFacet::BilinearFacet(const FacetCorners &x)
+    : e_0_(0.25 * (x[0] + x[1] + x[2] + x[3])), e_1_(0.25 * (x[1] + x[3] - x[0] - x[2])),
+      e_2_(0.25 * (x[2] + x[3] - x[0] - x[1])), e_3_(0.25 * (x[0] + x[3] - x[1] - x[2])) {
+  const Tensor<1, 3> diagonal_0 = x[3] - x[0], diagonal_1 = x[2] - x[1];
+  has_area_ = facet::has_area(diagonal_0, diagonal_1, dealii::cross_product_3d(diagonal_0, diagonal_1));
+}
+
+std::array<double, 2> BilinearFacet::compute_step(const Tensor<1, 3> &arm, const double range,
+                                                  const std::array<double, 2> &at) const {
+  // Derivatives of ½|X − x|². A parameter at the end of its range that wants to go on stays.
+  const Tensor<1, 3> away = difference(at, arm);
+  const std::array<Tensor<1, 3>, 2> tangents{e_1_ + at[1] * e_3_, e_2_ + at[0] * e_3_};
+  const std::array<double, 2> gradient{away * tangents[0], away * tangents[1]};
+  std::array<bool, 2> is_free{};
+  for (unsigned int i = 0; i < 2; ++i)
+    is_free[i] = !(at[i] >= range && gradient[i] <= 0.) && !(at[i] <= -range && gradient[i] >= 0.);
+  const std::array<double, 2> diagonal{tangents[0].norm_square(), tangents[1].norm_square()};
+  std::array<double, 2> step{};
+  if (is_free[0] && is_free[1]) {
+    // Where the surface bends away so much that there is no minimum near, without its curvature.
+    for (const double mixed : {tangents[0] * tangents[1] + away * e_3_, tangents[0] * tangents[1]}) {
+      const double determinant = diagonal[0] * diagonal[1] - mixed * mixed;
+      if (determinant > 1e-8 * diagonal[0] * diagonal[1]) {
+        step[0] = (mixed * gradient[1] - diagonal[1] * gradient[0]) / determinant;
+        step[1] = (mixed * gradient[0] - diagonal[0] * gradient[1]) / determinant;
+        return step;
+      }
+    }
+  }
+  for (unsigned int i = 0; i < 2; ++i)
+    if (is_free[i] && diagonal[i] > 0.)
+      step[i] = -gradient[i] / diagonal[i];
+  return step;
+}
+
+std::array<double, 2> BilinearFacet::minimise(const Tensor<1, 3> &arm, const double range,
+                                              std::array<double, 2> at) const {
+  const double rounding = 1e-14 * (arm.norm() + e_1_.norm() + e_2_.norm());
+  double distance = difference(at, arm).norm();
+  for (unsigned int iteration = 0; iteration < 100; ++iteration) {
+    const std::array<double, 2> step = compute_step(arm, range, at);
+    const double size = std::max(std::abs(step[0]), std::abs(step[1]));
+    bool is_lower = false;
+    // Without the curvature, or cut off at the end of the range, a full step may lead away.
+    for (double length = 1.; !is_lower && length > 1e-10; length *= 0.5) {
+      const std::array<double, 2> next{into_range(at[0] + length * step[0], range),
+                                       into_range(at[1] + length * step[1], range)};
+      const double next_distance = difference(next, arm).norm();
+      is_lower = next_distance <= distance + rounding;
+      if (is_lower) {
+        at = next;
+        distance = next_distance;
+      }
+    }
+    if (!is_lower || size < last_step)
+      break;
+  }
+  return at;
+}
+
+std::array<double, 2> BilinearFacet::nearest_on_border(const Tensor<1, 3> &arm) const {
+  std::array<double, 2> nearest{};
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned int fixed = 0; fixed < 2; ++fixed)
+    for (const double end : {-1., 1.}) { // a straight line
+      std::array<double, 2> at{};
+      at[fixed] = end;
+      const Tensor<1, 3> along = fixed == 0 ? e_2_ + end * e_3_ : e_1_ + end * e_3_;
+      const double square = along.norm_square();
+      if (square > 0.)
+        at[1 - fixed] = into_range(-(difference(at, arm) * along) / square, 1.);
+      const double distance_square = difference(at, arm).norm_square();
+      if (distance_square < least) {
+        least = distance_square;
+        nearest = at;
+      }
+    }
+  return nearest;
+}
+
+FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits &limits,
+                                       const std::array<double, 2> &start) const {
+  FacetProjection projection;
+  if (!has_area_)
+    return projection;
+  const auto excess_of = [](const std::array<double, 2> &at) {
+    return std::max({std::abs(at[0]) - 1., std::abs(at[1]) - 1., 0.});
+  };
+  const Tensor<1, 3> arm = e_0_ - x;
+  const double range = 1.1 + limits.tolerance; // so that the end of the range is not within the tolerance
+  std::array<double, 2> at = minimise(arm, range, {into_range(start[0], range), into_range(start[1], range)});
+  projection.excess = excess_of(at);
+  bool is_straight = projection.excess <= limits.tolerance;
+  if (!is_straight) {
+    at = minimise(arm, 1., {into_range(at[0], 1.), into_range(at[1], 1.)});
+    const std::array<double, 2> other = nearest_on_border(arm);
+    if (difference(other, arm).norm_square() < difference(at, arm).norm_square())
+      at = minimise(arm, 1., other);
+    // The surface may bend so much that it has another closest point.
+    is_straight = std::max(std::abs(at[0]), std::abs(at[1])) < 1.;
+    if (is_straight)
+      projection.excess = 0.;
+  }
+  const Tensor<1, 3> area_vector = dealii::cross_product_3d(e_1_ + at[1] * e_3_, e_2_ + at[0] * e_3_);
+  const double size = area_vector.norm();
+  if (!(size > 0.)) // the tip of a triangle
+    return projection;
+  projection.normal = area_vector / size;
+  projection.gap = -(difference(at, arm) * projection.normal);
+  projection.parameters = at;
+  projection.weights = facet::weights(at);
+  projection.exists = is_straight && projection.gap >= -limits.reach;
+  return projection;
+}
+
+} // namespace billet

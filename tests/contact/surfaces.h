@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_TESTS_SURFACES_H
+#define BILLET_TESTS_SURFACES_H
+
+#include "billet/contact/facet_choice.h"
+
+#include "../testing.h"
+
+#include <functional>
+
+namespace billet::testing {
+
+using Positions = FacetSearch::Positions;
+
+/// Facets and where their nodes are.
+struct Surface {
+  std::vector<SurfaceFacet> facets;
+  Positions positions;
+
+  std::vector<SlaveNode> slaves() const {
+    std::vector<SlaveNode> result(positions.size());
+    for (const auto &facet : facets)
+      for (const unsigned int node : facet.nodes)
+        result[node] = {node, facet.surface};
+    return result;
+  }
+};
+
+/// Adds n × m facets, the image of the unit square under `map`: outward is map,s × map,t.
+inline void add_sheet(Surface &surface, const unsigned int n, const unsigned int m, const unsigned int label,
+                      const double reach,
+                      const std::function<dealii::Tensor<1, 3>(double s, double t)> &map) {
+  const auto first = static_cast<unsigned int>(surface.positions.size());
+  for (unsigned int j = 0; j <= m; ++j)
+    for (unsigned int i = 0; i <= n; ++i)
+      surface.positions.push_back(map(i / static_cast<double>(n), j / static_cast<double>(m)));
+  for (unsigned int j = 0; j < m; ++j)
+    for (unsigned int i = 0; i < n; ++i) {
+      const unsigned int corner = first + i + j * (n + 1);
+      surface.facets.push_back(
+          {{corner, corner + 1, corner + n + 1, corner + n + 2}, label, surface.facets.size(), reach});
+    }
+}
+
+/// Most of a sphere, with folds; outward is out of it, or into it.
+inline void add_ball(Surface &surface, const unsigned int n, const unsigned int label, const double reach,
+                     const dealii::Tensor<1, 3> &centre, const double radius) {
+  add_sheet(surface, n, n, label, reach, [&](const double s, const double t) {
+    const double around = 1.9 * M_PI * s, up = 0.8 * M_PI * (t - 0.5);
+    const double r = radius * (1. + 0.05 * std::sin(9. * around) * std::sin(7. * up));
+    return centre + r * dealii::Tensor<1, 3>(
+                            {std::cos(around) * std::cos(up), std::sin(around) * std::cos(up), std::sin(up)});
+  });
+}
+
+/// Each surface turns and drifts as a whole, waves, and its nodes tremble.
+class RandomMotion {
+public:
+  RandomMotion(Random &random, const unsigned int n_surfaces, const double speed)
+      : random_(random), speed_(speed) {
+    for (unsigned int i = 0; i < n_surfaces; ++i) {
+      Rates rates;
+      for (unsigned int c = 0; c < 3; ++c) {
+        rates.drift[c] = speed * random(-1., 1.);
+        rates.spin[c] = speed * random(-1., 1.);
+        rates.wave[c] = random(-4., 4.);
+      }
+      rates_.push_back(rates);
+    }
+  }
+
+  /// `common` is added to all velocities.
+  void advance(const Surface &surface, const std::vector<SlaveNode> &nodes, Positions &positions,
+               const dealii::Tensor<1, 3> &common) {
+    for (const auto &slave : nodes) {
+      const Rates &rates = rates_[slave.surface];
+      auto &x = positions[slave.node];
+      const auto &reference = surface.positions[slave.node];
+      dealii::Tensor<1, 3> tremble;
+      for (unsigned int c = 0; c < 3; ++c)
+        tremble[c] = 0.2 * speed_ * random_(-1., 1.);
+      x += common + rates.drift + dealii::cross_product_3d(rates.spin, reference) +
+           std::sin(rates.wave * reference + time_) * rates.drift + tremble;
+    }
+    time_ += 0.1;
+  }
+
+private:
+  struct Rates {
+    dealii::Tensor<1, 3> drift, spin, wave;
+  };
+  Random &random_;
+  double speed_, time_ = 0.;
+  std::vector<Rates> rates_;
+};
+
+} // namespace billet::testing
+
+#endif
