@@ -113,7 +113,8 @@ void test_small_strain(const Formulation &formulation) {
 }
 
 /// A cube pressed to 36 % at constant volume in a thousand steps: coaxial, so that the plastic strain is the
-/// logarithmic one but for the elastic part, and all laws agree to that order.
+/// logarithmic one but for the elastic part. Simo's flow rule is off by the order of the elastic strain,
+/// 0.0045.
 void test_compression(const Formulation &formulation) {
   Body body(make_mesh(cube()), {steel, linear}, formulation);
   constexpr unsigned int n_steps = 1000;
@@ -134,15 +135,16 @@ void test_compression(const Formulation &formulation) {
   const double total = -std::log(0.36);
   const double alpha = (3. * steel.shear * total - 700.) / (3. * steel.shear + 300.);
   const double yield = 700. + 300. * alpha;
+  const double order = formulation.kinematics == Kinematics::neo_hookean ? 6e-3 : 0.;
   const double mises = std::sqrt(1.5) * summary.cauchy_stress.norm();
   check(name_of(formulation) + ", compression to 36 %, plastic strain",
-        std::abs(summary.equivalent_plastic_strain / alpha - 1.), 2e-5);
+        std::abs(summary.equivalent_plastic_strain / alpha - 1.), 2e-5 + order);
   check(name_of(formulation) + ", compression to 36 %, on the yield surface", std::abs(mises / yield - 1.),
-        1e-4);
+        1e-4 + order);
   check(name_of(formulation) + ", compression to 36 %, work is stored or dissipated",
-        std::abs(dissipated / (summary.elastic_energy + summary.plastic_work) - 1.), 2e-3);
+        std::abs(dissipated / (summary.elastic_energy + summary.plastic_work) - 1.), 2e-3 + order);
   check(name_of(formulation) + ", compression to 36 %, plastic work",
-        std::abs(summary.plastic_work / linear.work(alpha) - 1.), 3e-5);
+        std::abs(summary.plastic_work / linear.work(alpha) - 1.), 3e-5 + order);
 }
 
 /// The last step again: nothing may change. For the neo-Hookean law this is det b̄_e = 1.
