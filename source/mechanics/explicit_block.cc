@@ -103,28 +103,12 @@ public:
     double reference_volume = 0., current_volume = 0.;
     for (const PointState &point : storage_.compute_states(element, displacements)) {
       const double w = point.reference_volume;
-      const double mean_tau = material_.bulk * std::log(point.volume_ratio);
-      dealii::SymmetricTensor<2, 3> tau = point.tensor;
-      double energy = 0.5 * mean_tau * std::log(point.volume_ratio);
-      if (formulation_.kinematics == Kinematics::hypoelastic)
-        energy += tau * tau / (4. * material_.shear);
-      else if (formulation_.kinematics == Kinematics::neo_hookean) {
-        const double scale = 1. / std::cbrt(dealii::determinant(tau)); // det b̄_e = 1
-        energy += 0.5 * material_.shear * (scale * dealii::trace(tau) - 3.);
-        tau = material_.shear * scale * dealii::deviator(tau);
-      } else {
-        std::array<double, 6> b{}, log_b{};
-        double mean = 0.;
-        for (unsigned int k = 0; k < 6; ++k)
-          b[k] = tau[symmetric_pairs[k][0]][symmetric_pairs[k][1]];
-        compute_logarithm(b.data(), log_b.data(), mean);
-        for (unsigned int k = 0; k < 6; ++k)
-          tau[symmetric_pairs[k][0]][symmetric_pairs[k][1]] = material_.shear * log_b[k];
-        energy += tau * tau / (4. * material_.shear);
-      }
-      summary.cauchy_stress += w * (tau + mean_tau * dealii::unit_symmetric_tensor<3>());
+      const double volumetric = std::log(point.volume_ratio), mean_tau = material_.bulk * volumetric;
+      dealii::SymmetricTensor<2, 3> dev_tau;
+      const double distortion = compute_distortion(point.tensor, dev_tau);
+      summary.cauchy_stress += w * (dev_tau + mean_tau * dealii::unit_symmetric_tensor<3>());
       summary.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
-      summary.elastic_energy += w * energy;
+      summary.elastic_energy += w * (distortion + 0.5 * mean_tau * volumetric);
       summary.plastic_work += w * hardening_.work(point.equivalent_plastic_strain);
       reference_volume += w;
       current_volume += w * point.volume_ratio;
@@ -137,6 +121,33 @@ public:
   }
 
 private:
+  /// dev τ and the energy that it stores per reference volume, from a PointState's tensor.
+  double compute_distortion(const dealii::SymmetricTensor<2, 3> &tensor,
+                            dealii::SymmetricTensor<2, 3> &dev_tau) const {
+    const double G = material_.shear;
+    if (formulation_.kinematics == Kinematics::hypoelastic) {
+      dev_tau = tensor;
+      return tensor * tensor / (4. * G);
+    }
+    PrincipalElasticState state;
+    if (!compute_principal_state(tensor, state))
+      return 0.;
+    PrincipalResponse response;
+    double energy = 0.;
+    for (unsigned int a = 0; a < 3; ++a) {
+      const double e = state.deviatoric_log_strains[a];
+      if (formulation_.kinematics == Kinematics::hencky) {
+        response.stress[a] = 2. * G * e;
+        energy += G * e * e;
+      } else { // ½ G (tr b̄_e − 3); Σ e = 0
+        response.stress[a] = G * std::expm1(2. * e);
+        energy += 0.5 * G * (std::expm1(2. * e) - 2. * e);
+      }
+    }
+    dev_tau = dealii::deviator(compute_kirchhoff_stress(state, response));
+    return energy;
+  }
+
   ExplicitFormulation formulation_;
   Hardening hardening_;
   explicit_kernels::Material material_;

@@ -166,18 +166,28 @@ BILLET_INLINE Real bound_rate(const Real omega_squared, const Real c) {
   return 0.5 * (0.5 * c + square_root(0.25 * c * c + omega_squared));
 }
 
+/// Into the second-level cache: the first has no room for two batches and the work on a third.
+BILLET_INLINE void prefetch(const double *p, const std::size_t n) {
+  for (std::size_t k = 0; k < n; k += 8)
+    __builtin_prefetch(p + k, 0, 2);
+}
+
 BILLET_INLINE void prefetch(const Elements &elements, const Step &step, const std::size_t batch,
                             const std::size_t n_batches, const bool velocities) {
   if (batch >= n_batches)
     return;
+  const std::size_t n_constants = elements.layout.n_constants * n_lanes,
+                    n_history = elements.layout.n_history * n_lanes;
+  prefetch(elements.constants + batch * n_constants, n_constants);
+  prefetch(elements.history + batch * n_history, n_history);
   const std::uint32_t *nodes = elements.nodes + batch * 8 * n_lanes;
   for (unsigned int k = 0; k < 8 * n_lanes; ++k) {
     const std::size_t place = 4 * std::size_t{nodes[k]};
-    __builtin_prefetch(step.displacements + place);
-    __builtin_prefetch(elements.reference_positions + place);
-    __builtin_prefetch(step.forces + place, 1);
+    prefetch(step.displacements + place, 4);
+    prefetch(elements.reference_positions + place, 4);
+    prefetch(step.forces + place, 4);
     if (velocities)
-      __builtin_prefetch(step.velocities + place);
+      prefetch(step.velocities + place, 4);
   }
 }
 

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The stable step against the eigenvalues of the element: with K the derivative of the forces, C that of the
+// viscous ones by the velocities, M − Δt C/2 − Δt² K/4 must stay positive. And the viscosity itself.
+
+#include "explicit_blocks.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+using namespace billet;
+using namespace billet::testing;
+
+using Element = Formulation::Element;
+using Kinematics = Formulation::Kinematics;
+using Matrix = dealii::LAPACKFullMatrix<double>;
+
+/// A deformation in two steps: u_0, then u_0 + Δt v, the state that is looked at.
+struct State {
+  NodalTensor X, u, v;
+  double dt;
+};
+
+Body reach(const State &state, const MaterialLaw &material, const Formulation &formulation,
+           const NodalTensor &moved, NodalTensor &force) {
+  Body body(make_mesh(state.X), material, formulation);
+  body.advance(state.u, 0.);
+  force = body.advance(state.u + state.dt * state.v + moved, state.dt);
+  return body;
+}
+
+/// The largest eigenvalue of M⁻¹ᐟ² sym(K Δt²/4 + C Δt/2) M⁻¹ᐟ², where K and C are found by differences.
+double largest_eigenvalue(const State &state, const MaterialLaw &material, const Formulation &formulation,
+                          const double dt) {
+  Formulation inviscid = formulation;
+  inviscid.linear_viscosity = inviscid.quadratic_viscosity = 0.;
+  const double h = 1e-6;
+  std::array<NodalTensor, 24> K, C;
+  NodalTensor force;
+  for (unsigned int k = 0; k < 24; ++k) {
+    const auto differentiate = [&](const Formulation &which) {
+      return central_difference(
+          [&](const double e) {
+            NodalTensor moved;
+            moved[k] = e;
+            reach(state, material, which, moved, force);
+            return force;
+          },
+          h);
+    };
+    K[k] = differentiate(inviscid);
+    C[k] = state.dt * (differentiate(formulation) - K[k]);
+  }
+  std::vector<double> masses(8);
+  reach(state, material, formulation, NodalTensor(), force).block().add_masses(masses.data());
+  Matrix matrix(24);
+  for (unsigned int r = 0; r < 24; ++r)
+    for (unsigned int c = 0; c < 24; ++c)
+      matrix(r, c) = 0.5 * (0.25 * dt * dt * (K[r][c] + K[c][r]) + 0.5 * dt * (C[r][c] + C[c][r])) /
+                     std::sqrt(masses[r / 3] * masses[c / 3]);
+  dealii::FullMatrix<double> vectors;
+  dealii::Vector<double> values;
+  matrix.compute_eigenvalues_symmetric(-1e300, 1e300, 0., values, vectors);
+  double largest = 0.;
+  for (const double value : values)
+    largest = std::max(largest, value);
+  return largest;
+}
+
+/// At a stable step that is safe the eigenvalue is at most 1; 1 is sharp.
+void test_bound(const std::string &name, const MaterialLaw &material, const Formulation &formulation,
+                const std::vector<State> &states) {
+  WorstError excess;
+  for (const State &state : states) {
+    NodalTensor force;
+    const Body body = reach(state, material, formulation, NodalTensor(), force);
+    if (body.result().inverted != 1)
+      excess.add(NAN);
+    excess.add(largest_eigenvalue(state, material, formulation, body.result().stable_step));
+  }
+  check(name_of(formulation) + ", " + name + ", stable step is safe", excess.value(), 1. + 1e-6);
+}
+
+std::vector<State> random_states(Random &random, const unsigned int n, const double distortion,
+                                 const double size, const double rate) {
+  std::vector<State> states;
+  while (states.size() < n) {
+    NodalTensor stretched = cube() + random_nodal(random, distortion);
+    for (unsigned int k = 0; k < 24; ++k)
+      stretched[k] *= k % 3 == 0 ? 1. : k % 3 == 1 ? 0.5 : 2.;
+    State state{stretched, displace(unit + random.tensor(size), stretched) + random_nodal(random, 0.2 * size),
+                NodalTensor(), 1e-7};
+    state.v = (rate / state.dt) * (displace(unit + random.tensor(1.), stretched) + random_nodal(random, 0.2));
+    ReferenceElement reference;
+    MeanDilatationKinematics ignored;
+    if (compute_reference_element(to_array(state.X), reference) &&
+        compute_kinematics(reference, to_array(state.u), ignored) &&
+        compute_kinematics(reference, to_array(state.u + state.dt * state.v), ignored))
+      states.push_back(state);
+  }
+  return states;
+}
+
+/// An undeformed cube: how far below the exact 2/ω.
+void test_sharpness(const Formulation &formulation) {
+  WorstError pessimism;
+  for (const double nu : {0., 0.3, 0.45}) {
+    const MaterialLaw material{ElasticModuli::from_young_poisson(young, nu), {}};
+    const State state{cube(), NodalTensor(), NodalTensor(), 1e-7};
+    NodalTensor force;
+    const double dt = reach(state, material, formulation, NodalTensor(), force).result().stable_step;
+    pessimism.add(1. - std::sqrt(largest_eigenvalue(state, material, formulation, dt)));
+  }
+  check(name_of(formulation) + ", stable step of a cube is not wasteful", pessimism.value(),
+        formulation.element == Element::one_point ? 0.3 : 1e-6);
+}
+
+/// Volume change of a cube at rate d: pressure and work in closed form.
+void test_viscosity(Formulation formulation) {
+  const double c = std::sqrt((steel.bulk + 4. / 3. * steel.shear) / density), dt = 1e-7;
+  const auto run = [&](const double linear, const double quadratic, const double strain) {
+    formulation.linear_viscosity = linear;
+    formulation.quadratic_viscosity = quadratic;
+    Body body(make_mesh(cube()), {steel, {}}, formulation);
+    body.advance(NodalTensor(), 0.);
+    body.advance(displace((1. + strain) * unit, cube()), dt);
+    return body.result();
+  };
+  WorstError error;
+  for (const double strain : {-1e-3, 1e-3}) {
+    const double J = std::pow(1. + strain, 3), d = 2. * (J - 1.) / (J + 1.) / dt;
+    const double linear = density * 0.06 * c * std::abs(d),
+                 quadratic = strain < 0. ? density * 1.44 * d * d : 0.;
+    error.add(std::abs(run(0.06, 0., strain).viscous_work / (linear * std::abs(J - 1.)) - 1.));
+    error.add(std::abs(run(0., 1.2, strain).viscous_work - quadratic * std::abs(J - 1.)) /
+              (linear * std::abs(J - 1.)));
+  }
+  check(name_of(formulation) + ", viscous work of a cube", error.value(), 1e-9);
+  check(name_of(formulation) + ", viscosity shortens the step",
+        run(0.06, 0., -1e-3).stable_step < 0.96 * run(0., 0., -1e-3).stable_step &&
+            run(0.06, 1.2, -1e-3).stable_step < run(0.06, 0., -1e-3).stable_step);
+
+  Random random;
+  formulation.linear_viscosity = 0.06;
+  formulation.quadratic_viscosity = 1.2;
+  WorstError negative;
+  for (const State &state : random_states(random, 50, 0.15, 0.1, 0.03)) {
+    NodalTensor force;
+    negative.add(-reach(state, {steel, linear}, formulation, NodalTensor(), force).result().viscous_work);
+  }
+  check(name_of(formulation) + ", viscous work is not negative", negative.value(), 0.);
+}
+
+/// Free vibration of distorted elements at the stable step of each step: energy stays what it was.
+void test_vibration(const Formulation &formulation) {
+  Random random;
+  const Mesh mesh = make_mesh({3, 3, 2}, 0.25, random);
+  Body body(mesh, {steel, {}}, formulation);
+  std::vector<double> masses(mesh.n_nodes());
+  body.block().add_masses(masses.data());
+  NodalArray u(mesh.positions.size()), v(u.size());
+  for (double &component : v)
+    component = random(-1., 1.);
+  const auto kinetic = [&] {
+    double energy = 0.;
+    for (std::size_t a = 0; a < mesh.n_nodes(); ++a)
+      energy += 0.5 * masses[a] * mesh.node(v, a).norm_square();
+    return energy;
+  };
+  const double start = kinetic();
+  body.advance(u, 0.);
+  const double dt = body.result().stable_step;
+  double largest = 0.;
+  for (unsigned int step = 0; step < 2000; ++step) {
+    for (std::size_t k = 0; k < u.size(); ++k)
+      u[k] += dt * v[k];
+    const NodalArray forces = body.advance(u, dt);
+    for (std::size_t k = 0; k < u.size(); ++k)
+      v[k] -= k % 4 == 3 ? 0. : dt * forces[k] / masses[k / 4];
+    largest = std::max(largest, kinetic());
+  }
+  check(name_of(formulation) + ", 2000 steps of free vibration",
+        largest < 2. * start && kinetic() > 0.1 * start);
+}
+
+int main() {
+  Random random;
+  const auto undeformed = random_states(random, 6, 0.2, 0., 0.),
+             deformed = random_states(random, 8, 0.15, 0.2, 0.), far = random_states(random, 6, 0.1, 0.5, 0.),
+             fast = random_states(random, 6, 0.15, 0.1, 0.03);
+  for_each_kernel([&](Formulation formulation) {
+    for (const double nu : {0., 0.3, 0.48}) {
+      const MaterialLaw material{ElasticModuli::from_young_poisson(young, nu), {}};
+      const std::string name = "nu = " + std::to_string(nu).substr(0, 4);
+      test_bound(name + ", undeformed", material, formulation, undeformed);
+      test_bound(name + ", deformed", material, formulation, deformed);
+      test_bound(name + ", far deformed", material, formulation, far);
+    }
+    test_bound("plastic", {steel, linear}, formulation, deformed);
+    test_sharpness(formulation);
+    test_vibration(formulation);
+    test_viscosity(formulation);
+    formulation.linear_viscosity = 0.06;
+    formulation.quadratic_viscosity = 1.2;
+    test_bound("viscous", {steel, {}}, formulation, fast);
+    formulation.linear_viscosity = 1.;
+    test_bound("very viscous", {steel, {}}, formulation, fast);
+  });
+  return exit_code();
+}
