@@ -15,6 +15,13 @@ namespace billet {
 
 using dealii::Tensor;
 
+namespace {
+
+// What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
+constexpr double near_gap = 0.25, near_steps = 20.;
+
+} // namespace
+
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
                            const ContactTangent tangent)
     : pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
@@ -121,8 +128,11 @@ void RigidContact::update(const Vector &displacements) {
 
 void RigidContact::bind(const LocalNodes &nodes) {
   local_nodes_.clear();
-  for (const auto &node : nodes_)
+  is_owned_.clear();
+  for (const auto &node : nodes_) {
     local_nodes_.push_back(nodes.find(node.dofs[0]));
+    is_owned_.push_back(nodes.is_owned(local_nodes_.back()));
+  }
 }
 
 void RigidContact::update(const NodalVectors &displacements) {
@@ -295,6 +305,15 @@ void RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const 
     bounds[std::size_t{nodal_stride} * node] +=
         area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
   });
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node &node = nodes_[i];
+    const double gap = states_[i].gap;
+    // The step in which a node enters must be short enough already, and equal steps keep the energy best.
+    const bool is_near = gap < near_gap * node.size || gap + near_steps * (gap - node.gap_n) < 0.;
+    if (states_[i].status == ContactStatus::open && gap >= 0. && is_near && is_owned_[i])
+      bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
+          node.size * node.size * std::max(node.stiffness.normal, node.stiffness.tangential);
+  }
 }
 
 void RigidContact::add_tangent(const TangentSystem &system) const {

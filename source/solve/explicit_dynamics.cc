@@ -248,7 +248,10 @@ double ExplicitDynamics::stable_step() const {
 }
 
 void ExplicitDynamics::choose_step(const double event) {
-  const double largest = parameters_.safety_factor * element_step_;
+  constexpr double largest_growth = 1.02;
+  double largest = parameters_.safety_factor * element_step_;
+  if (n_steps_ > 0)
+    largest = std::min(largest, largest_growth * step_);
   // A step that may be kept is kept, though it could be a little longer: the scheme likes equal steps.
   if (n_planned_ > 0 && step_ <= largest && step_ > 0.9 * largest) {
     --n_planned_;

@@ -165,6 +165,7 @@ private:
   std::vector<FrictionHistory> friction_n_, friction_;
   std::vector<Facet> facets_;
   std::vector<unsigned int> local_nodes_; ///< of each slave node, after bind()
+  std::vector<bool> is_owned_;            ///< as LocalNodes has it
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   bool is_removed_ = false;
