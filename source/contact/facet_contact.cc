@@ -38,6 +38,11 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
   if (!std::holds_alternative<Frictionless>(settings.friction))
     history_n_.resize(slaves_.size());
   history_ = history_n_;
+  if (settings.edges) {
+    edges_.emplace(settings.partners, settings.sharp_edge);
+    for (const auto &of_node : stiffness)
+      edge_stiffness_.push_back(of_node.normal);
+  }
 }
 
 void FacetContact::rebuild() {
@@ -46,11 +51,26 @@ void FacetContact::rebuild() {
   for (std::size_t s = 0; s < slaves_.size(); ++s)
     if (touched_n_[s].exists())
       keys[s] = search_.facets()[touched_n_[s].facet].key;
-  exchange_.rebuild(positions_n_, positions_, largest_reach_ + settings_.search_margin);
+  double distance = largest_reach_ + settings_.search_margin;
+  if (edges_) {
+    // The middle of an edge is farther from nodes, and depth is not limited to the reach.
+    double longest = 0.;
+    for (std::size_t f = 0; f < exchange_.n_own_facets(); ++f) {
+      const FacetCorners x = corners_of(exchange_.facets()[f], positions_);
+      for (unsigned int i = 0; i < 4; ++i)
+        longest = std::max(longest, (x[facet::around[(i + 1) % 4]] - x[facet::around[i]]).norm());
+    }
+    distance += settings_.limits.held_depth * largest_reach_ + longest;
+    MPI_Allreduce(MPI_IN_PLACE, &distance, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+  }
+  exchange_.rebuild(positions_n_, positions_, distance);
   exchange_.update(positions_n_);
   exchange_.update(positions_);
   search_.set_surface(exchange_.facets(), slaves_);
   search_.rebuild(positions_n_, positions_);
+  if (edges_)
+    edges_->rebuild(search_.facets(), exchange_.n_own_facets(), positions_, settings_.search_margin,
+                    settings_.limits.held_depth);
   std::unordered_map<std::uint64_t, unsigned int> index;
   for (unsigned int f = 0; f < search_.facets().size(); ++f)
     index.emplace(search_.facets()[f].key, f);
@@ -149,6 +169,13 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
     for (unsigned int a = 0; a < 4; ++a)
       all[search_.facets()[state.touched.facet].nodes[a]] += reaction[a];
   }
+  if (edges_)
+    crossings_ = edges_->find_crossings(positions_);
+  for (const auto &crossing : crossings_) {
+    const Tensor<1, 3> force = -edge_spring(crossing) * crossing.gap * crossing.normal;
+    for (unsigned int i = 0; i < 4; ++i)
+      all[crossing.nodes[i]] += (i < 2 ? crossing.weights[i] : -crossing.weights[i]) * force;
+  }
   exchange_.collect(all);
   for (std::size_t i = 0; i < exchange_.n_own_nodes(); ++i)
     forces[i] += all[i];
@@ -169,9 +196,31 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) const {
       all[search_.facets()[state.touched.facet].nodes[a]] +=
           std::abs(state.touched.projection.weights[a]) * columns * k * state.own_area;
   }
+  for (const auto &crossing : crossings_)
+    for (unsigned int i = 0; i < 4; ++i)
+      all[crossing.nodes[i]] += 2. * crossing.weights[i] * edge_spring(crossing);
   exchange_.collect(all);
   for (std::size_t i = 0; i < exchange_.n_own_nodes(); ++i)
     row_sums[i] += all[i];
+}
+
+void FacetContact::add_edges(FacetContactLoad &load) const {
+  for (const auto &crossing : crossings_) {
+    const double spring = edge_spring(crossing);
+    const Tensor<1, 3> force = -spring * crossing.gap * crossing.normal;
+    Tensor<1, 3> between;
+    for (unsigned int i = 0; i < 4; ++i)
+      between += (i < 2 ? crossing.weights[i] : -crossing.weights[i]) * positions_[crossing.nodes[i]];
+    load.residual_moment += dealii::cross_product_3d(between, force);
+    load.absolute_force += force.norm();
+    if (crossing.surfaces[0] == 0)
+      load.force += force;
+    if (crossing.surfaces[1] == 0)
+      load.force -= force;
+    load.stored_energy += 0.5 * spring * crossing.gap * crossing.gap;
+    load.deepest = std::max(load.deepest, -crossing.gap);
+    load.deepest_relative = std::max(load.deepest_relative, -0.5 * crossing.gap / std::sqrt(crossing.area));
+  }
 }
 
 FacetContactLoad FacetContact::compute_load() const {
@@ -203,6 +252,7 @@ FacetContactLoad FacetContact::compute_load() const {
     load.deepest = std::max(load.deepest, -p.gap);
     load.deepest_relative = std::max(load.deepest_relative, -p.gap / size);
   }
+  add_edges(load);
   std::array<double, 14> sums{load.stored_energy, load.dissipation, load.area, load.n_touching,
                               load.absolute_force};
   std::array<double, 2> largest{load.deepest, load.deepest_relative};

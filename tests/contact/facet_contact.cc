@@ -206,6 +206,83 @@ void check_impact(const FacetMethod method, const std::string &name) {
          method == FacetMethod::planed ? 5e-3 : 1e-3);
 }
 
+/// Blocks of one facet a side, the upper one of which stands on its edge above the lower one's, which it
+/// crosses at right angles: no node of either is in the other.
+Surface make_roofs(const double depth) {
+  Surface surface;
+  const auto add_roof = [&](const unsigned int label, const Tensor<2, 3> &R, const Tensor<1, 3> &shift) {
+    const auto first = static_cast<unsigned int>(surface.positions.size());
+    for (const double y : {-1., 1.}) // two flanks that meet in the y axis
+      for (const double x : {-1., 0., 1.})
+        surface.positions.push_back(shift + R * Tensor<1, 3>({x, y, -std::abs(x)}));
+    for (const unsigned int i : {0u, 1u})
+      surface.facets.push_back(
+          {{first + i, first + i + 1, first + i + 3, first + i + 4}, label, surface.facets.size(), 0.1});
+  };
+  Tensor<2, 3> upright, over; // over: turned about the y axis by 180, then about the z axis by 90 degrees
+  for (unsigned int i = 0; i < 3; ++i)
+    upright[i][i] = 1.;
+  over[0][1] = -1.;
+  over[1][0] = -1.;
+  over[2][2] = -1.;
+  add_roof(1, upright, Tensor<1, 3>());
+  add_roof(0, over, Tensor<1, 3>({0.3, 0.2, -depth}));
+  return surface;
+}
+
+void check_edges() {
+  const std::size_t n = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const double depth = 0.01;
+  FacetContactSettings settings = make_settings(FacetMethod::planed, Frictionless(), true);
+  for (const bool edges : {false, true}) {
+    settings.edges = edges;
+    const Surface surface = make_roofs(depth);
+    const Part part(surface, [&](const std::size_t f) { return f % n == rank(); });
+    FacetContact contact = make_contact(MPI_COMM_WORLD, settings, part);
+    const Positions positions = part.take(surface.positions);
+    Positions forces(positions.size());
+    contact.add_forces(positions, positions, 0., forces);
+    const FacetContactLoad load = contact.compute_load();
+    if (!edges) {
+      report("roofs: nodes do not see each other", load.absolute_force, 0.);
+      continue;
+    }
+    std::vector<double> sums(6);
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const Tensor<1, 3> moment = dealii::cross_product_3d(positions[i], forces[i]);
+      for (unsigned int c = 0; c < 3; ++c) {
+        sums[c] += forces[i][c];
+        sums[3 + c] += moment[c];
+      }
+    }
+    dealii::Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
+    WorstError residual;
+    for (const double sum : sums)
+      residual.add(std::abs(sum) / load.absolute_force);
+    residual.add((load.residual_force.norm() + load.residual_moment.norm()) / load.absolute_force);
+    // Edges of length 2: an area of 1.
+    const double expected = penalty.normal * depth;
+    report("roofs: their edges do", (load.force - Tensor<1, 3>({0., 0., expected})).norm() / expected, 1e-12);
+    report("roofs: energy of edges", std::abs(load.stored_energy / (0.5 * expected * depth) - 1.), 1e-12);
+    report("roofs: forces and moments balance", residual.value(), 1e-14);
+    std::vector<double> rows(positions.size());
+    contact.add_row_sums(rows);
+    double sum = 0.;
+    for (const double row : rows)
+      sum += row;
+    sum = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+    report("roofs: sums of rows", std::abs(sum / (4. * penalty.normal) - 1.), 1e-12);
+  }
+  settings.edges = true;
+  const Surface apart = make_roofs(-depth);
+  const Part part = everything(apart);
+  FacetContact contact = make_contact(MPI_COMM_SELF, settings, part);
+  const Positions positions = part.take(apart.positions);
+  Positions forces(positions.size());
+  contact.add_forces(positions, positions, 0., forces);
+  report("roofs: apart they are free", contact.compute_load().absolute_force, 0.);
+}
+
 void check_ranks(const FacetMethod method, const std::string &name) {
   const std::size_t n = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   Random random;
@@ -273,5 +350,6 @@ int main(int argc, char *argv[]) {
     check_impact(method, name);
     check_ranks(method, name);
   }
+  check_edges();
   return exit_code();
 }

@@ -2,10 +2,12 @@
 #ifndef BILLET_CONTACT_FACET_CONTACT_H
 #define BILLET_CONTACT_FACET_CONTACT_H
 
+#include "billet/contact/edge_contact.h"
 #include "billet/contact/facet_choice.h"
 #include "billet/contact/slave_traction.h"
 #include "billet/contact/surface_exchange.h"
 
+#include <optional>
 #include <vector>
 
 namespace billet {
@@ -26,6 +28,10 @@ struct FacetContactSettings {
   bool two_pass = true;
   ContactLimits limits;
   double search_margin; ///< of FacetSearch, > 0 [length]
+  /// Sharp edges are held apart where they cross, without friction, at the mean full penalty of the ends of
+  /// the edge on the surface with the lower number. Not asked for, this costs nothing.
+  bool edges = false;
+  double sharp_edge = 0.9; ///< EdgeContact's largest alignment of normals
 };
 
 /// What contact between surfaces does in one step, over all ranks.
@@ -101,6 +107,11 @@ private:
   void rebuild();
   template <class Facet, class Law> void evaluate(const Law &law, double duration);
   void compute_areas(const SlaveNode &slave, SlaveState &state) const;
+  /// k A of a crossing [force/length].
+  double edge_spring(const EdgeContact::Crossing &crossing) const {
+    return 0.5 * crossing.area * (edge_stiffness_[crossing.nodes[0]] + edge_stiffness_[crossing.nodes[1]]);
+  }
+  void add_edges(FacetContactLoad &load) const;
   FacetCorners target_corners(const SlaveState &state) const {
     return corners_of(search_.facets()[state.touched.facet], positions_);
   }
@@ -116,6 +127,9 @@ private:
   std::vector<TouchedFacet> touched_n_;
   std::vector<SlaveState> states_;
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only
+  std::optional<EdgeContact> edges_;
+  std::vector<double> edge_stiffness_; ///< full normal penalties of own nodes, if there are edges
+  std::vector<EdgeContact::Crossing> crossings_;
 };
 
 } // namespace billet
