@@ -250,8 +250,8 @@ void SurfaceExchange::forward(void *values, const std::size_t size) const {
         std::memcpy(bytes + size * neighbours_[i].received[k], received[i].data() + size * k, size);
 }
 
-void SurfaceExchange::collect(Positions &values) const {
-  std::vector<Positions> to_send(neighbours_.size()), received(neighbours_.size());
+template <class T> void SurfaceExchange::collect(std::vector<T> &values) const {
+  std::vector<std::vector<T>> to_send(neighbours_.size()), received(neighbours_.size());
   {
     Requests requests(communicator_);
     for (std::size_t i = 0; i < neighbours_.size(); ++i) {
@@ -259,14 +259,17 @@ void SurfaceExchange::collect(Positions &values) const {
       received[i].resize(neighbour.sent.size());
       requests.receive(received[i], neighbour.rank);
       for (std::size_t k = 0; k < neighbour.received.size(); ++k)
-        to_send[i].push_back(neighbour.is_provider[k] ? values[neighbour.received[k]] : Tensor<1, 3>());
+        to_send[i].push_back(neighbour.is_provider[k] ? values[neighbour.received[k]] : T());
       requests.send(to_send[i], neighbour.rank);
     }
   }
   for (std::size_t i = 0; i < neighbours_.size(); ++i)
     for (std::size_t k = 0; k < received[i].size(); ++k)
       values[neighbours_[i].sent[k]] += received[i][k];
-  std::fill(values.begin() + static_cast<std::ptrdiff_t>(n_own_nodes()), values.end(), Tensor<1, 3>());
+  std::fill(values.begin() + static_cast<std::ptrdiff_t>(n_own_nodes()), values.end(), T());
 }
+
+template void SurfaceExchange::collect(std::vector<double> &) const;
+template void SurfaceExchange::collect(std::vector<Tensor<1, 3>> &) const;
 
 } // namespace billet

@@ -8,8 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <sstream>
 
 using namespace billet;
 using namespace billet::testing;
@@ -18,40 +16,6 @@ using dealii::Tensor;
 namespace {
 
 constexpr double margin = 0.1, largest_reach = 0.08;
-
-/// The part of a surface that one rank has.
-struct Part {
-  std::vector<unsigned int> nodes; ///< of the whole surface
-  std::vector<std::uint64_t> node_keys;
-  std::vector<SurfaceFacet> facets;
-
-  template <class IsMine> Part(const Surface &whole, const IsMine &is_mine) {
-    std::map<unsigned int, unsigned int> index;
-    for (std::size_t f = 0; f < whole.facets.size(); ++f) {
-      if (!is_mine(f))
-        continue;
-      SurfaceFacet facet = whole.facets[f];
-      for (unsigned int &node : facet.nodes) {
-        const auto found = index.emplace(node, static_cast<unsigned int>(nodes.size()));
-        if (found.second) {
-          nodes.push_back(node);
-          node_keys.push_back(key_of(node));
-        }
-        node = found.first->second;
-      }
-      facets.push_back(facet);
-    }
-  }
-
-  static std::uint64_t key_of(const unsigned int node) { return (std::uint64_t{1} << 40) + 7 * node; }
-
-  Positions take(const Positions &whole) const {
-    Positions result;
-    for (const unsigned int node : nodes)
-      result.push_back(whole[node]);
-    return result;
-  }
-};
 
 /// Sorted keys of a node's candidates.
 std::vector<std::uint64_t> candidate_keys(const FacetSearch &search, const std::size_t slave) {

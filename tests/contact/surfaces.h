@@ -7,6 +7,7 @@
 #include "../testing.h"
 
 #include <functional>
+#include <map>
 
 namespace billet::testing {
 
@@ -52,6 +53,40 @@ inline void add_ball(Surface &surface, const unsigned int n, const unsigned int 
                             {std::cos(around) * std::cos(up), std::sin(around) * std::cos(up), std::sin(up)});
   });
 }
+
+/// The part of a surface that one rank has.
+struct Part {
+  std::vector<unsigned int> nodes; ///< of the whole surface
+  std::vector<std::uint64_t> node_keys;
+  std::vector<SurfaceFacet> facets;
+
+  template <class IsMine> Part(const Surface &whole, const IsMine &is_mine) {
+    std::map<unsigned int, unsigned int> index;
+    for (std::size_t f = 0; f < whole.facets.size(); ++f) {
+      if (!is_mine(f))
+        continue;
+      SurfaceFacet facet = whole.facets[f];
+      for (unsigned int &node : facet.nodes) {
+        const auto found = index.emplace(node, static_cast<unsigned int>(nodes.size()));
+        if (found.second) {
+          nodes.push_back(node);
+          node_keys.push_back(key_of(node));
+        }
+        node = found.first->second;
+      }
+      facets.push_back(facet);
+    }
+  }
+
+  static std::uint64_t key_of(const unsigned int node) { return (std::uint64_t{1} << 40) + 7 * node; }
+
+  Positions take(const Positions &whole) const {
+    Positions result;
+    for (const unsigned int node : nodes)
+      result.push_back(whole[node]);
+    return result;
+  }
+};
 
 /// Each surface turns and drifts as a whole, waves, and its nodes tremble.
 class RandomMotion {

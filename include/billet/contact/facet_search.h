@@ -72,6 +72,12 @@ public:
       visit(candidates_[i]);
   }
 
+  /// Calls visit(facet) for each facet that has this node.
+  template <class Visit> void visit_around(const unsigned int node, const Visit &visit) const {
+    for (std::size_t i = first_around_[node]; i < first_around_[node + 1]; ++i)
+      visit(around_[i]);
+  }
+
   /// Calls visit(facet) once for each facet that shares nodes with this one.
   template <class Visit> void visit_ring(const unsigned int facet, const Visit &visit) const {
     const auto &nodes = facets_[facet].nodes;

@@ -48,7 +48,8 @@ public:
   /// Adds the values of ghost nodes to those of their owners, in the order of the ranks, so that sums are
   /// reproducible; the ghosts' values are 0 then. A node that several ranks own gets its addition on one of
   /// them, or on this rank if it is one of them: the sum over all ranks is what counts.
-  void collect(Positions &values) const;
+  /// T is Tensor<1, 3> or double.
+  template <class T> void collect(std::vector<T> &values) const;
 
 private:
   /// A rank whose surface is near.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_AREAS_H
+#define BILLET_CONTACT_FACET_AREAS_H
+
+#include "billet/geometry/facet_projection.h"
+
+namespace billet {
+
+/// A slave node's share of one of its own facets, ∫ N_a <−ν·n> dξdη: the facet's area seen along the normal n
+/// of what the node touches, weighted by the shape function of its corner a; ν = x,ξ × x,η, by 2 × 2 Gauss
+/// points. A facet that does not face what the node touches has no share. [length²]
+double compute_area_share(const FacetCorners &corners, unsigned int corner,
+                          const dealii::Tensor<1, 3> &normal);
+
+} // namespace billet
+
+#endif

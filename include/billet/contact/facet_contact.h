@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_CONTACT_H
+#define BILLET_CONTACT_FACET_CONTACT_H
+
+#include "billet/contact/edge_contact.h"
+#include "billet/contact/facet_choice.h"
+#include "billet/contact/slave_traction.h"
+#include "billet/contact/surface_exchange.h"
+
+#include <optional>
+#include <vector>
+
+namespace billet {
+
+/// How a facet is seen by the nodes that touch it.
+enum class FacetMethod {
+  planed,  ///< PlanedFacet: no iteration
+  bilinear ///< BilinearFacet: without friction, forces at a fixed area have a potential
+};
+
+/// What contact between surfaces is made of.
+struct FacetContactSettings {
+  FacetMethod method = FacetMethod::planed;
+  FrictionLaw friction = Frictionless();
+  FacetSearch::Partners partners = FacetSearch::Partners::other_surfaces;
+  /// Nodes of all surfaces are slaves, at half their penalty each, so that a pair of surfaces is as stiff as
+  /// in one pass; else nodes of surface 0 only.
+  bool two_pass = true;
+  ContactLimits limits;
+  double search_margin; ///< of FacetSearch, > 0 [length]
+  /// Sharp edges are held apart where they cross, without friction, at the mean full penalty of the ends of
+  /// the edge on the surface with the lower number. Not asked for, this costs nothing.
+  bool edges = false;
+  double sharp_edge = 0.9; ///< EdgeContact's largest alignment of normals
+};
+
+/// What contact between surfaces does in one step, over all ranks.
+struct FacetContactLoad {
+  dealii::Tensor<1, 3> force;           ///< on surface 0, by the others
+  double stored_energy = 0.;            ///< in the penalty springs [energy]
+  double dissipation = 0.;              ///< by friction in this step [energy]
+  double area = 0.;                     ///< of slaves in contact, of both passes [length²]
+  double n_touching = 0.;               ///< slave nodes; one that several ranks have counts on each
+  double deepest = 0.;                  ///< largest penetration [length]
+  double deepest_relative = 0.;         ///< the same, relative to the root of the facet's area
+  double absolute_force = 0.;           ///< Σ |F|, the scale of what follows
+  dealii::Tensor<1, 3> residual_force;  ///< Σ (F + Σ F_I): 0 but for round-off
+  dealii::Tensor<1, 3> residual_moment; ///< the same of the moments [force length]
+};
+
+/// Contact between the surfaces of deformable bodies, or of one with itself, node against facet: slave nodes
+/// are held out of facets by a penalty, with friction in a frame that each node carries along. The force on a
+/// node is its traction times its share of its own facets' area; the facet's corners take the reaction, which
+/// balances force and moment.
+///
+/// Plain arrays in and out: nodes and facets are those of this rank, facets of other ranks come by
+/// SurfaceExchange. A node that several ranks have is a slave on each, with the area of that rank's facets;
+/// its state is the same on all of them. Forces on it are to be summed over these ranks, as forces of
+/// elements are.
+class FacetContact {
+public:
+  using Positions = FacetSearch::Positions;
+
+  /// `node_keys` and `facets` as SurfaceExchange wants them; `stiffness`: full penalties of each node as a
+  /// slave.
+  FacetContact(MPI_Comm communicator, const FacetContactSettings &settings,
+               std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
+               std::vector<ContactStiffness> stiffness);
+
+  /// Adds contact forces at `positions` to `forces`; `positions_n` are those of the last commit(), and
+  /// `duration` is the time in between. All are of this rank's nodes.
+  void add_forces(const Positions &positions_n, const Positions &positions, double duration,
+                  Positions &forces);
+
+  /// Adds to each of this rank's nodes what bounds the time step, after add_forces(): the sum Σ_j |K_ij| of
+  /// its row of the contact stiffness, 2 k A for a slave and 2 w_I k A for a facet's corner [force/length].
+  /// With the same sum of the elements, ω² <= max_i Σ_j |K_ij|/m_i.
+  void add_row_sums(std::vector<double> &row_sums) const;
+
+  /// After add_forces().
+  FacetContactLoad compute_load() const;
+
+  /// The state of the last add_forces() becomes the start of the next step.
+  void commit();
+
+  /// State of a slave node, for output.
+  struct NodeReport {
+    ContactStatus status = ContactStatus::open;
+    double pressure = 0., gap = 0., slip = 0.;
+    double area = 0.; ///< of all facets around it
+    dealii::Tensor<1, 3> traction;
+  };
+  /// Of each of this rank's nodes.
+  std::vector<NodeReport> report() const;
+
+  const FacetSearch &search() const { return search_; }
+
+private:
+  struct SlaveState {
+    TouchedFacet touched;
+    SlaveTraction traction;
+    double own_area = 0.; ///< of this rank's facets
+    double area = 0.;     ///< of all
+  };
+
+  void update_search(const Positions &positions_n, const Positions &positions);
+  void rebuild();
+  template <class Facet, class Law> void evaluate(const Law &law, double duration);
+  void compute_areas(const SlaveNode &slave, SlaveState &state) const;
+  /// k A of a crossing [force/length].
+  double edge_spring(const EdgeContact::Crossing &crossing) const {
+    return 0.5 * crossing.area * (edge_stiffness_[crossing.nodes[0]] + edge_stiffness_[crossing.nodes[1]]);
+  }
+  void add_edges(FacetContactLoad &load) const;
+  FacetCorners target_corners(const SlaveState &state) const {
+    return corners_of(search_.facets()[state.touched.facet], positions_);
+  }
+
+  MPI_Comm communicator_;
+  FacetContactSettings settings_;
+  SurfaceExchange exchange_;
+  FacetSearch search_;
+  double largest_reach_ = 0.;
+  std::vector<SlaveNode> slaves_;
+  std::vector<ContactStiffness> stiffness_; ///< of slaves, in one of the passes
+  Positions positions_n_, positions_;       ///< with ghosts
+  std::vector<TouchedFacet> touched_n_;
+  std::vector<SlaveState> states_;
+  std::vector<SlaveHistory> history_n_, history_; ///< with friction only
+  std::optional<EdgeContact> edges_;
+  std::vector<double> edge_stiffness_; ///< full normal penalties of own nodes, if there are edges
+  std::vector<EdgeContact::Crossing> crossings_;
+};
+
+} // namespace billet
+
+#endif

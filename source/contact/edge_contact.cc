@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/edge_contact.h"
+
+#include "billet/contact/facet_choice.h"
+#include "billet/geometry/box_tree.h"
+#include "billet/geometry/segment_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+Tensor<1, 3> unit_normal(const FacetCorners &x) {
+  const Tensor<1, 3> area_vector = dealii::cross_product_3d(x[3] - x[0], x[2] - x[1]);
+  const double size = area_vector.norm();
+  return size > 0. ? area_vector / size : Tensor<1, 3>();
+}
+
+Tensor<1, 3> middle(const FacetCorners &x) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); }
+
+} // namespace
+
+EdgeContact::EdgeContact(const FacetSearch::Partners partners, const double largest_alignment)
+    : partners_(partners), largest_alignment_(largest_alignment) {}
+
+std::vector<EdgeContact::Edge> EdgeContact::find_sharp_edges(const Positions &positions) const {
+  std::map<std::array<unsigned int, 2>, Edge> edges;
+  for (unsigned int f = 0; f < facets_.size(); ++f)
+    for (unsigned int i = 0; i < 4; ++i) {
+      const unsigned int a = facets_[f].nodes[facet::around[i]],
+                         b = facets_[f].nodes[facet::around[(i + 1) % 4]];
+      if (a == b)
+        continue;
+      const auto found = edges.emplace(std::array<unsigned int, 2>{std::min(a, b), std::max(a, b)},
+                                       Edge{{a, b}, {f, none}, facets_[f].reach});
+      if (found.second)
+        continue;
+      Edge &edge = found.first->second;
+      edge.facets[1] = f;
+      if (facets_[f].key < facets_[edge.facets[0]].key)
+        std::swap(edge.facets[0], edge.facets[1]);
+      edge.reach = std::min(edge.reach, facets_[f].reach);
+    }
+  std::vector<Edge> sharp;
+  for (const auto &entry : edges) {
+    const Edge &edge = entry.second;
+    if (edge.facets[1] != none) {
+      const FacetCorners x = corners_of(facets_[edge.facets[0]], positions),
+                         y = corners_of(facets_[edge.facets[1]], positions);
+      if (unit_normal(x) * unit_normal(y) >= largest_alignment_ ||
+          (middle(y) - middle(x)) * unit_normal(x) > 0.)
+        continue;
+    }
+    sharp.push_back(edge);
+  }
+  return sharp;
+}
+
+Tensor<1, 3> EdgeContact::outward(const Edge &edge, const Positions &positions) const {
+  Tensor<1, 3> sum = unit_normal(corners_of(facets_[edge.facets[0]], positions));
+  if (edge.facets[1] != none)
+    sum += unit_normal(corners_of(facets_[edge.facets[1]], positions));
+  return sum;
+}
+
+bool EdgeContact::may_touch(const Edge &slave, const Edge &target) const {
+  const SurfaceFacet &a = facets_[slave.facets[0]], &b = facets_[target.facets[0]];
+  if (a.surface != b.surface)
+    return a.surface < b.surface;
+  // Edges that the same facet names are too close to touch.
+  if (partners_ == FacetSearch::Partners::other_surfaces || a.key >= b.key)
+    return false;
+  for (const unsigned int i : slave.facets)
+    for (const unsigned int j : target.facets)
+      if (i != none && j != none)
+        for (const unsigned int node : facets_[i].nodes)
+          if (std::find(facets_[j].nodes.begin(), facets_[j].nodes.end(), node) != facets_[j].nodes.end())
+            return false;
+  return true;
+}
+
+void EdgeContact::rebuild(const std::vector<SurfaceFacet> &facets, const std::size_t n_own_facets,
+                          const Positions &positions, const double margin, const double depth) {
+  facets_ = facets;
+  depth_ = depth;
+  edges_ = find_sharp_edges(positions);
+  std::vector<BoundingBox> boxes;
+  for (const auto &edge : edges_) {
+    boxes.push_back(BoundingBox::empty());
+    for (const unsigned int node : edge.nodes)
+      boxes.back().add(positions[node]);
+    boxes.back().enlarge(depth * edge.reach + margin);
+  }
+  const BoxTree tree(boxes);
+  pairs_.clear();
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge &edge = edges_[e];
+    if (edge.facets[0] >= n_own_facets)
+      continue;
+    const Tensor<1, 3> &x = positions[edge.nodes[0]], &y = positions[edge.nodes[1]];
+    tree.visit_near(0.5 * (x + y), 0.25 * (y - x).norm_square(), [&](const unsigned int target) {
+      if (boxes[target].overlaps(boxes[e]) && may_touch(edge, edges_[target]))
+        pairs_.push_back({e, target});
+    });
+  }
+}
+
+std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &positions) const {
+  std::vector<Crossing> crossings;
+  for (const auto &pair : pairs_) {
+    const Edge &slave = edges_[pair[0]], &target = edges_[pair[1]];
+    const Segment first{positions[slave.nodes[0]], positions[slave.nodes[1]]},
+        second{positions[target.nodes[0]], positions[target.nodes[1]]};
+    const SegmentPair closest = closest_points(first, second);
+    if (!closest.is_crossing)
+      continue;
+    const Tensor<1, 3> along_1 = first[1] - first[0], along_2 = second[1] - second[0];
+    Tensor<1, 3> normal = dealii::cross_product_3d(along_1, along_2);
+    normal /= normal.norm();
+    const double towards = normal * outward(target, positions);
+    if (towards < 0.)
+      normal *= -1.;
+    const double gap = closest.difference * normal;
+    if (!(gap < 0.) || gap < -depth_ * std::min(slave.reach, target.reach) ||
+        normal * outward(slave, positions) >= 0.)
+      continue;
+    const double s = closest.parameters[0], t = closest.parameters[1];
+    crossings.push_back({{slave.nodes[0], slave.nodes[1], target.nodes[0], target.nodes[1]},
+                         {1. - s, s, 1. - t, t},
+                         normal,
+                         gap,
+                         0.25 * along_1.norm() * along_2.norm(),
+                         {facets_[slave.facets[0]].surface, facets_[target.facets[0]].surface}});
+  }
+  return crossings;
+}
+
+} // namespace billet
