@@ -18,6 +18,7 @@ double TrimmingLoops::joined(const Point &end) {
 void TrimmingLoops::add(const Curve &curve, const std::vector<double> &parameters) {
   curves_.push_back(curve);
   std::vector<std::pair<double, Point>> points;
+  points.reserve(parameters.size());
   for (const double t : parameters)
     points.emplace_back(t, curve(t));
   points.front().second[1] = joined(points.front().second);

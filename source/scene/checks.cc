@@ -14,6 +14,7 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace billet {
 
@@ -97,7 +98,7 @@ struct RigidMotionGram {
 class OneSidedRows {
 public:
   /// `free`: the motions that are not held both ways.
-  explicit OneSidedRows(const std::vector<std::array<double, 6>> &free) : free_(free) {}
+  explicit OneSidedRows(std::vector<std::array<double, 6>> free) : free_(std::move(free)) {}
 
   void add(const Tensor<1, 3> &n, const Tensor<1, 3> &arm) {
     const Tensor<1, 3> m = dealii::cross_product_3d(arm, n);

@@ -52,7 +52,7 @@ int main(int argc, char *argv[]) {
       normal_error = std::max(normal_error, (p.normal - normals[i]).norm());
     }
     double sum = 0., best = 1e300;
-    for (unsigned int repetition = 0; repetition < 7; ++repetition) {
+    for (unsigned int repetition = 0; repetition < 50; ++repetition) {
       const auto start = std::chrono::steady_clock::now();
       for (const auto &point : points) {
         const auto p = tool.surface->project(point, patch);
