@@ -275,6 +275,13 @@ FacetContactLoad FacetContact::compute_load() const {
   return load;
 }
 
+double FacetContact::local_dissipation() const {
+  double dissipation = 0.;
+  for (const auto &state : states_)
+    dissipation += state.own_area * state.traction.dissipation;
+  return dissipation;
+}
+
 void FacetContact::commit() {
   for (std::size_t s = 0; s < slaves_.size(); ++s)
     touched_n_[s] = states_[s].touched;

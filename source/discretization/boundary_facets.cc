@@ -26,6 +26,7 @@ std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discret
         std::swap(facet.dofs[1], facet.dofs[2]);
         std::swap(facet.corners[1], facet.corners[2]);
       }
+      facet.thickness = element.cell->measure() / facet.area_vector().norm();
       facets.push_back(facet);
     }
   return facets;

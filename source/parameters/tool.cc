@@ -203,6 +203,11 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "half the penalty; one: those of 'Body' alone.");
   prm.declare_entry("Edges", "false", Patterns::Bool(),
                     "Pairs of bodies: edges are kept out of edges, too, which nodes against facets miss.");
+  prm.declare_entry(
+      "Search margin", "0.5", Patterns::Double(),
+      "Pairs of bodies, > 0: facets up to so far from a node are kept in mind for it; they are "
+      "looked up anew when nodes have moved farther towards each other. Changes the cost, not the "
+      "result. [smallest facet size]");
   prm.declare_entry("Penalty of", "stiffer", Patterns::Selection("stiffer|series"),
                     "Pairs of bodies, penalty as a factor: the E/h of the stiffer body, or both in series.");
   prm.declare_entry(
@@ -262,7 +267,8 @@ void ContactPair::parse_bodies(Reader &reader) {
                   "either a 'Tool' or a 'Second body' for each pair");
   second_boundary_ids = reader.located("Second boundary ids", reader.counts("Second boundary ids"));
   if (!is_between_bodies())
-    for (const std::string key : {"Second boundary ids", "Facets", "Passes", "Edges", "Penalty of"})
+    for (const std::string key :
+         {"Second boundary ids", "Facets", "Passes", "Edges", "Penalty of", "Search margin"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the pair is of a body and a tool");
   if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.value.empty())
@@ -270,6 +276,7 @@ void ContactPair::parse_bodies(Reader &reader) {
   facets = reader.located("Facets", reader.text("Facets") == "planed" ? Facets::planed : Facets::bilinear);
   two_passes = reader.text("Passes") == "two";
   edges = reader.flag("Edges");
+  search_margin = reader.positive("Search margin");
   penalty_of = reader.text("Penalty of") == "stiffer" ? PenaltyOf::stiffer : PenaltyOf::series;
 }
 

@@ -203,7 +203,8 @@ void Scene::make_pairs() {
          is_factor,
          pair.penalty_of,
          pair.normal_penalty,
-         pair.tangential_penalty});
+         pair.tangential_penalty,
+         pair.search_margin});
     const auto &ids = body_pairs_.back().boundary_ids;
     if (body == second && !second_ids.empty())
       for (const unsigned int id : ids[0])

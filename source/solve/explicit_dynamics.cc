@@ -76,6 +76,13 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   fading_forces_.resize(tools_.size());
   u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
   set_initial_motion();
+  for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
+    body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
+    NodalVectors ignored_forces = nodes_.make_vectors(), ignored_bounds = ignored_forces;
+    body_contacts_.back()->add_forces(u_, 0., ignored_forces, ignored_bounds);
+    body_contacts_.back()->check_overlap();
+  }
+  state_.body_pair_loads.resize(body_contacts_.size());
   state_.tool_loads.resize(tools_.size());
   state_.placements.resize(tools_.size());
   state_.displacements = discretization.make_ghosted_vector();
@@ -222,6 +229,11 @@ void ExplicitDynamics::compute_forces() {
   } catch (const SolutionFailure &) { // of this rank
     failure = std::current_exception();
     element_step_ = -1.;
+  }
+  for (auto &contact : body_contacts_) { // ranks talk to each other in it
+    contact->add_forces(u_, n_steps_ == 0 ? 0. : step_, forces_, bounds_);
+    works_.friction += contact->local_dissipation();
+    contact->commit();
   }
   for (std::size_t k = 0; k < forces_.size(); ++k)
     forces_[k] += external_[k];
@@ -393,6 +405,10 @@ void ExplicitDynamics::update_state() {
     state_.tool_loads[i] = sum_over_ranks(tool_loads_[i], communicator);
     state_.placements[i] = tools_[i].now();
   }
+  for (std::size_t i = 0; i < body_contacts_.size(); ++i) {
+    state_.body_pair_loads[i] = body_contacts_[i]->compute_load();
+    energies.contact += state_.body_pair_loads[i].stored_energy;
+  }
   if (n_steps_ == 0)
     energies.initial = energies.total();
   largest_energy_ =
@@ -414,6 +430,8 @@ std::vector<std::vector<ContactNodeReport>> ExplicitDynamics::report_contacts() 
   std::vector<std::vector<ContactNodeReport>> reports;
   for (const auto &contact : contacts_)
     reports.push_back(contact.report());
+  for (const auto &contact : body_contacts_)
+    reports.push_back(contact->report());
   return reports;
 }
 
@@ -423,6 +441,8 @@ std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
     sizes[0] += block->size() * block->history_size();
   for (const auto &contact : contacts_)
     sizes[1] += contact.history_size();
+  for (const auto &contact : body_contacts_)
+    sizes[1] += contact->history_size();
   for (auto &size : sizes)
     size = dealii::Utilities::MPI::sum(size, discretization_.communicator());
   return sizes;

@@ -80,6 +80,15 @@ public:
   /// After add_forces().
   FacetContactLoad compute_load() const;
 
+  /// By friction in this step, of this rank [energy].
+  double local_dissipation() const;
+
+  /// Doubles of history on this rank.
+  std::size_t history_size() const {
+    return (touched_n_.size() * sizeof(TouchedFacet) + 2 * history_n_.size() * sizeof(SlaveHistory)) /
+           sizeof(double);
+  }
+
   /// The state of the last add_forces() becomes the start of the next step.
   void commit();
 

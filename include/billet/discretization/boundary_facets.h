@@ -14,6 +14,7 @@ namespace billet {
 struct BoundaryFacet {
   std::array<std::array<DofIndex, 3>, 4> dofs;
   std::array<dealii::Point<3>, 4> corners; ///< undeformed
+  double thickness;                        ///< of the element below it: its volume over the facet's area
 
   /// Of the undeformed facet, half the cross product of its diagonals [length²].
   dealii::Tensor<1, 3> area_vector() const {

@@ -66,6 +66,7 @@ struct ContactPair {
   Located<Facets> facets;
   bool two_passes, edges;
   PenaltyOf penalty_of;
+  double search_margin;
   FrictionLaw friction_law;
   double friction_coefficient; ///< at rest, or at the reference pressure; 0: no friction
   double largest_shear_stress; ///< of ShearLimited

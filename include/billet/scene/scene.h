@@ -84,6 +84,7 @@ struct BodyPair {
   bool penalty_is_factor;
   parameters::ContactPair::PenaltyOf penalty_of;
   double normal_penalty, tangential_penalty;
+  double search_margin; ///< [facet sizes]
 
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
 };

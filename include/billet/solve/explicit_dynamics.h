@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_EXPLICIT_DYNAMICS_H
 #define BILLET_SOLVE_EXPLICIT_DYNAMICS_H
 
+#include "billet/contact/body_contact.h"
 #include "billet/contact/rigid_contact.h"
 #include "billet/discretization/held_motion.h"
 #include "billet/forces/external_loads.h"
@@ -71,6 +72,7 @@ private:
   std::vector<std::unique_ptr<ExplicitBlock>> blocks_; ///< by body
   std::unique_ptr<ExternalLoads> loads_;
   std::vector<RigidContact> contacts_;
+  std::vector<std::unique_ptr<BodyContact>> body_contacts_;
   std::vector<FreeTool> tools_;
   std::vector<ContactLoad> tool_loads_;                      ///< at t_n, of this rank
   std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools, of this rank, as they were

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_BODY_CONTACT_H
+#define BILLET_CONTACT_BODY_CONTACT_H
+
+#include "billet/contact/contact_load.h"
+#include "billet/contact/facet_contact.h"
+#include "billet/discretization/local_nodes.h"
+
+#include <memory>
+
+namespace billet {
+
+/// Contact of a scene's two bodies, or of one with itself, for schemes without a matrix: FacetContact on the
+/// boundary facets and nodes of this rank.
+class BodyContact {
+public:
+  BodyContact(const Scene &scene, std::size_t pair, const LocalNodes &nodes);
+
+  /// Adds F_c [force] at these displacements, `duration` after those of the last commit(), and to component 0
+  /// of `bounds` what bounds the stiffness at a node [force/length]. Collective.
+  void add_forces(const NodalVectors &displacements, double duration, NodalVectors &forces,
+                  NodalVectors &bounds);
+
+  /// After the first add_forces(): throws InputError, with the largest overlap and where it is, if the bodies
+  /// start deeper in each other than the scene allows. Collective.
+  void check_overlap() const;
+
+  /// The state of the last add_forces() becomes the start of the next step.
+  void commit();
+
+  /// On the first body, by the second; after add_forces(). Collective.
+  ContactLoad compute_load() const;
+  /// By friction in this step, of this rank [energy].
+  double local_dissipation() const { return contact_->local_dissipation(); }
+
+  /// Of this rank's nodes that are slaves.
+  std::vector<ContactNodeReport> report() const;
+  std::size_t history_size() const { return contact_->history_size(); }
+
+private:
+  void collect();
+  std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
+
+  const BodyPair &pair_;
+  const LocalNodes &nodes_;
+  std::vector<unsigned int> local_nodes_; ///< of each surface node
+  std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
+  std::vector<SurfaceFacet> facets_;
+  std::vector<double> areas_; ///< of the undeformed facets
+  std::unique_ptr<FacetContact> contact_;
+  FacetContact::Positions positions_n_, positions_;
+};
+
+} // namespace billet
+
+#endif

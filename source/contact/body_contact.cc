@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/body_contact.h"
+
+#include "billet/discretization/boundary_facets.h"
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+/// The same on all ranks, and no other facet's: those of two opposite corners.
+std::uint64_t make_key(const BoundaryFacet &facet) {
+  const auto [low, high] = std::minmax(facet.dofs[0][0], facet.dofs[3][0]);
+  return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
+}
+
+} // namespace
+
+BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes)
+    : pair_(scene.body_pairs()[pair]), nodes_(nodes) {
+  collect();
+  const MPI_Comm communicator = nodes.discretization().communicator();
+  FacetContactSettings settings;
+  settings.method =
+      pair_.facets == parameters::ContactPair::Facets::planed ? FacetMethod::planed : FacetMethod::bilinear;
+  settings.friction = pair_.friction;
+  settings.two_pass = pair_.two_passes || pair_.is_self_contact;
+  settings.edges = pair_.edges;
+  if (pair_.is_self_contact) {
+    settings.partners = FacetSearch::Partners::other_surfaces_and_self;
+    settings.limits.largest_alignment = 0.;
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double area : areas_)
+    smallest = std::min(smallest, std::sqrt(area));
+  settings.search_margin = pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator);
+  std::vector<std::uint64_t> keys;
+  for (const unsigned int node : local_nodes_)
+    keys.push_back(nodes.dofs(node)[0]);
+  contact_ = std::make_unique<FacetContact>(communicator, settings, keys, facets_, compute_stiffness(scene));
+}
+
+void BodyContact::collect() {
+  std::map<DofIndex, unsigned int> index;
+  const unsigned int n_surfaces = pair_.is_self_contact ? 1 : 2;
+  for (unsigned int surface = 0; surface < n_surfaces; ++surface)
+    for (const auto &boundary : collect_boundary_facets(nodes_.discretization(), pair_.bodies[surface],
+                                                        pair_.boundary_ids[surface])) {
+      SurfaceFacet facet{};
+      facet.surface = surface;
+      facet.key = make_key(boundary);
+      areas_.push_back(boundary.area_vector().norm());
+      // What is deeper than half the wall below is nearer to the wall's other side.
+      facet.reach = 0.5 * std::min(std::sqrt(areas_.back()), boundary.thickness);
+      for (unsigned int a = 0; a < 4; ++a) {
+        const auto [entry, is_new] =
+            index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes_.size()));
+        if (is_new) {
+          local_nodes_.push_back(nodes_.find(boundary.dofs[a][0]));
+          surface_of_.push_back(surface);
+        }
+        facet.nodes[a] = entry->second;
+      }
+      facets_.push_back(facet);
+    }
+  positions_.resize(local_nodes_.size());
+}
+
+std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene) const {
+  // Facet size at a node: root of the mean area of the facets around it, on all ranks.
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  NodalVectors sums = nodes_.make_vectors();
+  std::array<double, 4> totals{}; // area and number of facets, by surface
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    totals[facets_[f].surface] += areas_[f];
+    totals[2 + facets_[f].surface] += 1.;
+    for (const unsigned int node : facets_[f].nodes)
+      add_vector(sums.data(), local_nodes_[node], Tensor<1, 3>({areas_[f], 1., 0.}));
+  }
+  nodes_.sum_shared(sums);
+  MPI_Allreduce(MPI_IN_PLACE, totals.data(), 4, MPI_DOUBLE, MPI_SUM, communicator);
+  const auto young = [&](const unsigned int surface) {
+    return scene.bodies()[pair_.bodies[surface]].young_modulus;
+  };
+  std::vector<ContactStiffness> stiffness;
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
+    const double *sum = &sums[std::size_t{nodal_stride} * local_nodes_[i]];
+    const unsigned int other = pair_.is_self_contact ? 0 : 1 - surface_of_[i];
+    const double own_side = young(surface_of_[i]) / std::sqrt(sum[0] / sum[1]);
+    const double other_side = young(other) / std::sqrt(totals[other] / totals[2 + other]);
+    double unit = 1.;
+    if (pair_.penalty_is_factor)
+      unit = pair_.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
+                 ? std::max(own_side, other_side)
+                 : own_side * other_side / (own_side + other_side);
+    stiffness.push_back({unit * pair_.normal_penalty, unit * pair_.tangential_penalty});
+  }
+  return stiffness;
+}
+
+void BodyContact::add_forces(const NodalVectors &displacements, const double duration, NodalVectors &forces,
+                             NodalVectors &bounds) {
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i)
+    positions_[i] = get_vector(nodes_.positions().data(), local_nodes_[i]) +
+                    get_vector(displacements.data(), local_nodes_[i]);
+  if (positions_n_.size() != positions_.size())
+    positions_n_ = positions_;
+  FacetContact::Positions added(local_nodes_.size());
+  std::vector<double> row_sums(local_nodes_.size());
+  contact_->add_forces(positions_n_, positions_, duration, added);
+  contact_->add_row_sums(row_sums);
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
+    add_vector(forces.data(), local_nodes_[i], added[i]);
+    bounds[std::size_t{nodal_stride} * local_nodes_[i]] += row_sums[i];
+  }
+}
+
+void BodyContact::commit() {
+  contact_->commit();
+  positions_n_ = positions_;
+}
+
+ContactLoad BodyContact::compute_load() const {
+  const FacetContactLoad all = contact_->compute_load();
+  ContactLoad load;
+  load.force = all.force;
+  load.area = all.area;
+  load.stored_energy = all.stored_energy;
+  load.dissipation = all.dissipation;
+  load.deepest = all.deepest;
+  return load;
+}
+
+void BodyContact::check_overlap() const {
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  const FacetContactLoad load = contact_->compute_load();
+  if (load.deepest_relative <= pair_.input->allowed_penetration.value)
+    return;
+  const auto reports = contact_->report();
+  std::array<double, 4> deepest{}; // gap and place
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    if (reports[i].gap < deepest[0])
+      deepest = {reports[i].gap, positions_[i][0], positions_[i][1], positions_[i][2]};
+  const std::vector<std::array<double, 4>> of_ranks =
+      dealii::Utilities::MPI::all_gather(communicator, deepest);
+  deepest = *std::min_element(of_ranks.begin(), of_ranks.end());
+  std::ostringstream message;
+  message << pair_.input->origin << ": the bodies start " << -deepest[0] << " deep (" << load.deepest_relative
+          << " facet sizes) in each other, deepest at (" << deepest[1] << ", " << deepest[2] << ", "
+          << deepest[3] << "); allowed are " << pair_.input->allowed_penetration.value
+          << " facet sizes ('Allowed initial penetration')";
+  throw InputError(message.str());
+}
+
+std::vector<ContactNodeReport> BodyContact::report() const {
+  std::vector<ContactNodeReport> reports;
+  const auto states = contact_->report();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double area = nodes_.is_owned(local_nodes_[i]) ? states[i].area : 0.;
+    reports.push_back({nodes_.dofs(local_nodes_[i]), states[i].status, states[i].pressure, states[i].gap,
+                       states[i].slip, area, states[i].traction});
+  }
+  return reports;
+}
+
+} // namespace billet
