@@ -137,6 +137,7 @@ std::vector<BoundingBox> SurfaceExchange::make_boxes(const Positions &positions_
     }
   }
   std::vector<BoundingBox> boxes;
+  boxes.reserve(groups.size());
   for (const auto &group : groups)
     boxes.push_back(group.box);
   return boxes;

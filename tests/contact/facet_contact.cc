@@ -283,17 +283,16 @@ void check_edges() {
   report("roofs: apart they are free", contact.compute_load().absolute_force, 0.);
 }
 
-void check_ranks(const FacetMethod method, const std::string &name) {
+void check_ranks(const Surface &surface, const FacetContactSettings &settings, const std::string &name) {
   const std::size_t n = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   Random random;
-  const Surface surface = make_balls();
   const Part whole = everything(surface),
              part(surface, [&](const std::size_t f) { return f / 5 % n == rank(); });
-  RandomMotion motion(random, 2, 4e-3);
-  const FacetContactSettings settings = make_settings(method, Coulomb{0.2}, true);
+  RandomMotion motion(random, 2, 2e-3);
   FacetContact serial = make_contact(MPI_COMM_SELF, settings, whole),
                contact = make_contact(MPI_COMM_WORLD, settings, part);
   WorstError forces_differ, rows_differ, loads_differ;
+  double most_touching = 0.;
   Positions positions = surface.positions;
   for (unsigned int step = 0; step < 30; ++step) {
     const Positions positions_n = positions;
@@ -325,9 +324,11 @@ void check_ranks(const FacetMethod method, const std::string &name) {
     loads_differ.add(std::abs(load.area / serial_load.area - 1.));
     loads_differ.add(std::abs(load.deepest - serial_load.deepest));
     loads_differ.add(std::abs(load.deepest_relative - serial_load.deepest_relative));
+    most_touching = std::max(most_touching, serial_load.n_touching);
     serial.commit();
     contact.commit();
   }
+  report(name + ": nodes touch", 1. / most_touching, 0.1);
   report(name + ": forces are those of one rank", forces_differ.value(), 1e-12);
   report(name + ": sums of rows too", rows_differ.value(), 1e-11);
   report(name + ": loads too", loads_differ.value(), 1e-12);
@@ -348,7 +349,12 @@ int main(int argc, char *argv[]) {
     check_balance(method, Frictionless(), name + ", frictionless");
     check_balance(method, Coulomb{0.2}, name + ", Coulomb");
     check_impact(method, name);
-    check_ranks(method, name);
+    FacetContactSettings settings = make_settings(method, Coulomb{0.2}, true);
+    settings.edges = true;
+    check_ranks(make_balls(), settings, name);
+    settings.partners = FacetSearch::Partners::other_surfaces_and_self;
+    settings.limits.largest_alignment = 0.;
+    check_ranks(make_strip(0.015), settings, name + ", self-contact");
   }
   check_edges();
   return exit_code();

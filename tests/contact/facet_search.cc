@@ -227,19 +227,8 @@ template <class Facet> void check_choice(const std::string &name) {
   }
 }
 
-/// A sheet folded onto itself, and one that is thin.
 void check_self_contact() {
-  Surface surface; // a long strip bent into a U that has closed by 0.01: flanks at z = 0 and z = −0.01
-  const auto strip = [](const double s, const double t) {
-    const double along = 3. * s - 1.5;
-    if (along < -0.5)
-      return vector(-along - 0.5, t, 0.1);
-    if (along > 0.5)
-      return vector(along - 0.5, t, 0.1 + 0.01);
-    const double angle = M_PI * (along + 0.5);
-    return vector(-0.3 * std::sin(angle), t, 0.1 + 0.01 * (along + 0.5) - 0.02 * std::sin(2. * angle));
-  };
-  add_sheet(surface, 30, 4, 0, 0.03, strip);
+  const Surface surface = make_strip(0.01);
   FacetSearch search(FacetSearch::Partners::other_surfaces_and_self, 0.02);
   const auto slaves = surface.slaves();
   search.set_surface(surface.facets, slaves);

@@ -54,6 +54,22 @@ inline void add_ball(Surface &surface, const unsigned int n, const unsigned int 
   });
 }
 
+/// A long strip, bent into a U so far that its flanks have come through each other by `depth`.
+inline Surface make_strip(const double depth) {
+  Surface surface;
+  add_sheet(surface, 30, 4, 0, 0.03, [&](const double s, const double t) {
+    const double along = 3. * s - 1.5;
+    if (along < -0.5)
+      return dealii::Tensor<1, 3>({-along - 0.5, t, 0.});
+    if (along > 0.5)
+      return dealii::Tensor<1, 3>({along - 0.5, t, depth});
+    const double angle = M_PI * (along + 0.5);
+    return dealii::Tensor<1, 3>(
+        {-0.3 * std::sin(angle), t, depth * (along + 0.5) - 0.02 * std::sin(2. * angle)});
+  });
+  return surface;
+}
+
 /// The part of a surface that one rank has.
 struct Part {
   std::vector<unsigned int> nodes; ///< of the whole surface

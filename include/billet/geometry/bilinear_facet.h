@@ -15,7 +15,7 @@ namespace billet {
 /// result is the closest point of the facet itself, on its border, and no projection.
 class BilinearFacet {
 public:
-  explicit BilinearFacet(const FacetCorners &corners);
+  explicit BilinearFacet(const FacetCorners &x);
 
   /// By Newton's method from `start`, the last projection's parameters, or the middle.
   FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
