@@ -17,7 +17,8 @@ public:
   BodyContact(const Scene &scene, std::size_t pair, const LocalNodes &nodes);
 
   /// Adds F_c [force] at these displacements, `duration` after those of the last commit(), and to component 0
-  /// of `bounds` what bounds the stiffness at a node [force/length]. Collective.
+  /// of `bounds` what bounds the stiffness at a node, and more, so that impacts keep their energy
+  /// [force/length]. Collective.
   void add_forces(const NodalVectors &displacements, double duration, NodalVectors &forces,
                   NodalVectors &bounds);
 
