@@ -23,7 +23,8 @@ public:
                   NodalVectors &bounds);
 
   /// After the first add_forces(): throws InputError, with the largest overlap and where it is, if the bodies
-  /// start deeper in each other than the scene allows. Collective.
+  /// start deeper in each other than the scene allows. Nodes are found that are behind facets by no more than
+  /// the thickness of the elements there. Collective.
   void check_overlap() const;
 
   /// The state of the last add_forces() becomes the start of the next step.
@@ -40,6 +41,7 @@ public:
 
 private:
   void collect();
+  std::vector<std::uint64_t> node_keys() const;
   std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
 
   const BodyPair &pair_;
@@ -48,6 +50,8 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<SurfaceFacet> facets_;
   std::vector<double> areas_; ///< of the undeformed facets
+  std::vector<double> walls_; ///< thickness of the elements below them
+  FacetContactSettings settings_;
   std::unique_ptr<FacetContact> contact_;
   FacetContact::Positions positions_n_, positions_;
 };
