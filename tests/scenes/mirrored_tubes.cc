@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The impact of two tubes that are mirror images of each other: they stay so, energy is kept, and they hardly
 // enter each other; with their ends in the pair or without.
+#include "billet/errors.h"
 #include "billet/parameters/scene.h"
 #include "billet/solve/explicit_dynamics.h"
 
@@ -73,11 +74,28 @@ double run(const std::vector<unsigned int> &boundary_ids, const std::string &nam
   return problem.state().energies.kinetic / problem.state().energies.initial;
 }
 
+/// Tubes that start 2 mm in each other.
+void check_overlap() {
+  parameters::Scene parameters =
+      parameters::Scene::read(std::string(SOURCE_DIR) + "/../../prm/tube_impact.prm");
+  parameters.bodies[1].mesh.translation[1] -= 0.003;
+  std::string message;
+  try {
+    const Scene scene(parameters);
+    const Discretization discretization(scene, MPI_COMM_WORLD);
+    const ExplicitDynamics problem(scene, discretization);
+  } catch (const InputError &error) {
+    message = error.what();
+  }
+  check("an overlap is refused", message.find("start at least 0.00") != std::string::npos);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const double outside = run({1}, "outside"), all = run({1, 2, 3}, "with ends");
   check("ends change nothing that one sees", std::abs(all - outside), 1e-3);
+  check_overlap();
   return exit_code();
 }
