@@ -202,7 +202,7 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   Modes forces{};
   Real yield_stress{};
   if constexpr (is_plastic)
-    yield_stress = material.hardening == nullptr
+    yield_stress = material.hardening_kind == HardeningKind::linear
                        ? material.yield_stress +
                              material.hardening_modulus * load(point_history + Law::n_tensor * n_lanes)
                        : load(point_history + (Law::n_tensor + 1) * n_lanes);
