@@ -15,26 +15,26 @@
 namespace billet::explicit_kernels {
 namespace {
 
-constexpr unsigned int n_lanes = BILLET_LANES;
+constexpr std::size_t n_lanes = BILLET_LANES;
 
 #if BILLET_LANES == 1
 using Real = double;
 using Mask = bool;
 using Bits = unsigned long long;
-BILLET_INLINE double get(const Real x, const unsigned int) { return x; }
-BILLET_INLINE void set(Real &x, const unsigned int, const double value) { x = value; }
-BILLET_INLINE bool get_mask(const Mask m, const unsigned int) { return m; }
-BILLET_INLINE void set_mask(Mask &m, const unsigned int) { m = true; }
+BILLET_INLINE double get(const Real x, const std::size_t) { return x; }
+BILLET_INLINE void set(Real &x, const std::size_t, const double value) { x = value; }
+BILLET_INLINE bool get_mask(const Mask m, const std::size_t) { return m; }
+BILLET_INLINE void set_mask(Mask &m, const std::size_t) { m = true; }
 BILLET_INLINE bool any(const Mask m) { return m; }
 BILLET_INLINE Real square_root(const Real x) { return __builtin_sqrt(x); }
 #else
 using Real = double __attribute__((vector_size(8 * BILLET_LANES)));
 using Mask = long long __attribute__((vector_size(8 * BILLET_LANES)));
 using Bits = unsigned long long __attribute__((vector_size(8 * BILLET_LANES)));
-BILLET_INLINE double get(const Real &x, const unsigned int lane) { return x[lane]; }
-BILLET_INLINE void set(Real &x, const unsigned int lane, const double value) { x[lane] = value; }
-BILLET_INLINE bool get_mask(const Mask &m, const unsigned int lane) { return m[lane] != 0; }
-BILLET_INLINE void set_mask(Mask &m, const unsigned int lane) { m[lane] = -1; }
+BILLET_INLINE double get(const Real &x, const std::size_t lane) { return x[lane]; }
+BILLET_INLINE void set(Real &x, const std::size_t lane, const double value) { x[lane] = value; }
+BILLET_INLINE bool get_mask(const Mask &m, const std::size_t lane) { return m[lane] != 0; }
+BILLET_INLINE void set_mask(Mask &m, const std::size_t lane) { m[lane] = -1; }
 #if BILLET_LANES == 8
 BILLET_INLINE bool any(const Mask m) {
   return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(m), reinterpret_cast<__m512i>(m)) != 0;
@@ -59,13 +59,13 @@ BILLET_INLINE void store(double *p, const Real x) { *reinterpret_cast<Real *>(p)
 
 inline double sum_lanes(const Real x) {
   double sum = 0.;
-  for (unsigned int lane = 0; lane < n_lanes; ++lane)
+  for (std::size_t lane = 0; lane < n_lanes; ++lane)
     sum += get(x, lane);
   return sum;
 }
 inline double largest_lane(const Real x) {
   double largest = get(x, 0);
-  for (unsigned int lane = 1; lane < n_lanes; ++lane)
+  for (std::size_t lane = 1; lane < n_lanes; ++lane)
     largest = get(x, lane) > largest ? get(x, lane) : largest;
   return largest;
 }
@@ -179,7 +179,7 @@ template <bool add>
 BILLET_INLINE void gather(const double *p, const double *q, const std::uint32_t *nodes, Real x[3]) {
 #if BILLET_LANES >= 4
   Row rows[n_lanes];
-  for (unsigned int lane = 0; lane < n_lanes; ++lane) {
+  for (std::size_t lane = 0; lane < n_lanes; ++lane) {
     rows[lane] = load_row(p + 4 * std::size_t{nodes[lane]});
     if (add)
       rows[lane] += load_row(q + 4 * std::size_t{nodes[lane]});
@@ -194,7 +194,7 @@ BILLET_INLINE void gather(const double *p, const double *q, const std::uint32_t 
     x[i] = __builtin_shufflevector(low[i], high[i], 0, 1, 2, 3, 4, 5, 6, 7);
 #endif
 #else
-  for (unsigned int lane = 0; lane < n_lanes; ++lane)
+  for (std::size_t lane = 0; lane < n_lanes; ++lane)
     for (unsigned int i = 0; i < 3; ++i) {
       const std::size_t k = 4 * std::size_t{nodes[lane]} + i;
       set(x[i], lane, add ? p[k] + q[k] : p[k]);
@@ -203,7 +203,7 @@ BILLET_INLINE void gather(const double *p, const double *q, const std::uint32_t 
 }
 
 /// Subtracts the forces of all nodes, element after element: elements of a batch may share nodes.
-BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const unsigned int n,
+BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t n,
                            double *forces) {
 #if BILLET_LANES >= 4
   Row rows[8][n_lanes];
@@ -220,11 +220,11 @@ BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const
     transpose_back(high[0], high[1], high[2], rows[a] + 4);
 #endif
   }
-  for (unsigned int lane = 0; lane < n; ++lane)
+  for (std::size_t lane = 0; lane < n; ++lane)
     for (unsigned int a = 0; a < 8; ++a)
       *reinterpret_cast<Row *>(forces + 4 * std::size_t{nodes[a * n_lanes + lane]}) -= rows[a][lane];
 #else
-  for (unsigned int lane = 0; lane < n; ++lane)
+  for (std::size_t lane = 0; lane < n; ++lane)
     for (unsigned int a = 0; a < 8; ++a)
       for (unsigned int i = 0; i < 3; ++i)
         forces[4 * std::size_t{nodes[a * n_lanes + lane]} + i] -= get(f[a][i], lane);

@@ -124,7 +124,7 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
                                      Real &yield_stress) {
   Real delta{};
   if (material.hardening_kind == HardeningKind::other) {
-    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
       if (get_mask(yields, lane)) {
         double value = 0.;
         set(delta, lane,
@@ -225,7 +225,7 @@ BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real 
 
   const Mask large = !(i2 <= moderate_i2);
   if (__builtin_expect(any(large), 0))
-    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
       if (get_mask(large, lane)) {
         double sb[6], result[6], lane_mean = 0.;
         for (unsigned int k = 0; k < 6; ++k)

@@ -213,9 +213,7 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
       for (unsigned int k = 0; k < 3; ++k)
         forces.m[m][i] += mean_forces[k][i] * load(constants + (one_point::beta + 3 * m + k) * n_lanes);
   const std::size_t first = batch * n_lanes;
-  const unsigned int n = elements.n_elements - first < n_lanes
-                             ? static_cast<unsigned int>(elements.n_elements - first)
-                             : n_lanes;
+  const std::size_t n = count_elements(elements, first);
   scatter_modes(forces, nodes, n, step.forces);
 
   const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
