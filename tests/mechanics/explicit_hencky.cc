@@ -82,6 +82,8 @@ int main() {
   for_each_hardening([](const std::string &name, const auto &hardening) {
     test_path(name, {steel, hardening}, 0.3, 0.15, 1e-12);
   });
+  test_path("Voce softening", {steel, VoceHardening{450., 400., 16.93, 20.}}, 0.3, 0.15, 1e-12);
+  test_path("power law, convex", {steel, PowerLawHardening{565.3, 1., 1.5}}, 0.3, 0.15, 1e-12);
   test_path("elastic, small strain", {steel, {}}, 0.002, 0.0005, 1e-12);
   test_path("elastic, moderate strain", {steel, {}}, 0.05, 0.02, 1e-12);
   test_path("elastic, large strain", {steel, {}}, 0.4, 0.15, 1e-12);

@@ -56,7 +56,7 @@ private:
   double history(const std::size_t element, const std::size_t k) const {
     return history_[index(element, k, layout_.n_history)];
   }
-  ElementVectors gather(std::size_t element, const double *positions) const;
+  ElementVectors gather(std::size_t element, const double *values) const;
   void resize(std::size_t n_elements);
   bool initialize_element(std::size_t element, const explicit_kernels::Material &material,
                           double yield_stress);

@@ -53,7 +53,7 @@ BILLET_INLINE void gather_increment(const Step &step, const std::uint32_t *nodes
 }
 
 /// `forces` belong to the modes.
-BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes, const unsigned int n,
+BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes, const std::size_t n,
                                  double *nodal_forces) {
   Real f[8][3];
   for (unsigned int i = 0; i < 3; ++i) {
@@ -191,12 +191,17 @@ BILLET_INLINE void prefetch(const Elements &elements, const Step &step, const st
   }
 }
 
+/// How many lanes of the batch that begins with element `first` are elements of their own.
+inline std::size_t count_elements(const Elements &elements, const std::size_t first) {
+  return elements.n_elements - first < n_lanes ? elements.n_elements - first : n_lanes;
+}
+
 /// Sums over the batches.
 struct Totals {
   Real rate = {}, viscous_work = {}, hourglass_energy = {}, hourglass_work = {};
 
   /// The lanes beyond n repeat an element.
-  void add(const unsigned int n, const Real rate_now, const Real viscous, const Real stored,
+  void add(const std::size_t n, const Real rate_now, const Real viscous, const Real stored,
            const Real dissipated) {
     rate = max(rate, rate_now);
     if (n == n_lanes) {
@@ -204,7 +209,7 @@ struct Totals {
       hourglass_energy += stored;
       hourglass_work += dissipated;
     } else
-      for (unsigned int lane = 0; lane < n; ++lane) {
+      for (std::size_t lane = 0; lane < n; ++lane) {
         set(viscous_work, lane, get(viscous_work, lane) + get(viscous, lane));
         set(hourglass_energy, lane, get(hourglass_energy, lane) + get(stored, lane));
         set(hourglass_work, lane, get(hourglass_work, lane) + get(dissipated, lane));
@@ -221,7 +226,7 @@ struct Totals {
 
 /// The first bad lane of a batch becomes the result's element, if none was found before.
 inline void note_failure(const Mask bad, const std::size_t first, Result &result) {
-  for (unsigned int lane = 0; lane < n_lanes; ++lane)
+  for (std::size_t lane = 0; lane < n_lanes; ++lane)
     if (get_mask(bad, lane) && first + lane < result.inverted)
       result.inverted = first + lane;
 }

@@ -106,9 +106,7 @@ void advance_eight_point(const Elements &elements, const Material &material, con
                                  history + (2 + q * layout.n_point_history) * n_lanes, forces, sums);
     collect_columns(forces, modes);
     const std::size_t first = batch * n_lanes;
-    const unsigned int n = elements.n_elements - first < n_lanes
-                               ? static_cast<unsigned int>(elements.n_elements - first)
-                               : n_lanes;
+    const std::size_t n = count_elements(elements, first);
     scatter_modes(modes, nodes, n, step.forces);
 
     const Real omega = sums.lambda * load(constants + n_lanes);

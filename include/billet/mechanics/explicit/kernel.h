@@ -19,11 +19,18 @@ struct LaneFunctions {
   bool (*logarithm)(const double *b, double *deviator, double &mean);
 };
 
+/// The laws that kernels know themselves, and `other`, for which LaneFunctions are asked. σ_y(α) must be
+/// concave but for `other`.
+enum class HardeningKind { linear, voce, power_law, other };
+
 /// Constants of the body.
 struct Material {
   double bulk, shear;
-  double yield_stress, hardening_modulus; ///< of linear hardening
-  const void *hardening;                  ///< any other law, for LaneFunctions; or null
+  HardeningKind hardening_kind;
+  double yield_stress, hardening_modulus;    ///< linear; Voce
+  double saturation_stress, saturation_rate; ///< Voce
+  double prestrain, exponent, strength;      ///< power law
+  const void *hardening;                     ///< the law, for LaneFunctions
   double density;
   double wave_speed;
   double linear_viscosity, quadratic_viscosity;

@@ -100,33 +100,68 @@ struct Watch {
   Mask failed = {}; ///< not admissible
 };
 
-/// Where the yield condition is exceeded, Δα > 0 with q − m Δα = σ_y(α + Δα); returns (q − m Δα)/q, else 1.
-/// `history` points at α (and σ_y). Whether any lane yields is in `yields`.
+/// Slope of a hardening law that the kernels know, where the yield stress at α is known too: no exponential.
+BILLET_INLINE Real compute_slope(const Material &material, const Real alpha, const Real yield_stress) {
+  if (material.hardening_kind == HardeningKind::voce)
+    return material.saturation_rate *
+               (material.saturation_stress + material.hardening_modulus * alpha - yield_stress) +
+           material.hardening_modulus;
+  return material.exponent * yield_stress / (material.prestrain + alpha);
+}
+
+BILLET_INLINE Real compute_yield_stress(const Material &material, const Real alpha) {
+  if (material.hardening_kind == HardeningKind::voce)
+    return material.saturation_stress + material.hardening_modulus * alpha -
+           (material.saturation_stress - material.yield_stress) *
+               exponential(-material.saturation_rate * alpha);
+  return material.strength * exponential(material.exponent * logarithm(material.prestrain + alpha));
+}
+
+/// Δα > 0 of the lanes that yield, q − m Δα = σ_y(α + Δα); `yield_stress` becomes the new one. With a concave
+/// σ_y Newton's method approaches the root from one side.
+BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctions &functions,
+                                     const Mask yields, const Real q, const Real m, const Real alpha,
+                                     Real &yield_stress) {
+  Real delta{};
+  if (material.hardening_kind == HardeningKind::other) {
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+      if (get_mask(yields, lane)) {
+        double value = 0.;
+        set(delta, lane,
+            functions.harden(material.hardening, get(q, lane), get(m, lane), get(alpha, lane), value));
+        set(yield_stress, lane, value);
+      }
+    return delta;
+  }
+  Real excess = select(yields, q - yield_stress, Real{});
+  for (unsigned int iteration = 0; iteration < 50 && any(excess > 4e-15 * q); ++iteration) {
+    delta += excess / (m + compute_slope(material, alpha + delta, yield_stress));
+    yield_stress = select(yields, compute_yield_stress(material, alpha + delta), yield_stress);
+    excess = select(yields, q - m * delta - yield_stress, Real{});
+  }
+  return delta;
+}
+
+/// Where the yield condition is exceeded α grows; returns (q − m Δα)/q, or 1. `history` points at α (and
+/// σ_y).
 template <bool is_plastic>
 BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
                               const Real m, double *history, Mask &yields) {
   if constexpr (!is_plastic)
     return broadcast(1.);
   const Real alpha = load(history);
-  const bool is_linear = material.hardening == nullptr;
-  const Real yield =
+  const bool is_linear = material.hardening_kind == HardeningKind::linear;
+  Real yield =
       is_linear ? material.yield_stress + material.hardening_modulus * alpha : load(history + n_lanes);
   yields = q > yield;
   if (!any(yields))
     return broadcast(1.);
-  Real delta = Real{};
+  Real delta{};
   if (is_linear)
     delta = select(yields, (q - yield) / (m + material.hardening_modulus), delta);
   else {
-    Real new_yield = yield;
-    for (unsigned int lane = 0; lane < n_lanes; ++lane)
-      if (get_mask(yields, lane)) {
-        double value = 0.;
-        set(delta, lane,
-            functions.harden(material.hardening, get(q, lane), get(m, lane), get(alpha, lane), value));
-        set(new_yield, lane, value);
-      }
-    store(history + n_lanes, new_yield);
+    delta = solve_consistency(material, functions, yields, q, m, alpha, yield);
+    store(history + n_lanes, yield);
   }
   store(history, alpha + delta);
   return select(yields, 1. - m * delta / q, broadcast(1.));
@@ -144,18 +179,6 @@ struct Polynomial {
     p0 = top * i3 + c;
   }
 };
-
-/// 1/k and 1/k!.
-struct SeriesCoefficients {
-  double reciprocal[40] = {}, inverse_factorial[40] = {1.};
-  constexpr SeriesCoefficients() {
-    for (unsigned int k = 1; k < 40; ++k) {
-      reciprocal[k] = 1. / k;
-      inverse_factorial[k] = inverse_factorial[k - 1] / k;
-    }
-  }
-};
-constexpr SeriesCoefficients series;
 
 /// ln(1 + X) by `n` terms of its series.
 template <unsigned int n> BILLET_INLINE Polynomial logarithm_series(const Real i2, const Real i3) {
@@ -202,7 +225,7 @@ BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real 
 
   const Mask large = !(i2 <= moderate_i2);
   if (__builtin_expect(any(large), 0))
-    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
       if (get_mask(large, lane)) {
         double sb[6], result[6], lane_mean = 0.;
         for (unsigned int k = 0; k < 6; ++k)

@@ -202,7 +202,7 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   Modes forces{};
   Real yield_stress{};
   if constexpr (is_plastic)
-    yield_stress = material.hardening == nullptr
+    yield_stress = material.hardening_kind == HardeningKind::linear
                        ? material.yield_stress +
                              material.hardening_modulus * load(point_history + Law::n_tensor * n_lanes)
                        : load(point_history + (Law::n_tensor + 1) * n_lanes);
@@ -213,9 +213,7 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
       for (unsigned int k = 0; k < 3; ++k)
         forces.m[m][i] += mean_forces[k][i] * load(constants + (one_point::beta + 3 * m + k) * n_lanes);
   const std::size_t first = batch * n_lanes;
-  const unsigned int n = elements.n_elements - first < n_lanes
-                             ? static_cast<unsigned int>(elements.n_elements - first)
-                             : n_lanes;
+  const std::size_t n = count_elements(elements, first);
   scatter_modes(forces, nodes, n, step.forces);
 
   const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
