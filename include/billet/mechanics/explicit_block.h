@@ -66,7 +66,10 @@ public:
 
   struct StepResult {
     double stable_step;      ///< safe for every element, viscosity counted [time]
-    double viscous_work;     ///< dissipated by bulk viscosity in this step, ≥ 0 [energy]
+    /// Dissipated by bulk viscosity in this step [energy]: ½ (q_{n−1} + q_n) ΔV, as the trapezoidal rule books
+    /// all works. Where the rate has just changed its sign it can be negative for a step; the sum over the
+    /// steps is not, but for what that of the last one takes back.
+    double viscous_work;
     double hourglass_energy; ///< stored by the stabilisation now [energy]
     double hourglass_work;   ///< dissipated by the stabilisation in this step, ≥ 0 [energy]
     std::size_t inverted;    ///< an element with det F ≤ 0 or not finite, or size()
