@@ -129,6 +129,7 @@ void ExplicitStorage::resize(const std::size_t n_elements) {
   nodes_.resize(padded * n_element_nodes);
   constants_.resize(padded * layout_.n_constants);
   history_.resize(padded * layout_.n_history);
+  density_factors_.assign(n_elements, 1.);
 }
 
 bool ExplicitStorage::initialize(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
@@ -259,13 +260,45 @@ explicit_kernels::Elements ExplicitStorage::elements() {
           constants_.data(), history_.data(), layout_};
 }
 
+explicit_kernels::Elements ExplicitStorage::copy_element(const std::size_t element, Copy &copy) const {
+  copy.nodes.resize(n_element_nodes * n_lanes_);
+  copy.constants.resize(layout_.n_constants * n_lanes_);
+  copy.history.resize(layout_.n_history * n_lanes_);
+  for (std::size_t lane = 0; lane < n_lanes_; ++lane) {
+    for (std::size_t a = 0; a < n_element_nodes; ++a)
+      copy.nodes[a * n_lanes_ + lane] = nodes_[index(element, a, n_element_nodes)];
+    for (std::size_t k = 0; k < layout_.n_constants; ++k)
+      copy.constants[k * n_lanes_ + lane] = constant(element, k);
+    for (std::size_t k = 0; k < layout_.n_history; ++k)
+      copy.history[k * n_lanes_ + lane] = history(element, k);
+  }
+  return {1,      copy.nodes.data(), reference_positions_.data(), copy.constants.data(), copy.history.data(),
+          layout_};
+}
+
+double ExplicitStorage::scale_mass(const std::size_t element, const double factor) {
+  const double volume = constant(element, 0) * density_factors_[element];
+  density_factors_[element] *= factor;
+  // The lanes beyond the last element repeat it.
+  const bool is_last = element + 1 == n_elements_;
+  for (std::size_t e = element; e == element || (is_last && e % n_lanes_ != 0); ++e) {
+    if (formulation_.element == Element::one_point) {
+      constant(e, 2) /= factor;
+      constant(e, 3) /= factor;
+    } else
+      constant(e, 1) /= factor;
+    history(e, 1) /= factor;
+  }
+  return volume * (factor - 1.);
+}
+
 void ExplicitStorage::add_masses(const double density, double *masses) const {
   for (std::size_t element = 0; element < n_elements_; ++element) {
     ReferenceElement reference;
     compute_reference_element(gather(element, reference_positions_.data()), reference);
     const auto volumes = compute_nodal_volumes(reference);
     for (unsigned int a = 0; a < n_element_nodes; ++a)
-      masses[nodes_[index(element, a, n_element_nodes)]] += density * volumes[a];
+      masses[nodes_[index(element, a, n_element_nodes)]] += density * density_factors_[element] * volumes[a];
   }
 }
 

@@ -6,6 +6,8 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <numeric>
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -212,6 +214,74 @@ void test_vibration(const Formulation &formulation) {
         largest < 2. * start && kinetic() > 0.1 * start);
 }
 
+/// Smallest step of `body`'s elements, at rest.
+double step_at_rest(Body &body) {
+  body.advance(NodalArray(body.mesh().positions.size()), 0.);
+  return body.result().stable_step;
+}
+
+void test_mass_scaling(Formulation formulation) {
+  formulation.linear_viscosity = 0.5;
+  formulation.quadratic_viscosity = 1.2;
+  const MaterialLaw material{steel, linear};
+  const auto total = [](const std::vector<double> &masses) {
+    return std::accumulate(masses.begin(), masses.end(), 0.);
+  };
+  const auto masses_of = [](Body &body) {
+    std::vector<double> masses(body.mesh().n_nodes(), 0.);
+    body.block().add_masses(masses.data());
+    return masses;
+  };
+  Random random;
+  // Equal elements: the factor is the same for all. Eleven of them leave lanes empty.
+  const Mesh equal = make_mesh({11, 1, 1}, 0., random);
+  Body plain(equal, material, formulation), scaled(equal, material, formulation);
+  const double step = step_at_rest(plain), wanted = 1.7 * step;
+  const double added = scaled.block().scale_mass(wanted);
+  const auto before = masses_of(plain), after = masses_of(scaled);
+  WorstError factor;
+  for (std::size_t a = 0; a < after.size(); ++a)
+    factor.add(std::abs(after[a] / before[a] - 1.7 * 1.7));
+  check(name_of(formulation) + ", mass scaling, uniform factor", factor.value(), 1e-12);
+  check(name_of(formulation) + ", mass scaling, mass added",
+        std::abs(added / (total(after) - total(before)) - 1.), 1e-12);
+  check(name_of(formulation) + ", mass scaling, step reached", std::abs(step_at_rest(scaled) / wanted - 1.),
+        1e-12);
+
+  // Viscosity knows the new density: so does the force, which at the same displacements is the viscous one's.
+  NodalArray u(equal.positions.size());
+  for (std::size_t a = 0; a < equal.n_nodes(); ++a)
+    set_node(u, a, -1e-3 * equal.node(equal.positions, a));
+  const auto pressure = [&](const double rho_factor, const bool is_quadratic) {
+    Formulation viscous = formulation;
+    viscous.linear_viscosity = is_quadratic ? 0. : 0.5;
+    viscous.quadratic_viscosity = is_quadratic ? 1.2 : 0.;
+    Body unscaled(equal, material, viscous), body(equal, material, viscous);
+    body.block().scale_mass(std::sqrt(rho_factor) * step_at_rest(unscaled));
+    step_at_rest(body);
+    body.advance(u, step);
+    return body.result().viscous_work;
+  };
+  check(name_of(formulation) + ", mass scaling, linear viscosity as the root of the density",
+        std::abs(pressure(4., false) / pressure(1., false) - 2.), 1e-12);
+  check(name_of(formulation) + ", mass scaling, quadratic viscosity as the density",
+        std::abs(pressure(4., true) / pressure(1., true) - 4.), 1e-12);
+
+  // Distorted elements: only those that need it.
+  const Mesh distorted = make_mesh({4, 3, 3}, 0.3, random);
+  Body some(distorted, material, formulation), none(distorted, material, formulation);
+  const double shortest = step_at_rest(none);
+  const double total_before = total(masses_of(some)), some_added = some.block().scale_mass(1.2 * shortest);
+  check(name_of(formulation) + ", mass scaling, distorted, step reached",
+        std::abs(step_at_rest(some) / (1.2 * shortest) - 1.), 1e-12);
+  check(name_of(formulation) + ", mass scaling, distorted, less than for all",
+        some_added > 0. && some_added < 0.3 * total_before);
+  check(name_of(formulation) + ", mass scaling, distorted, mass added",
+        std::abs(some_added / (total(masses_of(some)) - total_before) - 1.), 1e-12);
+  check(name_of(formulation) + ", mass scaling, nothing to do",
+        none.block().scale_mass(0.9 * shortest) == 0.);
+}
+
 int main() {
   Random random;
   const auto undeformed = random_states(random, 6, 0.2, 0., 0.),
@@ -229,6 +299,7 @@ int main() {
     test_sharpness(formulation);
     test_vibration(formulation);
     test_viscosity(formulation);
+    test_mass_scaling(formulation);
     formulation.linear_viscosity = 0.06;
     formulation.quadratic_viscosity = 1.2;
     test_bound("viscous", {steel, {}}, formulation, fast);
