@@ -232,6 +232,8 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
   const Events events(scene);
   Outputs outputs(scene, discretization);
   outputs.progress.start(discretization, problem);
+  if (parameters.explicit_dynamics.scaled_step > 0.)
+    outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
 
   const auto put_out = [&] {
     problem.update_state();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace billet {
@@ -116,7 +117,18 @@ void ExplicitDynamics::make_masses() {
   std::vector<double> local(nodes_.size(), 0.);
   for (const auto &block : blocks_)
     block->add_masses(local.data());
-  loads_ = std::make_unique<ExternalLoads>(scene_, nodes_, local);
+  loads_ = std::make_unique<ExternalLoads>(scene_, nodes_, local); // which the mass added does not feel
+  const MPI_Comm communicator = discretization_.communicator();
+  mass_ = dealii::Utilities::MPI::sum(std::accumulate(local.begin(), local.end(), 0.), communicator);
+  if (parameters_.scaled_step > 0.) {
+    double added = 0.;
+    for (const auto &block : blocks_)
+      added += block->scale_mass(parameters_.scaled_step / parameters_.safety_factor);
+    added_mass_ = dealii::Utilities::MPI::sum(added, communicator);
+    std::fill(local.begin(), local.end(), 0.);
+    for (const auto &block : blocks_)
+      block->add_masses(local.data());
+  }
   NodalVectors sums = nodes_.make_vectors();
   for (unsigned int node = 0; node < nodes_.size(); ++node)
     sums[std::size_t{nodal_stride} * node] = local[node];

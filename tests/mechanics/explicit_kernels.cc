@@ -157,10 +157,10 @@ int main() {
     test_initialize(formulation);
   });
   test_refused();
-  check("history, elastic", Body(make_mesh(cube()), {steel, {}}, Formulation{}).block().history_size() == 50);
+  check("history, elastic", Body(make_mesh(cube()), {steel, {}}, Formulation{}).block().history_size() == 51);
   check("history, linear hardening",
-        Body(make_mesh(cube()), {steel, linear}, Formulation{}).block().history_size() == 58);
+        Body(make_mesh(cube()), {steel, linear}, Formulation{}).block().history_size() == 59);
   check("history, Voce hardening",
-        Body(make_mesh(cube()), {steel, voce}, Formulation{}).block().history_size() == 66);
+        Body(make_mesh(cube()), {steel, voce}, Formulation{}).block().history_size() == 67);
   return exit_code();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Motion without contact, or with a tool that has a mass, against closed forms: flight, fall, springs, dashpots,
-// pressure, prescribed displacements; momentum and energy.
+// Motion without contact, or with a tool that has a mass, against closed forms: flight, fall, springs,
+// dashpots, pressure, prescribed displacements; momentum and energy.
 #include "explicit_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -77,6 +77,29 @@ void test_fall() {
   check("fall: energy", run.worst_drift, 1e-10);
 }
 
+void test_mass_scaling() {
+  // The fall again, with four times the mass and the same weight.
+  parameters::Scene scene = bar_alone(100.);
+  scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::acceleration));
+  scene.bodies[0].loads.back().acceleration.value = {"0", "0", "-1e6"};
+  ExplicitRun plain(scene);
+  plain.problem.prepare_step(1.); // one step of 0.75 times the bound, but for what divides the second
+  scene.explicit_dynamics.scaled_step = 2. * plain.problem.step_length();
+  ExplicitRun run(scene);
+  const double factor = run.problem.added_mass() / mass + 1.;
+  check("mass scaling: factor", std::abs(factor / 4. - 1.), 1e-4);
+  check("mass scaling: the bodies' mass", std::abs(run.problem.mass() / mass - 1.), 1e-12);
+  run.problem.prepare_step(1.);
+  check("mass scaling: step", std::abs(run.problem.step_length() / scene.explicit_dynamics.scaled_step - 1.),
+        1e-4);
+  ExplicitRun fall(scene);
+  fall.finish(100e-6, [] {});
+  check("mass scaling: gravity is what it was",
+        std::abs(fall.state().momentum[2] / (-1e6 * mass * 1e-4) - 1.), 1e-10);
+  check("mass scaling: way", std::abs(mean_displacement(fall, 2) / (-0.5 * 1e6 / factor * 1e-8) - 1.), 1e-10);
+  check("mass scaling: energy", fall.worst_drift, 1e-10);
+}
+
 void test_spring() {
   // On one end face, soft against the bar: the bar as a point, at a quarter of its period.
   const double k = 4e7, omega = std::sqrt(k * 4e-4 / mass), quarter = 0.5 * dealii::numbers::PI / omega;
@@ -108,7 +131,8 @@ void test_dashpot() {
 }
 
 void test_pressure() {
-  // A closed surface feels no resultant, however it is deformed; the bar shrinks by p (1 - 2 ν)/E, with ν = 0.
+  // A closed surface feels no resultant, however it is deformed; the bar shrinks by p (1 - 2 ν)/E, with ν =
+  // 0.
   parameters::Scene scene = bar_alone(2000.);
   scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::pressure));
   scene.bodies[0].loads[0].pressure.value = "2e8*min(1, t/1e-3)";
@@ -188,6 +212,7 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_flight();
   test_fall();
+  test_mass_scaling();
   test_spring();
   test_dashpot();
   test_pressure();

@@ -36,6 +36,8 @@ public:
   unsigned int n_steps() const { return n_steps_; }
   /// By mass scaling, on all ranks [mass].
   double added_mass() const { return added_mass_; }
+  /// Of the bodies, without that, on all ranks [mass].
+  double mass() const { return mass_; }
 
   /// After prepare_step(): brings the state for output up to date. Collective.
   void update_state();
@@ -87,7 +89,7 @@ private:
   double time_ = 0., step_ = 0., step_before_ = 0.;
   double event_ = 0.;                        ///< that the planned steps lead to
   unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
-  double added_mass_ = 0.;
+  double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
   struct Works {
     double external = 0., friction = 0., viscous = 0., hourglass = 0.;

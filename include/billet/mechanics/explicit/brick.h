@@ -129,16 +129,24 @@ BILLET_INLINE void collect_columns(const Columns &forces, Modes &f) {
     }
 }
 
+/// Places of what every element keeps of its last call; its kind's own numbers follow.
+namespace last {
+constexpr unsigned int volume = 0, omega = 1, viscous_pressure = 2, n = 3;
+} // namespace last
+
 /// Bulk viscosity of a brick and its stable step.
 struct Damping {
   Real pressure; ///< positive in tension, Cauchy
-  Real work;     ///< dissipated
+  Real work;     ///< of the mean of this and the last pressure in the change of volume
   Real rate;     ///< of the damping, ∂pressure/∂d · d-weight, see bound_rate()
 };
 
-/// Characteristic length of the brick: L² = 4/(ρ Ω) with the Ω of the last call.
-BILLET_INLINE Damping compute_viscosity(const Material &material, const Real volume, const Real last_volume,
-                                        const Real last_omega, const double inverse_dt) {
+/// Characteristic length of the brick: L² = 4/(ρ Ω) with the Ω of the last call, which `history` has. Puts
+/// volume and pressure there.
+BILLET_INLINE Damping compute_viscosity(const Material &material, const Real volume, double *history,
+                                        const double inverse_dt) {
+  const Real last_volume = load(history + last::volume * n_lanes);
+  const Real last_omega = load(history + last::omega * n_lanes);
   const Real change = volume - last_volume;
   const Real d = (2. * inverse_dt) * change / (volume + last_volume);
   const Real root = square_root(last_omega);
@@ -151,7 +159,9 @@ BILLET_INLINE Damping compute_viscosity(const Material &material, const Real vol
                          inverse_root * compression;
   Damping damping;
   damping.pressure = (linear + quadratic) * d;
-  damping.work = damping.pressure * change;
+  damping.work = 0.5 * (load(history + last::viscous_pressure * n_lanes) + damping.pressure) * change;
+  store(history + last::volume * n_lanes, volume);
+  store(history + last::viscous_pressure * n_lanes, damping.pressure);
   damping.rate = 3. * (linear + 2. * quadratic);
   return damping;
 }

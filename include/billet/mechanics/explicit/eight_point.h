@@ -96,22 +96,20 @@ void advance_eight_point(const Elements &elements, const Material &material, con
     const Real J = volume / load(constants);
     const Real inverse_J = 1. / J;
     const Real mean_tau = material.bulk * logarithm(J);
-    const Damping damping =
-        compute_viscosity(material, volume, load(history), load(history + n_lanes), step.inverse_dt);
+    const Damping damping = compute_viscosity(material, volume, history, step.inverse_dt);
     const Real pressure = mean_tau * inverse_J + damping.pressure;
     PointSums sums;
     for (unsigned int q = 0; q < 8; ++q)
       add_point<Law, is_plastic>(material, functions, q, x, &delta,
                                  is_rate ? Real{} : load(constants + (2 + q) * n_lanes), pressure, inverse_J,
-                                 history + (2 + q * layout.n_point_history) * n_lanes, forces, sums);
+                                 history + (last::n + q * layout.n_point_history) * n_lanes, forces, sums);
     collect_columns(forces, modes);
     const std::size_t first = batch * n_lanes;
     const std::size_t n = count_elements(elements, first);
     scatter_modes(modes, nodes, n, step.forces);
 
     const Real omega = sums.lambda * load(constants + n_lanes);
-    store(history, volume);
-    store(history + n_lanes, omega);
+    store(history + last::omega * n_lanes, omega);
     const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * sums.watch.mises;
     totals.add(n, bound_rate(modulus * omega, damping.rate * J * omega), damping.work, Real{}, Real{});
     const Mask bad = sums.inadmissible | sums.watch.failed;
