@@ -204,6 +204,17 @@ void test_free_tool() {
   check("driven tool: way",
         std::abs(driven.state().placements[0].translation[0] / (0.5 * 1000. / mass * 1e-8) - 1.), 1e-10);
   check("driven tool: work", driven.worst_drift, 1e-10);
+
+  // The same with a moment about its axis, far from the bar.
+  motion.control = parameters::Motion::Control::moment;
+  motion.load.value = "-3";
+  motion.inertia = 2e-3;
+  motion.initial_rate = 1.;
+  ExplicitRun turned(scene);
+  turned.finish(100e-6, [] {});
+  check("turned tool: angle",
+        std::abs(turned.state().placements[0].rotation_angle / (1e-4 - 0.5 * 3. / 2e-3 * 1e-8) - 1.), 1e-10);
+  check("turned tool: work", turned.worst_drift, 1e-10);
 }
 
 } // namespace
