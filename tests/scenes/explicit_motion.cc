@@ -176,6 +176,36 @@ void test_supports() {
   check("supports: energy", run.worst_drift, 1e-3);
 }
 
+void test_sector() {
+  // A sixth of a thin ring between oblique planes breathes at sqrt(E/ρ)/r.
+  parameters::Scene scene = bar_alone(1.);
+  auto &mesh = scene.bodies[0].mesh;
+  mesh.arguments = "2, 12, 2 : 0.99, 0, 0 : 1.01, 1.0471975511965976, 0.02 : true";
+  mesh.positions.value = {"x*cos(y)", "x*sin(y)", "z"};
+  parameters::SymmetryPlane below, above;
+  below.normal[1] = 1.;
+  below.offset = above.offset = 0.;
+  above.normal[0] = -std::sin(dealii::numbers::PI / 3.);
+  above.normal[1] = std::cos(dealii::numbers::PI / 3.);
+  scene.bodies[0].symmetry_planes.value = {below, above};
+  scene.bodies[0].initial_velocity.value = {"x/sqrt(x^2+y^2)", "y/sqrt(x^2+y^2)", "0"};
+  const double omega = 5000., quarter = 0.5 * dealii::numbers::PI / omega;
+  scene.time_stepping.end_time = quarter;
+  ExplicitRun run(scene);
+  run.finish(quarter, [] {});
+  testing::WorstError radial;
+  for (const auto &element : run.discretization.elements(0))
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const auto X = element.cell->vertex(a);
+      const double angle = std::atan2(X[1], X[0]);
+      const double u = run.state().displacements(element.dofs[3 * a]) * std::cos(angle) +
+                       run.state().displacements(element.dofs[3 * a + 1]) * std::sin(angle);
+      radial.add(std::abs(u * omega - 1.));
+    }
+  check("sector: amplitude, everywhere", radial.value(), 0.02);
+  check("sector: energy", run.worst_drift, 1e-4);
+}
+
 void test_free_tool() {
   // A wall with the bar's mass flies at it at 100 m/s, driven by nothing: they exchange momentum.
   parameters::Scene scene = testing::read_test_scene("elastic_bar.prm");
@@ -228,6 +258,7 @@ int main(int argc, char *argv[]) {
   test_dashpot();
   test_pressure();
   test_supports();
+  test_sector();
   test_free_tool();
   return testing::exit_code();
 }

@@ -18,8 +18,8 @@ public:
   explicit ExplicitRun(const parameters::Scene &parameters)
       : scene(parameters), discretization(scene, MPI_COMM_WORLD), problem(scene, discretization) {}
 
-  /// Runs to the end time, and calls look() at the start, at every multiple of `interval` and at the end, with
-  /// the state up to date.
+  /// Runs to the end time, and calls look() at the start, at every multiple of `interval` and at the end,
+  /// with the state up to date.
   template <class Look> void finish(const double interval, const Look &look) {
     const double end = scene.parameters().time_stepping.end_time;
     for (;;) {

@@ -84,8 +84,8 @@ struct HourglassResult {
 };
 
 /// Forces of modes b and c, and those of J̄'s columns added to `mean_forces`. In plasticity the stored energy
-/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0. The work lost is that of the
-/// mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight on.
+/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0. The work lost is that of
+/// the mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight on.
 template <bool is_plastic>
 BILLET_INLINE HourglassResult add_hourglass(const Material &material, const Modes &x, const Map &map,
                                             const Real metric[6], const Real eigenvalue,
