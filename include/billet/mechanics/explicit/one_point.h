@@ -84,8 +84,8 @@ struct HourglassResult {
 };
 
 /// Forces of modes b and c, and those of J̄'s columns added to `mean_forces`. In plasticity the stored energy
-/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0. The work lost is that of the
-/// mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight on.
+/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0. The work lost is that of
+/// the mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight on.
 template <bool is_plastic>
 BILLET_INLINE HourglassResult add_hourglass(const Material &material, const Modes &x, const Map &map,
                                             const Real metric[6], const Real eigenvalue,
@@ -216,8 +216,10 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   scatter_modes(forces, nodes, n, step.forces);
 
   const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
-  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), damping.work,
-             hourglass.energy, hourglass.work);
+  const Real elastic = watch.distortion + compute_dilatation_energy(material, mean_tau);
+  const Energies energies{reference_volume * elastic, reference_volume * watch.plastic_work, damping.work,
+                          hourglass.energy, hourglass.work};
+  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), energies);
   const Mask bad = watch.failed | !(map.det > 0. && map.det < 1e300);
   if (__builtin_expect(any(bad), 0))
     note_failure(bad, first, result);
