@@ -70,7 +70,9 @@ public:
   };
 
   struct StepResult {
-    double stable_step; ///< safe for every element, viscosity counted [time]
+    double stable_step;    ///< safe for every element, viscosity counted [time]
+    double elastic_energy; ///< now, but for the stabilisation's [energy]
+    double plastic_work; ///< in this step: mean of both ends' yield stress times the plastic strain [energy]
     /// Dissipated by bulk viscosity in this step [energy]: ½ (q_{n−1} + q_n) ΔV, as the trapezoidal rule
     /// books all works. Where the rate has just changed its sign it can be negative for a step; the sum over
     /// the steps is not, but for what that of the last one takes back.

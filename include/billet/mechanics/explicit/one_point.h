@@ -216,8 +216,10 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   scatter_modes(forces, nodes, n, step.forces);
 
   const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
-  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), damping.work,
-             hourglass.energy, hourglass.work);
+  const Real elastic = watch.distortion + compute_dilatation_energy(material, mean_tau);
+  const Energies energies{reference_volume * elastic, reference_volume * watch.plastic_work, damping.work,
+                          hourglass.energy, hourglass.work};
+  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), energies);
   const Mask bad = watch.failed | !(map.det > 0. && map.det < 1e300);
   if (__builtin_expect(any(bad), 0))
     note_failure(bad, first, result);
