@@ -327,8 +327,14 @@ void ExplicitDynamics::choose_step(const double event) {
   const double n = std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
   step_ = remaining / n;
   n_planned_ = static_cast<unsigned int>(std::min(n, 1e9)) - 1;
-  if (!(time_ + step_ > time_) || !(n < 1e15))
-    fail("the stable step of " + std::to_string(largest) + " is too short for the clock");
+  if (!(time_ + step_ > time_) || !(n < 1e15)) {
+    std::ostringstream why;
+    why << "the stable step, " << largest
+        << ", is too short for the clock: is an element nearly flat, a density tiny or a penalty huge? 'Mass "
+           "scaling "
+           "step' makes it longer";
+    fail(why.str());
+  }
 }
 
 void ExplicitDynamics::kick() {
