@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Motion without contact, or with a tool that has a mass, against closed forms: flight, fall, springs, dashpots,
-// pressure, prescribed displacements; momentum and energy.
+// Motion without contact, or with a tool that has a mass, against closed forms: flight, fall, springs,
+// dashpots, pressure, prescribed displacements; momentum and energy.
 #include "explicit_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -37,12 +37,7 @@ parameters::Load make_load(const parameters::Load::Kind kind, const double coeff
 
 /// Mean displacement along an axis.
 double mean_displacement(const ExplicitRun &run, const unsigned int axis) {
-  double sum = 0.;
-  unsigned int n = 0;
-  for (const auto &element : run.discretization.elements(0))
-    for (unsigned int a = 0; a < n_element_nodes; ++a, ++n)
-      sum += run.state().displacements(element.dofs[3 * a + axis]);
-  return sum / n;
+  return testing::mean_of_body(run, run.state().displacements, 0)[axis];
 }
 
 void test_flight() {
@@ -108,7 +103,8 @@ void test_dashpot() {
 }
 
 void test_pressure() {
-  // A closed surface feels no resultant, however it is deformed; the bar shrinks by p (1 - 2 ν)/E, with ν = 0.
+  // A closed surface feels no resultant, however it is deformed; the bar shrinks by p (1 - 2 ν)/E, with ν =
+  // 0.
   parameters::Scene scene = bar_alone(2000.);
   scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::pressure));
   scene.bodies[0].loads[0].pressure.value = "2e8*min(1, t/1e-3)";
