@@ -232,9 +232,11 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
   const Events events(scene);
   Outputs outputs(scene, discretization);
   outputs.progress.start(discretization, problem);
+  if (parameters.explicit_dynamics.scaled_step > 0.)
+    outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
 
   const auto put_out = [&] {
-    problem.update_state();
+    problem.update_ledger();
     fail_together(discretization.communicator(), [&] {
       if (outputs.is_first)
         outputs.history->write(problem.n_steps(), problem.step_length(), problem.state());
@@ -244,6 +246,7 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
   const auto stop_on_drift = [&] {
     if (std::abs(problem.relative_drift()) <= parameters.explicit_dynamics.largest_drift)
       return;
+    problem.update_state();
     outputs.snapshots.write(problem);
     std::ostringstream message;
     message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()

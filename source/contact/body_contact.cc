@@ -32,10 +32,8 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   settings.friction = pair_.friction;
   settings.two_pass = pair_.two_passes || pair_.is_self_contact;
   settings.edges = pair_.edges;
-  if (pair_.is_self_contact) {
+  if (pair_.is_self_contact)
     settings.partners = FacetSearch::Partners::other_surfaces_and_self;
-    settings.limits.largest_alignment = 0.;
-  }
   double smallest = std::numeric_limits<double>::infinity();
   for (const double area : areas_)
     smallest = std::min(smallest, std::sqrt(area));
@@ -56,8 +54,9 @@ void BodyContact::collect() {
       facet.surface = surface;
       facet.key = make_key(boundary);
       areas_.push_back(boundary.area_vector().norm());
-      // What is deeper than half the wall below is nearer to the wall's other side.
-      facet.reach = 0.5 * std::min(std::sqrt(areas_.back()), boundary.thickness);
+      // What is deeper than half the wall below is nearer to the wall's other side; and a node that comes in
+      // from beside the facet, rather than through it, is not to be thrown out from the depth.
+      facet.reach = std::min(0.1 * std::sqrt(areas_.back()), 0.4 * boundary.thickness);
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
             index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes_.size()));

@@ -116,13 +116,30 @@ public:
   std::size_t size() const override { return storage_.size(); }
   std::size_t history_size() const override { return storage_.layout().n_history; }
 
+  double scale_mass(const double smallest_step) override {
+    // The kernel itself, element by element, says what their steps are.
+    const dealii::AlignedVector<double> at_rest(storage_.nodal_size(), 0.);
+    dealii::AlignedVector<double> ignored_forces(storage_.nodal_size(), 0.);
+    ExplicitStorage::Copy copy;
+    double added = 0.;
+    for (std::size_t element = 0; element < size(); ++element) {
+      explicit_kernels::Result result{};
+      kernel_(storage_.copy_element(element, copy), material_, functions_,
+              {at_rest.data(), at_rest.data(), ignored_forces.data(), 0., 0.}, result);
+      const double excess = smallest_step * result.largest_rate;
+      if (excess > 1.) // stiffness over mass is the square of a rate, and damping over mass grows as its root
+        added += material_.density * storage_.scale_mass(element, excess * excess);
+    }
+    return added;
+  }
+
   StepResult advance(const Nodes &nodes, const double dt) override {
     explicit_kernels::Result result{};
     const explicit_kernels::Step step{nodes.displacements, nodes.velocities, nodes.forces,
                                       dt > 0. ? 1. / dt : 0., dt};
     kernel_(storage_.elements(), material_, functions_, step, result);
-    return {1. / result.largest_rate, result.viscous_work, result.hourglass_energy, result.hourglass_work,
-            result.inverted};
+    return {1. / result.largest_rate, result.elastic_energy, result.plastic_work, result.viscous_work,
+            result.hourglass_energy,  result.hourglass_work, result.inverted};
   }
 
   void add_masses(double *masses) const override { storage_.add_masses(material_.density, masses); }

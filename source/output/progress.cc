@@ -45,6 +45,14 @@ void Progress::start(const Discretization &discretization, const Solution &solut
           << " doubles (elements + contact)\n";
 }
 
+void Progress::show_mass_scaling(const double added, const double mass) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  stream_ << "Mass scaling adds " << std::setprecision(6) << added << " to the bodies' " << mass << " ("
+          << std::setprecision(3) << 100. * added / mass << " %)\n"
+          << std::setprecision(6);
+}
+
 void Progress::accept(const StepReport &report, const SolutionState &state) {
   if (verbosity_ == Verbosity::quiet)
     return;

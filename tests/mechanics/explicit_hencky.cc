@@ -59,17 +59,20 @@ void test_path(const std::string &name, const MaterialLaw &material, const doubl
         force_error.add(std::abs(forces[k] - expected[k]) / scale);
       if (body.result().inverted != X.size())
         force_error.add(NAN);
+      double elastic = 0.;
       for (std::size_t e = 0; e < X.size(); ++e) {
         ElementVectors values;
         for (unsigned int k = 0; k < 24; ++k)
           values[k] = u[4 * mesh.elements[e][k / 3] + k % 3];
         const ElementSummary a = reference->summarize(e, values), b = body.summarize(e);
+        elastic += a.elastic_energy;
         summary_error.add((a.cauchy_stress - b.cauchy_stress).norm() / scale);
         summary_error.add(std::abs(a.equivalent_plastic_strain - b.equivalent_plastic_strain));
         summary_error.add(std::abs(a.elastic_energy - b.elastic_energy) / scale);
         summary_error.add(std::abs(a.plastic_work - b.plastic_work) / (scale + a.plastic_work));
         yields = yields || a.equivalent_plastic_strain > 0.01;
       }
+      summary_error.add(std::abs(body.result().elastic_energy - elastic) / scale);
     }
   }
   check(name + ", forces", force_error.value(), tolerance);

@@ -72,6 +72,29 @@ void test_fall() {
   check("fall: energy", run.worst_drift, 1e-10);
 }
 
+void test_mass_scaling() {
+  // The fall again, with four times the mass and the same weight.
+  parameters::Scene scene = bar_alone(100.);
+  scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::acceleration));
+  scene.bodies[0].loads.back().acceleration.value = {"0", "0", "-1e6"};
+  ExplicitRun plain(scene);
+  plain.problem.prepare_step(1.); // one step of 0.75 times the bound, but for what divides the second
+  scene.explicit_dynamics.scaled_step = 2. * plain.problem.step_length();
+  ExplicitRun run(scene);
+  const double factor = run.problem.added_mass() / mass + 1.;
+  check("mass scaling: factor", std::abs(factor / 4. - 1.), 1e-4);
+  check("mass scaling: the bodies' mass", std::abs(run.problem.mass() / mass - 1.), 1e-12);
+  run.problem.prepare_step(1.);
+  check("mass scaling: step", std::abs(run.problem.step_length() / scene.explicit_dynamics.scaled_step - 1.),
+        1e-4);
+  ExplicitRun fall(scene);
+  fall.finish(100e-6, [] {});
+  check("mass scaling: gravity is what it was",
+        std::abs(fall.state().momentum[2] / (-1e6 * mass * 1e-4) - 1.), 1e-10);
+  check("mass scaling: way", std::abs(mean_displacement(fall, 2) / (-0.5 * 1e6 / factor * 1e-8) - 1.), 1e-10);
+  check("mass scaling: energy", fall.worst_drift, 1e-10);
+}
+
 void test_spring() {
   // On one end face, soft against the bar: the bar as a point, at a quarter of its period.
   const double k = 4e7, omega = std::sqrt(k * 4e-4 / mass), quarter = 0.5 * dealii::numbers::PI / omega;
@@ -148,6 +171,36 @@ void test_supports() {
   check("supports: energy", run.worst_drift, 1e-3);
 }
 
+void test_sector() {
+  // A sixth of a thin ring between oblique planes breathes at sqrt(E/ρ)/r.
+  parameters::Scene scene = bar_alone(1.);
+  auto &mesh = scene.bodies[0].mesh;
+  mesh.arguments = "2, 12, 2 : 0.99, 0, 0 : 1.01, 1.0471975511965976, 0.02 : true";
+  mesh.positions.value = {"x*cos(y)", "x*sin(y)", "z"};
+  parameters::SymmetryPlane below, above;
+  below.normal[1] = 1.;
+  below.offset = above.offset = 0.;
+  above.normal[0] = -std::sin(dealii::numbers::PI / 3.);
+  above.normal[1] = std::cos(dealii::numbers::PI / 3.);
+  scene.bodies[0].symmetry_planes.value = {below, above};
+  scene.bodies[0].initial_velocity.value = {"x/sqrt(x^2+y^2)", "y/sqrt(x^2+y^2)", "0"};
+  const double omega = 5000., quarter = 0.5 * dealii::numbers::PI / omega;
+  scene.time_stepping.end_time = quarter;
+  ExplicitRun run(scene);
+  run.finish(quarter, [] {});
+  testing::WorstError radial;
+  for (const auto &element : run.discretization.elements(0))
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const auto X = element.cell->vertex(a);
+      const double angle = std::atan2(X[1], X[0]);
+      const double u = run.state().displacements(element.dofs[3 * a]) * std::cos(angle) +
+                       run.state().displacements(element.dofs[3 * a + 1]) * std::sin(angle);
+      radial.add(std::abs(u * omega - 1.));
+    }
+  check("sector: amplitude, everywhere", radial.value(), 0.02);
+  check("sector: energy", run.worst_drift, 1e-4);
+}
+
 void test_free_tool() {
   // A wall with the bar's mass flies at it at 100 m/s, driven by nothing: they exchange momentum.
   parameters::Scene scene = testing::read_test_scene("elastic_bar.prm");
@@ -176,6 +229,17 @@ void test_free_tool() {
   check("driven tool: way",
         std::abs(driven.state().placements[0].translation[0] / (0.5 * 1000. / mass * 1e-8) - 1.), 1e-10);
   check("driven tool: work", driven.worst_drift, 1e-10);
+
+  // The same with a moment about its axis, far from the bar.
+  motion.control = parameters::Motion::Control::moment;
+  motion.load.value = "-3";
+  motion.inertia = 2e-3;
+  motion.initial_rate = 1.;
+  ExplicitRun turned(scene);
+  turned.finish(100e-6, [] {});
+  check("turned tool: angle",
+        std::abs(turned.state().placements[0].rotation_angle / (1e-4 - 0.5 * 3. / 2e-3 * 1e-8) - 1.), 1e-10);
+  check("turned tool: work", turned.worst_drift, 1e-10);
 }
 
 } // namespace
@@ -184,10 +248,12 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_flight();
   test_fall();
+  test_mass_scaling();
   test_spring();
   test_dashpot();
   test_pressure();
   test_supports();
+  test_sector();
   test_free_tool();
   return testing::exit_code();
 }

@@ -15,6 +15,8 @@ public:
   Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
 
   void start(const Discretization &discretization, const Solution &solution);
+  /// Of an explicit scene whose mass was scaled: the mass added, and that which was there before.
+  void show_mass_scaling(double added, double mass);
   /// Of an explicit scene, where a line of the history is due.
   void show(unsigned int step, double length, const SolutionState &state);
   void accept(const StepReport &report, const SolutionState &state);
