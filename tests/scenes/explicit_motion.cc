@@ -37,12 +37,7 @@ parameters::Load make_load(const parameters::Load::Kind kind, const double coeff
 
 /// Mean displacement along an axis.
 double mean_displacement(const ExplicitRun &run, const unsigned int axis) {
-  double sum = 0.;
-  unsigned int n = 0;
-  for (const auto &element : run.discretization.elements(0))
-    for (unsigned int a = 0; a < n_element_nodes; ++a, ++n)
-      sum += run.state().displacements(element.dofs[3 * a + axis]);
-  return sum / n;
+  return testing::mean_of_body(run, run.state().displacements, 0)[axis];
 }
 
 void test_flight() {
