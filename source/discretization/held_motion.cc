@@ -32,6 +32,7 @@ HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
       node.directions.push_back(direction);
     }
     nodes_.push_back(node);
+    held_.push_back(node.node);
   }
 }
 

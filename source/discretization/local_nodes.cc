@@ -60,8 +60,10 @@ void LocalNodes::find_sharers() {
   for (auto &[rank, nodes] : shared_with) {
     std::sort(nodes.begin(), nodes.end(),
               [this](const unsigned int a, const unsigned int b) { return dofs_[a][0] < dofs_[b][0]; });
-    neighbours_.push_back({rank, nodes});
+    const std::size_t n = nodal_stride * nodes.size();
+    neighbours_.push_back({rank, nodes, std::vector<double>(n), std::vector<double>(n)});
   }
+  requests_.resize(2 * neighbours_.size());
   for (unsigned int n = 0; n < neighbours_.size(); ++n)
     for (unsigned int i = 0; i < neighbours_[n].nodes.size(); ++i) {
       const unsigned int node = neighbours_[n].nodes[i];
@@ -87,25 +89,22 @@ void LocalNodes::sum_shared(NodalVectors &values) const {
     return;
   const MPI_Comm communicator = discretization_.communicator();
   constexpr int tag = 71;
-  std::vector<std::vector<double>> sent(neighbours_.size()), received(neighbours_.size());
-  std::vector<MPI_Request> requests(2 * neighbours_.size());
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
-    const auto &nodes = neighbours_[n].nodes;
-    received[n].resize(nodal_stride * nodes.size());
-    MPI_Irecv(received[n].data(), static_cast<int>(received[n].size()), MPI_DOUBLE,
-              static_cast<int>(neighbours_[n].rank), tag, communicator, &requests[2 * n]);
-    for (const unsigned int node : nodes)
-      sent[n].insert(sent[n].end(), &values[std::size_t{nodal_stride} * node],
-                     &values[std::size_t{nodal_stride} * node] + nodal_stride);
-    MPI_Isend(sent[n].data(), static_cast<int>(sent[n].size()), MPI_DOUBLE,
-              static_cast<int>(neighbours_[n].rank), tag, communicator, &requests[2 * n + 1]);
+    auto &[rank, nodes, sent, received] = neighbours_[n];
+    MPI_Irecv(received.data(), static_cast<int>(received.size()), MPI_DOUBLE, static_cast<int>(rank), tag,
+              communicator, &requests_[2 * n]);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      std::copy_n(&values[std::size_t{nodal_stride} * nodes[i]], nodal_stride, &sent[nodal_stride * i]);
+    MPI_Isend(sent.data(), static_cast<int>(sent.size()), MPI_DOUBLE, static_cast<int>(rank), tag,
+              communicator, &requests_[2 * n + 1]);
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   for (const auto &[node, parts] : shared_) {
     std::array<double, nodal_stride> sum{};
     for (const auto &[neighbour, entry] : parts) {
-      const double *part = neighbour == own_part ? &values[std::size_t{nodal_stride} * node]
-                                                 : &received[neighbour][std::size_t{nodal_stride} * entry];
+      const double *part = neighbour == own_part
+                               ? &values[std::size_t{nodal_stride} * node]
+                               : &neighbours_[neighbour].received[std::size_t{nodal_stride} * entry];
       for (unsigned int i = 0; i < nodal_stride; ++i)
         sum[i] += part[i];
     }

@@ -61,7 +61,7 @@ Jet turning_part(const std::array<CurvedTriangle::Seam, 3> &seams, const double 
 CurvedTriangle::CurvedTriangle(const std::array<Point, 3> &corners, const std::array<Point, 3> &bends,
                                const std::array<Seam, 3> &seams)
     : origin_(corners[0]), u_(corners[1] - corners[0] - bends[0]), v_(corners[2] - corners[0] - bends[2]),
-      uu_(bends[0]), uv_(bends[0] + bends[2] - bends[1]), vv_(bends[2]), seams_(seams), has_seams_(false) {
+      uu_(bends[0]), uv_(bends[0] + bends[2] - bends[1]), vv_(bends[2]), seams_(seams) {
   for (const Seam &seam : seams)
     has_seams_ = has_seams_ || seam.alpha != 0.F || seam.beta != 0.F;
   if (has_seams_)

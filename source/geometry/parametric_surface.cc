@@ -145,7 +145,7 @@ SampledSurface::SampledSurface(Surface surface, const std::array<ParameterRange,
 
 SurfaceFoot SampledSurface::descend(const Tensor<1, 3> &x, const FacetTree::Foot &start) const {
   std::array<double, 2> uv{};
-  char pole = 0;
+  unsigned char pole = 0;
   for (unsigned int i = 0; i < 3; ++i) {
     const unsigned int corner = mesh().facets[start.facet][i];
     for (unsigned int c = 0; c < 2; ++c)

@@ -140,8 +140,8 @@ std::uint32_t read_integer(const char *bytes) {
 
 Tensor<1, 3> read_vector(const char *bytes) {
   Tensor<1, 3> result;
-  for (unsigned int i = 0; i < 3; ++i) {
-    const std::uint32_t bits = read_integer(bytes + 4 * i);
+  for (unsigned int i = 0; i < 3; ++i, bytes += 4) {
+    const std::uint32_t bits = read_integer(bytes);
     float value = 0.F;
     std::memcpy(&value, &bits, sizeof value);
     result[i] = value;

@@ -15,6 +15,8 @@ namespace {
 
 using Element = ExplicitFormulation::Element;
 using Kinematics = ExplicitFormulation::Kinematics;
+using explicit_kernels::HardeningKind;
+using explicit_kernels::Material;
 
 /// Elasticity, as a hardening law that is never asked.
 struct NoHardening {
@@ -29,6 +31,35 @@ double harden(const void *hardening, const double q, const double m, const doubl
   const double delta = solve_consistency(law, q, m, alpha);
   yield_stress = law.stress(alpha + delta);
   return delta;
+}
+
+// What kernels compute themselves: laws that harden, and less and less.
+
+void describe(const LinearHardening &law, Material &material) {
+  material.hardening_kind = HardeningKind::linear;
+  material.yield_stress = law.yield_stress;
+  material.hardening_modulus = law.modulus;
+}
+
+void describe(const VoceHardening &law, Material &material) {
+  material.hardening_kind =
+      law.saturation_stress >= law.yield_stress ? HardeningKind::voce : HardeningKind::other;
+  material.yield_stress = law.yield_stress;
+  material.hardening_modulus = law.modulus;
+  material.saturation_stress = law.saturation_stress;
+  material.saturation_rate = law.saturation_rate;
+}
+
+void describe(const PowerLawHardening &law, Material &material) {
+  material.hardening_kind =
+      law.exponent >= 0. && law.exponent <= 1. ? HardeningKind::power_law : HardeningKind::other;
+  material.strength = law.strength;
+  material.prestrain = law.prestrain;
+  material.exponent = law.exponent;
+}
+
+void describe(const TabulatedHardening &, Material &material) {
+  material.hardening_kind = HardeningKind::other;
 }
 
 bool compute_logarithm(const double *b, double *deviator, double &mean) {
@@ -69,10 +100,8 @@ public:
     material_.linear_viscosity = formulation.linear_viscosity;
     material_.quadratic_viscosity = formulation.quadratic_viscosity;
     material_.hourglass_stiffness = formulation.hourglass_stiffness;
-    if constexpr (is_linear) {
-      material_.yield_stress = hardening_.yield_stress;
-      material_.hardening_modulus = hardening_.modulus;
-    } else if constexpr (has_plasticity) {
+    if constexpr (has_plasticity) {
+      describe(hardening_, material_);
       material_.hardening = &hardening_;
       functions_.harden = &harden<Hardening>;
     }
@@ -87,13 +116,30 @@ public:
   std::size_t size() const override { return storage_.size(); }
   std::size_t history_size() const override { return storage_.layout().n_history; }
 
+  double scale_mass(const double smallest_step) override {
+    // The kernel itself, element by element, says what their steps are.
+    const dealii::AlignedVector<double> at_rest(storage_.nodal_size(), 0.);
+    dealii::AlignedVector<double> ignored_forces(storage_.nodal_size(), 0.);
+    ExplicitStorage::Copy copy;
+    double added = 0.;
+    for (std::size_t element = 0; element < size(); ++element) {
+      explicit_kernels::Result result{};
+      kernel_(storage_.copy_element(element, copy), material_, functions_,
+              {at_rest.data(), at_rest.data(), ignored_forces.data(), 0., 0.}, result);
+      const double excess = smallest_step * result.largest_rate;
+      if (excess > 1.) // stiffness over mass is the square of a rate, and damping over mass grows as its root
+        added += material_.density * storage_.scale_mass(element, excess * excess);
+    }
+    return added;
+  }
+
   StepResult advance(const Nodes &nodes, const double dt) override {
     explicit_kernels::Result result{};
     const explicit_kernels::Step step{nodes.displacements, nodes.velocities, nodes.forces,
                                       dt > 0. ? 1. / dt : 0., dt};
     kernel_(storage_.elements(), material_, functions_, step, result);
-    return {1. / result.largest_rate, result.viscous_work, result.hourglass_energy, result.hourglass_work,
-            result.inverted};
+    return {1. / result.largest_rate, result.elastic_energy, result.plastic_work, result.viscous_work,
+            result.hourglass_energy,  result.hourglass_work, result.inverted};
   }
 
   void add_masses(double *masses) const override { storage_.add_masses(material_.density, masses); }
@@ -150,7 +196,7 @@ private:
 
   ExplicitFormulation formulation_;
   Hardening hardening_;
-  explicit_kernels::Material material_;
+  Material material_;
   explicit_kernels::LaneFunctions functions_{};
   ExplicitStorage storage_;
   explicit_kernels::Kernel kernel_;

@@ -12,6 +12,8 @@ using Kinematics = ExplicitFormulation::Kinematics;
 
 namespace {
 
+constexpr std::size_t n_last = 3; ///< what history keeps of the last call, see kernel.h
+
 double corner(const unsigned int a, const unsigned int i) { return ((a >> i) & 1U) != 0U ? 1. : -1.; }
 
 /// ∂ξ/∂X at a point: the gradient of the field that has the corners' coordinates ξ as nodal values.
@@ -111,10 +113,10 @@ ExplicitStorage::ExplicitStorage(const unsigned int n_lanes, const ExplicitFormu
   layout_.n_point_history = (is_rate ? 5 : 6) + (has_plasticity ? 1 : 0) + (keeps_yield_stress ? 1 : 0);
   if (formulation.element == Element::one_point) {
     layout_.n_constants = 28;
-    layout_.n_history = 14 + layout_.n_point_history;
+    layout_.n_history = n_last + 12 + layout_.n_point_history;
   } else {
     layout_.n_constants = is_rate ? 2 : 10;
-    layout_.n_history = 2 + n_element_points * layout_.n_point_history;
+    layout_.n_history = n_last + n_element_points * layout_.n_point_history;
   }
 }
 
@@ -127,6 +129,7 @@ void ExplicitStorage::resize(const std::size_t n_elements) {
   nodes_.resize(padded * n_element_nodes);
   constants_.resize(padded * layout_.n_constants);
   history_.resize(padded * layout_.n_history);
+  density_factors_.assign(n_elements, 1.);
 }
 
 bool ExplicitStorage::initialize(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
@@ -233,8 +236,8 @@ bool ExplicitStorage::initialize_element(const std::size_t element,
           constant(element, place++) = geometry.modes[k].norm() / geometry.modes[l].norm();
     for (unsigned int m = 0; m < 4; ++m)
       for (unsigned int k = 0; k < 3; ++k)
-        history(element, 2 + 3 * m + k) = (inverse * geometry.modes[3 + m])[k];
-    initialize_point(element, 14, inverse, yield_stress);
+        history(element, n_last + 3 * m + k) = (inverse * geometry.modes[3 + m])[k];
+    initialize_point(element, n_last + 12, inverse, yield_stress);
   } else {
     constant(element, 0) = volume;
     constant(element, 1) = 1. / smallest_mass;
@@ -243,11 +246,12 @@ bool ExplicitStorage::initialize_element(const std::size_t element,
       lambda = std::max(lambda, reference.volumes[q] * bound_metric(inverse));
       if (formulation_.kinematics != Kinematics::hypoelastic)
         constant(element, 2 + q) = reference.volumes[q];
-      initialize_point(element, 2 + q * layout_.n_point_history, inverse, yield_stress);
+      initialize_point(element, n_last + q * layout_.n_point_history, inverse, yield_stress);
     }
   }
   history(element, 0) = volume;
   history(element, 1) = lambda / smallest_mass;
+  history(element, 2) = 0.;
   return true;
 }
 
@@ -256,13 +260,45 @@ explicit_kernels::Elements ExplicitStorage::elements() {
           constants_.data(), history_.data(), layout_};
 }
 
+explicit_kernels::Elements ExplicitStorage::copy_element(const std::size_t element, Copy &copy) const {
+  copy.nodes.resize(n_element_nodes * n_lanes_);
+  copy.constants.resize(layout_.n_constants * n_lanes_);
+  copy.history.resize(layout_.n_history * n_lanes_);
+  for (std::size_t lane = 0; lane < n_lanes_; ++lane) {
+    for (std::size_t a = 0; a < n_element_nodes; ++a)
+      copy.nodes[a * n_lanes_ + lane] = nodes_[index(element, a, n_element_nodes)];
+    for (std::size_t k = 0; k < layout_.n_constants; ++k)
+      copy.constants[k * n_lanes_ + lane] = constant(element, k);
+    for (std::size_t k = 0; k < layout_.n_history; ++k)
+      copy.history[k * n_lanes_ + lane] = history(element, k);
+  }
+  return {1,      copy.nodes.data(), reference_positions_.data(), copy.constants.data(), copy.history.data(),
+          layout_};
+}
+
+double ExplicitStorage::scale_mass(const std::size_t element, const double factor) {
+  const double volume = constant(element, 0) * density_factors_[element];
+  density_factors_[element] *= factor;
+  // The lanes beyond the last element repeat it.
+  const bool is_last = element + 1 == n_elements_;
+  for (std::size_t e = element; e == element || (is_last && e % n_lanes_ != 0); ++e) {
+    if (formulation_.element == Element::one_point) {
+      constant(e, 2) /= factor;
+      constant(e, 3) /= factor;
+    } else
+      constant(e, 1) /= factor;
+    history(e, 1) /= factor;
+  }
+  return volume * (factor - 1.);
+}
+
 void ExplicitStorage::add_masses(const double density, double *masses) const {
   for (std::size_t element = 0; element < n_elements_; ++element) {
     ReferenceElement reference;
     compute_reference_element(gather(element, reference_positions_.data()), reference);
     const auto volumes = compute_nodal_volumes(reference);
     for (unsigned int a = 0; a < n_element_nodes; ++a)
-      masses[nodes_[index(element, a, n_element_nodes)]] += density * volumes[a];
+      masses[nodes_[index(element, a, n_element_nodes)]] += density * density_factors_[element] * volumes[a];
   }
 }
 
@@ -303,7 +339,7 @@ std::vector<PointState> ExplicitStorage::compute_states(const std::size_t elemen
       }
     const double J = determinant(jacobian) / determinant(reference_jacobian);
     if (J > 0.)
-      add(14, reference.volume, J, jacobian);
+      add(n_last + 12, reference.volume, J, jacobian);
     return states;
   }
   ReferenceElement reference;
@@ -315,7 +351,7 @@ std::vector<PointState> ExplicitStorage::compute_states(const std::size_t elemen
   for (const double w : reference.volumes)
     volume += w;
   for (unsigned int q = 0; q < n_element_points; ++q)
-    add(2 + q * layout_.n_point_history, reference.volumes[q], kinematics.current_volume / volume,
+    add(n_last + q * layout_.n_point_history, reference.volumes[q], kinematics.current_volume / volume,
         kinematics.F_bar[q] * invert(compute_inverse_jacobian(reference, q)));
   return states;
 }

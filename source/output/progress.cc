@@ -45,6 +45,14 @@ void Progress::start(const Discretization &discretization, const Solution &solut
           << " doubles (elements + contact)\n";
 }
 
+void Progress::show_mass_scaling(const double added, const double mass) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  stream_ << "Mass scaling adds " << std::setprecision(6) << added << " to the bodies' " << mass << " ("
+          << std::setprecision(3) << 100. * added / mass << " %)\n"
+          << std::setprecision(6);
+}
+
 void Progress::accept(const StepReport &report, const SolutionState &state) {
   if (verbosity_ == Verbosity::quiet)
     return;
@@ -132,6 +140,18 @@ void Progress::erase_bar() {
   if (has_bar_)
     stream_ << "\r\033[K";
   has_bar_ = false;
+}
+
+void Progress::show_pace(const unsigned int n_steps, const std::size_t n_elements, const double seconds,
+                         const double processor_seconds) {
+  if (verbosity_ == Verbosity::quiet || n_steps == 0)
+    return;
+  erase_bar();
+  const double n = static_cast<double>(n_steps) * static_cast<double>(n_elements);
+  stream_ << n_steps << " steps of " << n_elements << " elements in " << std::setprecision(4) << seconds
+          << " s: " << 1e9 * seconds / n << " ns for each element and step, " << 1e9 * processor_seconds / n
+          << " of this process\n"
+          << std::setprecision(6);
 }
 
 void Progress::finish(const std::string &file_to_open) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace billet {
@@ -57,6 +58,11 @@ ExplicitFormulation make_formulation(const parameters::Scene &scene, const param
   return formulation;
 }
 
+void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
+  for (const unsigned int node : nodes)
+    std::fill_n(&vectors[std::size_t{nodal_stride} * node], nodal_stride, 0.);
+}
+
 double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 } // namespace
@@ -76,6 +82,7 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   fading_forces_.resize(tools_.size());
   u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
   set_initial_motion();
+  find_touched_nodes();
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
     NodalVectors ignored_forces = nodes_.make_vectors(), ignored_bounds = ignored_forces;
@@ -116,7 +123,18 @@ void ExplicitDynamics::make_masses() {
   std::vector<double> local(nodes_.size(), 0.);
   for (const auto &block : blocks_)
     block->add_masses(local.data());
-  loads_ = std::make_unique<ExternalLoads>(scene_, nodes_, local);
+  loads_ = std::make_unique<ExternalLoads>(scene_, nodes_, local); // which the mass added does not feel
+  const MPI_Comm communicator = discretization_.communicator();
+  mass_ = dealii::Utilities::MPI::sum(std::accumulate(local.begin(), local.end(), 0.), communicator);
+  if (parameters_.scaled_step > 0.) {
+    double added = 0.;
+    for (const auto &block : blocks_)
+      added += block->scale_mass(parameters_.scaled_step / parameters_.safety_factor);
+    added_mass_ = dealii::Utilities::MPI::sum(added, communicator);
+    std::fill(local.begin(), local.end(), 0.);
+    for (const auto &block : blocks_)
+      block->add_masses(local.data());
+  }
   NodalVectors sums = nodes_.make_vectors();
   for (unsigned int node = 0; node < nodes_.size(); ++node)
     sums[std::size_t{nodal_stride} * node] = local[node];
@@ -124,6 +142,39 @@ void ExplicitDynamics::make_masses() {
   masses_.resize(nodes_.size());
   for (unsigned int node = 0; node < nodes_.size(); ++node)
     masses_[node] = sums[std::size_t{nodal_stride} * node];
+  for (const double mass : masses_)
+    inverse_masses_.push_back(1. / mass);
+}
+
+void ExplicitDynamics::find_touched_nodes() {
+  bool has_accelerations = false, has_loads = false;
+  has_bounds_ = !scene_.pairs().empty() || !scene_.body_pairs().empty();
+  for (const auto &body : scene_.bodies())
+    for (const auto &load : body.loads) {
+      has_loads = true;
+      has_accelerations = has_accelerations || load.kind == Load::Kind::acceleration;
+      has_bounds_ = has_bounds_ || load.kind == Load::Kind::spring || load.kind == Load::Kind::dashpot;
+    }
+  // All else acts on boundaries, of elements of any rank.
+  NodalVectors is_touched = nodes_.make_vectors();
+  for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
+    for (std::size_t e = 0; e < nodes_.elements(b).size(); ++e) {
+      const auto &cell = discretization_.elements(b)[e].cell;
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          for (unsigned int v = 0; v < 4; ++v)
+            is_touched[std::size_t{nodal_stride} *
+                       nodes_.elements(b)[e][dealii::GeometryInfo<3>::face_to_cell_vertices(f, v)]] = 1.;
+    }
+  nodes_.sum_shared(is_touched);
+  const bool may_be_loaded = has_loads || !scene_.tools().empty(); // tools fade when they are removed
+  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+    const bool touched = is_touched[std::size_t{nodal_stride} * node] > 0.;
+    if (has_accelerations || (may_be_loaded && touched))
+      loaded_nodes_.push_back(node);
+    if (has_bounds_ && touched)
+      bounded_nodes_.push_back(node);
+  }
 }
 
 void ExplicitDynamics::set_initial_motion() {
@@ -157,7 +208,7 @@ void ExplicitDynamics::fail(const std::string &why) const {
 
 void ExplicitDynamics::compute_internal_forces() {
   element_step_ = std::numeric_limits<double>::infinity();
-  hourglass_energy_ = 0.;
+  elastic_energy_ = hourglass_energy_ = 0.;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto result =
         blocks_[b]->advance({u_.data(), v_.data(), forces_.data()}, n_steps_ == 0 ? 0. : step_);
@@ -172,6 +223,8 @@ void ExplicitDynamics::compute_internal_forces() {
       fail(why.str());
     }
     element_step_ = std::min(element_step_, result.stable_step);
+    elastic_energy_ += result.elastic_energy;
+    works_.plastic += result.plastic_work;
     works_.viscous += result.viscous_work;
     works_.hourglass += result.hourglass_work;
     hourglass_energy_ += result.hourglass_energy;
@@ -204,21 +257,24 @@ void ExplicitDynamics::remove_tools() {
           contact.add_forces(*fading_forces_[i], ignored);
           contact.remove_tool();
         }
-      works_.external -= tool_loads_[i].stored_energy; // what its penalty springs held goes with it
+      // What its penalty springs held goes with it, and what it has of its own, which all ranks know.
+      works_.external -= tool_loads_[i].stored_energy;
+      if (dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0)
+        works_.external -= tools_[i].kinetic_energy();
+      tools_[i].remove();
     }
     const Tool &gone = scene_.tools()[i];
     const double left =
         gone.release_time() > 0. ? 1. - (time_ - gone.removal_time()) / gone.release_time() : 0.;
     if (left > 0.)
-      for (std::size_t k = 0; k < external_.size(); ++k)
-        external_[k] += left * (*fading_forces_[i])[k];
+      for (const unsigned int node : loaded_nodes_)
+        add_vector(external_.data(), node, left * get_vector(fading_forces_[i]->data(), node));
   }
 }
 
 void ExplicitDynamics::compute_forces() {
-  forces_.fill(0.);
-  bounds_.fill(0.);
-  external_.fill(0.);
+  clear(bounds_, bounded_nodes_);
+  clear(external_, loaded_nodes_);
   std::exception_ptr failure;
   try {
     remove_tools();
@@ -235,10 +291,11 @@ void ExplicitDynamics::compute_forces() {
     works_.friction += contact->local_dissipation();
     contact->commit();
   }
-  for (std::size_t k = 0; k < forces_.size(); ++k)
-    forces_[k] += external_[k];
+  for (const unsigned int node : loaded_nodes_)
+    add_vector(forces_.data(), node, get_vector(external_.data(), node));
   nodes_.sum_shared(forces_);
-  nodes_.sum_shared(bounds_);
+  if (has_bounds_)
+    nodes_.sum_shared(bounds_);
   element_step_ = dealii::Utilities::MPI::min(failure ? -1. : stable_step(), discretization_.communicator());
   if (element_step_ < 0.)
     fail_together(discretization_.communicator(), [&failure] {
@@ -250,10 +307,10 @@ void ExplicitDynamics::compute_forces() {
 double ExplicitDynamics::stable_step() const {
   // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
   double stiffest = 0., most_damped = 0.;
-  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+  for (const unsigned int node : bounded_nodes_) {
     const double *bounds = &bounds_[std::size_t{nodal_stride} * node];
-    stiffest = std::max(stiffest, bounds[0] / masses_[node]);
-    most_damped = std::max(most_damped, bounds[1] / masses_[node]);
+    stiffest = std::max(stiffest, bounds[0] * inverse_masses_[node]);
+    most_damped = std::max(most_damped, bounds[1] * inverse_masses_[node]);
   }
   const double a = 1. / (element_step_ * element_step_) + 0.25 * stiffest, b = 0.5 * most_damped;
   return 2. / (b + std::sqrt(b * b + 4. * a));
@@ -274,25 +331,39 @@ void ExplicitDynamics::choose_step(const double event) {
   const double n = std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
   step_ = remaining / n;
   n_planned_ = static_cast<unsigned int>(std::min(n, 1e9)) - 1;
-  if (!(time_ + step_ > time_) || !(n < 1e15))
-    fail("the stable step of " + std::to_string(largest) + " is too short for the clock");
+  if (!(time_ + step_ > time_) || !(n < 1e15)) {
+    std::ostringstream why;
+    why << "the stable step, " << largest
+        << ", is too short for the clock: is an element nearly flat, a density tiny or a penalty huge? 'Mass "
+           "scaling "
+           "step' makes it longer";
+    fail(why.str());
+  }
 }
 
 void ExplicitDynamics::kick() {
   const bool is_first = n_steps_ == 0;
   const double half_sum = is_first ? step_ : 0.5 * (step_before_ + step_);
-  v_before_ = v_;
   // At the start v_ is v_0, and v_{−½} follows below.
   const double weight = is_first ? 0.5 * step_ : half_sum;
-  for (unsigned int node = 0; node < nodes_.size(); ++node) {
-    const double factor = weight / masses_[node];
-    for (unsigned int i = 0; i < 3; ++i)
-      v_[std::size_t{nodal_stride} * node + i] += factor * forces_[std::size_t{nodal_stride} * node + i];
+  std::swap(v_, v_before_);
+  double *v = v_.data(), *forces = forces_.data();
+  const double *v_before = v_before_.data();
+  for (const double inverse_mass : inverse_masses_) {
+    const double factor = weight * inverse_mass;
+    for (unsigned int i = 0; i < nodal_stride; ++i) {
+      v[i] = v_before[i] + factor * forces[i];
+      forces[i] = 0.; // now, while it is in the cache, for the next step
+    }
+    v += nodal_stride;
+    v_before += nodal_stride;
+    forces += nodal_stride;
   }
-  supports_.fill(0.);
+  clear(supports_, held_.nodes());
   held_.constrain(time_, step_, u_, masses_, v_, supports_);
-  for (double &impulse : supports_)
-    impulse /= weight;
+  for (const unsigned int node : held_.nodes())
+    for (unsigned int i = 0; i < 3; ++i)
+      supports_[std::size_t{nodal_stride} * node + i] /= weight;
   if (is_first)
     for (std::size_t k = 0; k < v_.size(); ++k)
       v_before_[k] = 2. * v_before_[k] - v_[k];
@@ -306,12 +377,15 @@ void ExplicitDynamics::kick() {
 
 void ExplicitDynamics::add_works(const NodalVectors &v, const double half) {
   const bool is_first_rank = dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0;
-  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+  const auto power = [&v](const NodalVectors &forces, const unsigned int node) {
     const std::size_t k = std::size_t{nodal_stride} * node;
-    works_.external += half * dot(&external_[k], &v[k]);
+    return dot(&forces[k], &v[k]);
+  };
+  for (const unsigned int node : loaded_nodes_)
+    works_.external += half * power(external_, node);
+  for (const unsigned int node : held_.nodes())
     if (nodes_.is_owned(node))
-      works_.external += half * dot(&supports_[k], &v[k]);
-  }
+      works_.external += half * power(supports_, node);
   for (std::size_t i = 0; i < tools_.size(); ++i)
     if (!tools_[i].is_gone(time_))
       works_.external += tools_[i].motion_work(tool_loads_[i]) + (is_first_rank ? tools_[i].load_work() : 0.);
@@ -337,14 +411,17 @@ void ExplicitDynamics::finish_step() {
 }
 
 void ExplicitDynamics::update_state() {
-  const MPI_Comm communicator = discretization_.communicator();
-  state_.time = time_;
+  update_ledger();
   nodes_.copy(u_, state_.displacements);
   NodalVectors v = v_;
   for (std::size_t k = 0; k < v.size(); ++k)
     v[k] = 0.5 * (v_[k] + v_before_[k]);
   nodes_.copy(v, state_.velocities);
+}
 
+void ExplicitDynamics::update_ledger() {
+  const MPI_Comm communicator = discretization_.communicator();
+  state_.time = time_;
   enum {
     kinetic,
     elastic,
@@ -363,7 +440,8 @@ void ExplicitDynamics::update_state() {
       continue;
     const std::size_t k = std::size_t{nodal_stride} * node;
     sums[kinetic] += 0.5 * masses_[node] * dot(&v_[k], &v_before_[k]);
-    const Tensor<1, 3> p = masses_[node] * get_vector(v.data(), node);
+    const Tensor<1, 3> p =
+        0.5 * masses_[node] * (get_vector(v_.data(), node) + get_vector(v_before_.data(), node));
     const Tensor<1, 3> L = dealii::cross_product_3d(
         get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node), p);
     for (unsigned int i = 0; i < 3; ++i) {
@@ -371,12 +449,8 @@ void ExplicitDynamics::update_state() {
       sums[angular + i] += L[i];
     }
   }
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (std::size_t e = 0; e < blocks_[b]->size(); ++e) {
-      const ElementSummary summary = blocks_[b]->summarize(e, u_.data());
-      sums[elastic] += summary.elastic_energy;
-      sums[plastic] += summary.plastic_work;
-    }
+  sums[elastic] = elastic_energy_;
+  sums[plastic] = works_.plastic;
   for (const auto &load : tool_loads_)
     sums[contact] += load.stored_energy;
   sums[friction] = works_.friction;

@@ -59,17 +59,20 @@ void test_path(const std::string &name, const MaterialLaw &material, const doubl
         force_error.add(std::abs(forces[k] - expected[k]) / scale);
       if (body.result().inverted != X.size())
         force_error.add(NAN);
+      double elastic = 0.;
       for (std::size_t e = 0; e < X.size(); ++e) {
         ElementVectors values;
         for (unsigned int k = 0; k < 24; ++k)
           values[k] = u[4 * mesh.elements[e][k / 3] + k % 3];
         const ElementSummary a = reference->summarize(e, values), b = body.summarize(e);
+        elastic += a.elastic_energy;
         summary_error.add((a.cauchy_stress - b.cauchy_stress).norm() / scale);
         summary_error.add(std::abs(a.equivalent_plastic_strain - b.equivalent_plastic_strain));
         summary_error.add(std::abs(a.elastic_energy - b.elastic_energy) / scale);
         summary_error.add(std::abs(a.plastic_work - b.plastic_work) / (scale + a.plastic_work));
         yields = yields || a.equivalent_plastic_strain > 0.01;
       }
+      summary_error.add(std::abs(body.result().elastic_energy - elastic) / scale);
     }
   }
   check(name + ", forces", force_error.value(), tolerance);
@@ -82,6 +85,8 @@ int main() {
   for_each_hardening([](const std::string &name, const auto &hardening) {
     test_path(name, {steel, hardening}, 0.3, 0.15, 1e-12);
   });
+  test_path("Voce softening", {steel, VoceHardening{450., 400., 16.93, 20.}}, 0.3, 0.15, 1e-12);
+  test_path("power law, convex", {steel, PowerLawHardening{565.3, 1., 1.5}}, 0.3, 0.15, 1e-12);
   test_path("elastic, small strain", {steel, {}}, 0.002, 0.0005, 1e-12);
   test_path("elastic, moderate strain", {steel, {}}, 0.05, 0.02, 1e-12);
   test_path("elastic, large strain", {steel, {}}, 0.4, 0.15, 1e-12);

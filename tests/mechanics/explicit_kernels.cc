@@ -29,9 +29,11 @@ Answer run(const Mesh &mesh, const MaterialLaw &material, const Formulation &for
         u[4 * a + i] += change[i] + random(-size, size);
     }
     answer.forces = body.advance(u, 1e-4);
-    answer.numbers.insert(answer.numbers.end(), {1e3 * body.result().stable_step, body.result().viscous_work,
-                                                 body.result().hourglass_energy, body.result().hourglass_work,
-                                                 static_cast<double>(body.result().inverted)});
+    answer.numbers.insert(answer.numbers.end(),
+                          {1e3 * body.result().stable_step, body.result().elastic_energy,
+                           body.result().plastic_work, body.result().viscous_work,
+                           body.result().hourglass_energy, body.result().hourglass_work,
+                           static_cast<double>(body.result().inverted)});
   }
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const ElementSummary summary = body.summarize(e);
@@ -157,10 +159,10 @@ int main() {
     test_initialize(formulation);
   });
   test_refused();
-  check("history, elastic", Body(make_mesh(cube()), {steel, {}}, Formulation{}).block().history_size() == 50);
+  check("history, elastic", Body(make_mesh(cube()), {steel, {}}, Formulation{}).block().history_size() == 51);
   check("history, linear hardening",
-        Body(make_mesh(cube()), {steel, linear}, Formulation{}).block().history_size() == 58);
+        Body(make_mesh(cube()), {steel, linear}, Formulation{}).block().history_size() == 59);
   check("history, Voce hardening",
-        Body(make_mesh(cube()), {steel, voce}, Formulation{}).block().history_size() == 66);
+        Body(make_mesh(cube()), {steel, voce}, Formulation{}).block().history_size() == 67);
   return exit_code();
 }

@@ -58,7 +58,7 @@ struct HypoelasticPoint {
 template <class Point, class YieldStress>
 void test_path(const Formulation &formulation, const std::string &name, const MaterialLaw &material,
                const YieldStress &yield) {
-  WorstError stress_error, strain_error;
+  WorstError stress_error, strain_error, energy_error;
   Random random;
   const NodalTensor X = distorted_cube();
   bool yields = false;
@@ -78,11 +78,14 @@ void test_path(const Formulation &formulation, const std::string &name, const Ma
       const Tensor<2, 3> sigma = (s + steel.bulk * std::log(J) * unit) / J;
       stress_error.add((static_cast<Tensor<2, 3>>(summary.cauchy_stress) - sigma).norm() /
                        (sigma.norm() + 1e-3 * steel.shear));
+      energy_error.add(std::abs(body.result().elastic_energy - summary.elastic_energy) /
+                       (summary.elastic_energy + 1e-6 * steel.shear));
       strain_error.add(std::abs(summary.equivalent_plastic_strain - point.alpha));
       yields = yields || point.alpha > 0.05;
     }
   }
   check(name_of(formulation) + ", " + name + ", stress", stress_error.value(), 1e-11);
+  check(name_of(formulation) + ", " + name + ", elastic energy", energy_error.value(), 1e-10);
   check(name_of(formulation) + ", " + name + ", plastic strain", strain_error.value(), 1e-12);
   check(name_of(formulation) + ", " + name + (yields ? ", yields" : ", does not yield"),
         yields == (material.hardening.index() != 0));
@@ -118,7 +121,7 @@ void test_small_strain(const Formulation &formulation) {
 void test_compression(const Formulation &formulation) {
   Body body(make_mesh(cube()), {steel, linear}, formulation);
   constexpr unsigned int n_steps = 1000;
-  double dissipated = 0.;
+  double dissipated = 0., plastic_work = 0.;
   NodalTensor last_force, last_u;
   for (unsigned int step = 1; step <= n_steps; ++step) {
     const double height = std::pow(0.36, static_cast<double>(step) / n_steps);
@@ -127,6 +130,7 @@ void test_compression(const Formulation &formulation) {
     F[2][2] = height;
     const NodalTensor u = displace(F, cube());
     const NodalTensor force = body.advance(u, 1e-6);
+    plastic_work += body.result().plastic_work;
     dissipated += 0.5 * ((force + last_force) * (u - last_u));
     last_force = force;
     last_u = u;
@@ -145,6 +149,8 @@ void test_compression(const Formulation &formulation) {
         std::abs(dissipated / (summary.elastic_energy + summary.plastic_work) - 1.), 2e-3 + order);
   check(name_of(formulation) + ", compression to 36 %, plastic work",
         std::abs(summary.plastic_work / linear.work(alpha) - 1.), 3e-5 + order);
+  check(name_of(formulation) + ", compression to 36 %, plastic work, step by step",
+        std::abs(plastic_work / summary.plastic_work - 1.), 1e-12);
 }
 
 /// The last step again: nothing may change. For the neo-Hookean law this is det b̄_e = 1.

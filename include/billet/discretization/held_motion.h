@@ -15,6 +15,9 @@ class HeldMotion {
 public:
   HeldMotion(const Scene &scene, const LocalNodes &nodes);
 
+  /// That are held.
+  const std::vector<unsigned int> &nodes() const { return held_; }
+
   /// Puts the nodes to where the planes have them at time t.
   void set_displacements(double t, NodalVectors &displacements) const;
 
@@ -41,6 +44,7 @@ private:
   static double value(const Direction &direction, double t, const dealii::Point<3> &position);
 
   std::vector<Node> nodes_;
+  std::vector<unsigned int> held_;
 };
 
 } // namespace billet

@@ -64,7 +64,8 @@ private:
 
   struct Neighbour {
     unsigned int rank;
-    std::vector<unsigned int> nodes; ///< shared with it, in the order of their dofs
+    std::vector<unsigned int> nodes;    ///< shared with it, in the order of their dofs
+    std::vector<double> sent, received; ///< kept, so that a sum allocates nothing
   };
   /// Where the parts of a shared node's sum stand, in the order of the ranks: which neighbour, and at which
   /// of its entries; this rank itself is own_part.
@@ -73,7 +74,8 @@ private:
     std::vector<std::pair<unsigned int, unsigned int>> parts;
   };
   static constexpr unsigned int own_part = dealii::numbers::invalid_unsigned_int;
-  std::vector<Neighbour> neighbours_;
+  mutable std::vector<Neighbour> neighbours_;
+  mutable std::vector<MPI_Request> requests_;
   std::vector<SharedNode> shared_;
 };
 

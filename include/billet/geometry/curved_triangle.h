@@ -99,7 +99,7 @@ private:
   Point origin_, u_, v_, uu_, uv_, vv_; ///< p = origin + u_ u + v_ v + uu_ u² + uv_ u v + vv_ v² + F up_
   Point up_;
   std::array<Seam, 3> seams_;
-  bool has_seams_;
+  bool has_seams_ = false;
 };
 
 } // namespace billet

@@ -70,8 +70,8 @@ private:
   std::array<ParameterRange, 2> ranges_;
   FacetTree facets_;
   std::vector<std::array<double, 2>> parameters_;
-  std::vector<char> poles_; ///< of the points: 1 or 2 where p,u or p,v is zero, else 0
-  double deviation_ = 0.;   ///< of the surface from its facets [length]
+  std::vector<unsigned char> poles_; ///< of the points: 1 or 2 where p,u or p,v is zero, else 0
+  double deviation_ = 0.;            ///< of the surface from its facets [length]
   double facet_size_ = 0.;
 };
 

@@ -57,6 +57,11 @@ public:
 
   virtual std::size_t size() const = 0;
 
+  /// Multiplies the density of each element whose stable step, undeformed and at rest, is shorter than
+  /// `smallest_step` [time], so that it is not. After initialize(), before advance(). Returns the mass that
+  /// it adds [mass].
+  virtual double scale_mass(double smallest_step) = 0;
+
   /// Nodal vectors, x, y, z and an unused number for each node, 32-byte aligned.
   struct Nodes {
     const double *displacements; ///< [length]
@@ -65,8 +70,13 @@ public:
   };
 
   struct StepResult {
-    double stable_step;      ///< safe for every element, viscosity counted [time]
-    double viscous_work;     ///< dissipated by bulk viscosity in this step, ≥ 0 [energy]
+    double stable_step;    ///< safe for every element, viscosity counted [time]
+    double elastic_energy; ///< now, but for the stabilisation's [energy]
+    double plastic_work; ///< in this step: mean of both ends' yield stress times the plastic strain [energy]
+    /// Dissipated by bulk viscosity in this step [energy]: ½ (q_{n−1} + q_n) ΔV, as the trapezoidal rule
+    /// books all works. Where the rate has just changed its sign it can be negative for a step; the sum over
+    /// the steps is not, but for what that of the last one takes back.
+    double viscous_work;
     double hourglass_energy; ///< stored by the stabilisation now [energy]
     double hourglass_work;   ///< dissipated by the stabilisation in this step, ≥ 0 [energy]
     std::size_t inverted;    ///< an element with det F ≤ 0 or not finite, or size()
@@ -77,7 +87,8 @@ public:
   /// history are of no more use.
   virtual StepResult advance(const Nodes &nodes, double dt) = 0;
 
-  /// Adds the lumped masses ρ ∫ N_a, all positive, one number for each node.
+  /// Adds the lumped masses ρ ∫ N_a, all positive, one number for each node. With those added by
+  /// scale_mass().
   virtual void add_masses(double *masses) const = 0;
 
   /// At the displacements of the last call.

@@ -36,6 +36,19 @@ public:
   const explicit_kernels::Layout &layout() const { return layout_; }
   explicit_kernels::Elements elements();
 
+  /// One element in all lanes of a batch of its own.
+  struct Copy {
+    dealii::AlignedVector<std::uint32_t> nodes;
+    dealii::AlignedVector<double> constants, history;
+  };
+  /// The numbers stand in `copy`, made anew.
+  explicit_kernels::Elements copy_element(std::size_t element, Copy &copy) const;
+  /// Numbers at the nodes that the elements name: their count, at stride 4.
+  std::size_t nodal_size() const { return reference_positions_.size(); }
+
+  /// Multiplies the density of one element. Returns the reference volume that the mass added would have had.
+  double scale_mass(std::size_t element, double factor);
+
   void add_masses(double density, double *masses) const;
 
   /// Of the eight points, or of the one; empty where an element is inverted.
@@ -53,10 +66,13 @@ private:
   double &history(const std::size_t element, const std::size_t k) {
     return history_[index(element, k, layout_.n_history)];
   }
+  double constant(const std::size_t element, const std::size_t k) const {
+    return constants_[index(element, k, layout_.n_constants)];
+  }
   double history(const std::size_t element, const std::size_t k) const {
     return history_[index(element, k, layout_.n_history)];
   }
-  ElementVectors gather(std::size_t element, const double *positions) const;
+  ElementVectors gather(std::size_t element, const double *values) const;
   void resize(std::size_t n_elements);
   bool initialize_element(std::size_t element, const explicit_kernels::Material &material,
                           double yield_stress);
@@ -68,6 +84,7 @@ private:
   bool has_plasticity_, keeps_yield_stress_;
   explicit_kernels::Layout layout_;
   std::size_t n_elements_ = 0;
+  std::vector<double> density_factors_; ///< of the elements
   dealii::AlignedVector<std::uint32_t> nodes_;
   dealii::AlignedVector<double> reference_positions_, constants_, history_;
 };

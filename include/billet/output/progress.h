@@ -15,10 +15,15 @@ public:
   Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
 
   void start(const Discretization &discretization, const Solution &solution);
+  /// Of an explicit scene whose mass was scaled: the mass added, and that which was there before.
+  void show_mass_scaling(double added, double mass);
   /// Of an explicit scene, where a line of the history is due.
   void show(unsigned int step, double length, const SolutionState &state);
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
+  /// Of an explicit scene, at its end: how long its steps took without output, by the clock and of the
+  /// processor.
+  void show_pace(unsigned int n_steps, std::size_t n_elements, double seconds, double processor_seconds);
   void finish(const std::string &file_to_open);
 
 private:

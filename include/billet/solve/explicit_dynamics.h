@@ -36,10 +36,14 @@ public:
   unsigned int n_steps() const { return n_steps_; }
   /// By mass scaling, on all ranks [mass].
   double added_mass() const { return added_mass_; }
+  /// Of the bodies, without that, on all ranks [mass].
+  double mass() const { return mass_; }
 
-  /// After prepare_step(): brings the state for output up to date. Collective.
+  /// After prepare_step(): brings energies, momenta and tools in the state up to date. Collective.
+  void update_ledger();
+  /// The same, and the fields. Collective.
   void update_state();
-  /// Part of the largest energy so far by which the energies of the last update_state() fail to balance.
+  /// Part of the largest energy so far by which the energies of the last update fail to balance.
   double relative_drift() const;
 
   const SolutionState &state() const override { return state_; }
@@ -52,6 +56,7 @@ private:
   void make_blocks();
   void make_masses();
   void set_initial_motion();
+  void find_touched_nodes();
   /// F_n into forces_, and bounds on the step. Any failure shows on all ranks.
   void compute_forces();
   void compute_internal_forces();
@@ -77,23 +82,26 @@ private:
   std::vector<ContactLoad> tool_loads_;                      ///< at t_n, of this rank
   std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools, of this rank, as they were
 
-  std::vector<double> masses_;    ///< of the nodes, on all their ranks alike
-  NodalVectors u_, v_, v_before_; ///< displacements at t_n, velocities after and before it
-  NodalVectors forces_;           ///< F_n, of all ranks
-  NodalVectors external_;         ///< part of F_n by loads and removed tools, of this rank; if there are any
-  NodalVectors supports_;         ///< what the supports add to F_n, of all ranks
-  NodalVectors bounds_;           ///< at the nodes, beside the elements' own: of stiffness, of damping
-  double element_step_ = 0.;      ///< stable step of the elements of all ranks
+  std::vector<double> masses_;         ///< of the nodes, on all their ranks alike
+  std::vector<double> inverse_masses_; ///< of the nodes
+  NodalVectors u_, v_, v_before_;      ///< displacements at t_n, velocities after and before it
+  NodalVectors forces_;   ///< F_n, of all ranks, from compute_forces() to kick(); zero in between
+  NodalVectors external_; ///< part of F_n by loads and removed tools, of this rank; zero but at loaded_nodes_
+  NodalVectors supports_; ///< what the supports add to F_n, of all ranks; zero but at held nodes
+  NodalVectors bounds_;   ///< beside the elements' own: of stiffness, of damping; zero but at bounded_nodes_
+  std::vector<unsigned int> loaded_nodes_, bounded_nodes_; ///< of this rank; of all ranks
+  bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
+  double element_step_ = 0.;                               ///< stable step of the elements of all ranks
   double time_ = 0., step_ = 0., step_before_ = 0.;
   double event_ = 0.;                        ///< that the planned steps lead to
   unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
-  double added_mass_ = 0.;
+  double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
   struct Works {
-    double external = 0., friction = 0., viscous = 0., hourglass = 0.;
+    double external = 0., plastic = 0., friction = 0., viscous = 0., hourglass = 0.;
   };
-  Works works_; ///< since time 0, of this rank
-  double hourglass_energy_ = 0.;
+  Works works_;                                        ///< since time 0, of this rank
+  double elastic_energy_ = 0., hourglass_energy_ = 0.; ///< at t_n, of this rank
   SolutionState state_;
 };
 

@@ -53,7 +53,7 @@ BILLET_INLINE void gather_increment(const Step &step, const std::uint32_t *nodes
 }
 
 /// `forces` belong to the modes.
-BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes, const unsigned int n,
+BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes, const std::size_t n,
                                  double *nodal_forces) {
   Real f[8][3];
   for (unsigned int i = 0; i < 3; ++i) {
@@ -129,16 +129,24 @@ BILLET_INLINE void collect_columns(const Columns &forces, Modes &f) {
     }
 }
 
+/// Places of what every element keeps of its last call; its kind's own numbers follow.
+namespace last {
+constexpr unsigned int volume = 0, omega = 1, viscous_pressure = 2, n = 3;
+} // namespace last
+
 /// Bulk viscosity of a brick and its stable step.
 struct Damping {
   Real pressure; ///< positive in tension, Cauchy
-  Real work;     ///< dissipated
+  Real work;     ///< of the mean of this and the last pressure in the change of volume
   Real rate;     ///< of the damping, ∂pressure/∂d · d-weight, see bound_rate()
 };
 
-/// Characteristic length of the brick: L² = 4/(ρ Ω) with the Ω of the last call.
-BILLET_INLINE Damping compute_viscosity(const Material &material, const Real volume, const Real last_volume,
-                                        const Real last_omega, const double inverse_dt) {
+/// Characteristic length of the brick: L² = 4/(ρ Ω) with the Ω of the last call, which `history` has. Puts
+/// volume and pressure there.
+BILLET_INLINE Damping compute_viscosity(const Material &material, const Real volume, double *history,
+                                        const double inverse_dt) {
+  const Real last_volume = load(history + last::volume * n_lanes);
+  const Real last_omega = load(history + last::omega * n_lanes);
   const Real change = volume - last_volume;
   const Real d = (2. * inverse_dt) * change / (volume + last_volume);
   const Real root = square_root(last_omega);
@@ -151,7 +159,9 @@ BILLET_INLINE Damping compute_viscosity(const Material &material, const Real vol
                          inverse_root * compression;
   Damping damping;
   damping.pressure = (linear + quadratic) * d;
-  damping.work = damping.pressure * change;
+  damping.work = 0.5 * (load(history + last::viscous_pressure * n_lanes) + damping.pressure) * change;
+  store(history + last::volume * n_lanes, volume);
+  store(history + last::viscous_pressure * n_lanes, damping.pressure);
   damping.rate = 3. * (linear + 2. * quadratic);
   return damping;
 }
@@ -191,37 +201,58 @@ BILLET_INLINE void prefetch(const Elements &elements, const Step &step, const st
   }
 }
 
+/// How many lanes of the batch that begins with element `first` are elements of their own.
+inline std::size_t count_elements(const Elements &elements, const std::size_t first) {
+  return elements.n_elements - first < n_lanes ? elements.n_elements - first : n_lanes;
+}
+
+/// Of an element, or summed over batches.
+struct Energies {
+  Real elastic = {}, plastic = {}, viscous = {}, hourglass = {}, hourglass_work = {};
+};
+
 /// Sums over the batches.
 struct Totals {
-  Real rate = {}, viscous_work = {}, hourglass_energy = {}, hourglass_work = {};
+  Real rate = {};
+  Energies energies;
 
   /// The lanes beyond n repeat an element.
-  void add(const unsigned int n, const Real rate_now, const Real viscous, const Real stored,
-           const Real dissipated) {
+  void add(const std::size_t n, const Real rate_now, const Energies &more) {
     rate = max(rate, rate_now);
-    if (n == n_lanes) {
-      viscous_work += viscous;
-      hourglass_energy += stored;
-      hourglass_work += dissipated;
-    } else
-      for (unsigned int lane = 0; lane < n; ++lane) {
-        set(viscous_work, lane, get(viscous_work, lane) + get(viscous, lane));
-        set(hourglass_energy, lane, get(hourglass_energy, lane) + get(stored, lane));
-        set(hourglass_work, lane, get(hourglass_work, lane) + get(dissipated, lane));
-      }
+    add(n, more.elastic, energies.elastic);
+    add(n, more.plastic, energies.plastic);
+    add(n, more.viscous, energies.viscous);
+    add(n, more.hourglass, energies.hourglass);
+    add(n, more.hourglass_work, energies.hourglass_work);
   }
 
   void finish(Result &result) const {
     result.largest_rate = largest_lane(rate);
-    result.viscous_work = sum_lanes(viscous_work);
-    result.hourglass_energy = sum_lanes(hourglass_energy);
-    result.hourglass_work = sum_lanes(hourglass_work);
+    result.elastic_energy = sum_lanes(energies.elastic);
+    result.plastic_work = sum_lanes(energies.plastic);
+    result.viscous_work = sum_lanes(energies.viscous);
+    result.hourglass_energy = sum_lanes(energies.hourglass);
+    result.hourglass_work = sum_lanes(energies.hourglass_work);
+  }
+
+private:
+  static void add(const std::size_t n, const Real more, Real &sum) {
+    if (n == n_lanes)
+      sum += more;
+    else
+      for (std::size_t lane = 0; lane < n; ++lane)
+        set(sum, lane, get(sum, lane) + get(more, lane));
   }
 };
 
+/// ½ κ ln²J per reference volume, from κ ln J.
+BILLET_INLINE Real compute_dilatation_energy(const Material &material, const Real mean_tau) {
+  return mean_tau * mean_tau * (0.5 / material.bulk);
+}
+
 /// The first bad lane of a batch becomes the result's element, if none was found before.
 inline void note_failure(const Mask bad, const std::size_t first, Result &result) {
-  for (unsigned int lane = 0; lane < n_lanes; ++lane)
+  for (std::size_t lane = 0; lane < n_lanes; ++lane)
     if (get_mask(bad, lane) && first + lane < result.inverted)
       result.inverted = first + lane;
 }

@@ -20,7 +20,8 @@ constexpr unsigned int place_of_point(const unsigned int k, const unsigned int q
 struct PointSums {
   Watch watch;
   Real lambda = {}; ///< largest λ_max of w j⁻¹ j⁻ᵀ, or with det j/J̄ for w where that is larger
-  Mask inadmissible = {}; ///< det j not positive and finite
+  Mask inadmissible = {};                  ///< det j not positive and finite
+  Real distortion = {}, plastic_work = {}; ///< energies
 };
 
 /// Forces of one point, added to those of its columns.
@@ -52,6 +53,10 @@ BILLET_INLINE void add_point(const Material &material, const LaneFunctions &func
     Law::template update<is_plastic>(material, functions, map, map.det / weight, history, stress, sums.watch);
   }
   sums.inadmissible |= !(map.det > 0. && map.det < 1e300);
+  const Real volume = is_rate_form<Law> ? factor * map.det : weight; // as the forces have it
+  sums.distortion += volume * sums.watch.distortion;
+  if constexpr (is_plastic)
+    sums.plastic_work += volume * sums.watch.plastic_work;
   for (unsigned int k = 0; k < 6; ++k)
     stress[k] = factor * stress[k] + (k < 3 ? pressure : Real{});
   for (unsigned int k = 0; k < 3; ++k) {
@@ -96,26 +101,26 @@ void advance_eight_point(const Elements &elements, const Material &material, con
     const Real J = volume / load(constants);
     const Real inverse_J = 1. / J;
     const Real mean_tau = material.bulk * logarithm(J);
-    const Damping damping =
-        compute_viscosity(material, volume, load(history), load(history + n_lanes), step.inverse_dt);
+    const Damping damping = compute_viscosity(material, volume, history, step.inverse_dt);
     const Real pressure = mean_tau * inverse_J + damping.pressure;
     PointSums sums;
     for (unsigned int q = 0; q < 8; ++q)
       add_point<Law, is_plastic>(material, functions, q, x, &delta,
                                  is_rate ? Real{} : load(constants + (2 + q) * n_lanes), pressure, inverse_J,
-                                 history + (2 + q * layout.n_point_history) * n_lanes, forces, sums);
+                                 history + (last::n + q * layout.n_point_history) * n_lanes, forces, sums);
     collect_columns(forces, modes);
     const std::size_t first = batch * n_lanes;
-    const unsigned int n = elements.n_elements - first < n_lanes
-                               ? static_cast<unsigned int>(elements.n_elements - first)
-                               : n_lanes;
+    const std::size_t n = count_elements(elements, first);
     scatter_modes(modes, nodes, n, step.forces);
 
     const Real omega = sums.lambda * load(constants + n_lanes);
-    store(history, volume);
-    store(history + n_lanes, omega);
+    store(history + last::omega * n_lanes, omega);
     const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * sums.watch.mises;
-    totals.add(n, bound_rate(modulus * omega, damping.rate * J * omega), damping.work, Real{}, Real{});
+    Energies energies;
+    energies.elastic = sums.distortion + load(constants) * compute_dilatation_energy(material, mean_tau);
+    energies.plastic = sums.plastic_work;
+    energies.viscous = damping.work;
+    totals.add(n, bound_rate(modulus * omega, damping.rate * J * omega), energies);
     const Mask bad = sums.inadmissible | sums.watch.failed;
     if (__builtin_expect(any(bad), 0))
       note_failure(bad, first, result);

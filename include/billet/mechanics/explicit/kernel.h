@@ -19,11 +19,18 @@ struct LaneFunctions {
   bool (*logarithm)(const double *b, double *deviator, double &mean);
 };
 
+/// The laws that kernels know themselves, and `other`, for which LaneFunctions are asked. σ_y(α) must be
+/// concave but for `other`.
+enum class HardeningKind { linear, voce, power_law, other };
+
 /// Constants of the body.
 struct Material {
   double bulk, shear;
-  double yield_stress, hardening_modulus; ///< of linear hardening
-  const void *hardening;                  ///< any other law, for LaneFunctions; or null
+  HardeningKind hardening_kind;
+  double yield_stress, hardening_modulus;    ///< linear; Voce
+  double saturation_stress, saturation_rate; ///< Voce
+  double prestrain, exponent, strength;      ///< power law
+  const void *hardening;                     ///< the law, for LaneFunctions
   double density;
   double wave_speed;
   double linear_viscosity, quadratic_viscosity;
@@ -56,17 +63,17 @@ struct Step {
 
 struct Result {
   double largest_rate; ///< 1/stable step
-  double viscous_work, hourglass_energy, hourglass_work;
+  double elastic_energy, plastic_work, viscous_work, hourglass_energy, hourglass_work;
   std::size_t inverted; ///< n_elements if none
 };
 
 using Kernel = void (*)(const Elements &, const Material &, const LaneFunctions &, const Step &, Result &);
 
 // Order of the numbers above. Constants of the eight-point element: V, 1/(smallest nodal mass), then, unless
-// hypoelastic, the reference volume of each point. History: v and the step bound's Ω of the last call, then
-// each point's. Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹ in the element's own coordinates)
-// or dev τ (11, 22, 12, 13, 23); then, where there is plasticity, α and, where hardening is not linear,
-// σ_y(α). The one-point element: see one_point.h.
+// hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the viscous pressure of
+// the last call, then each point's. Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹ in the
+// element's own coordinates) or dev τ (11, 22, 12, 13, 23); then, where there is plasticity, α and, where
+// hardening is not linear, σ_y(α). The one-point element: see one_point.h.
 
 /// Index by element (mean_dilatation, one_point), kinematics, and whether there is plasticity.
 struct KernelTable {

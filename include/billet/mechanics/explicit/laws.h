@@ -94,39 +94,80 @@ BILLET_INLINE Real bound_eigenvalue(const Real a[6]) {
   return max(max(a[0] + a3 + a4, a[1] + a3 + a5), a[2] + a4 + a5);
 }
 
-/// What a law leaves behind, besides stress and history.
+/// What a law leaves behind, besides stress and history. Energies are of the last point, per volume.
 struct Watch {
-  Real mises = {};  ///< largest von Mises stress (Kirchhoff) of the points
-  Mask failed = {}; ///< not admissible
+  Real distortion = {};   ///< elastic energy, but for that of the volume
+  Real plastic_work = {}; ///< of the step: mean yield stress times the change of α
+  Real mises = {};        ///< largest von Mises stress (Kirchhoff) of the points
+  Mask failed = {};       ///< not admissible
 };
 
-/// Where the yield condition is exceeded, Δα > 0 with q − m Δα = σ_y(α + Δα); returns (q − m Δα)/q, else 1.
-/// `history` points at α (and σ_y). Whether any lane yields is in `yields`.
-template <bool is_plastic>
-BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
-                              const Real m, double *history, Mask &yields) {
-  if constexpr (!is_plastic)
-    return broadcast(1.);
-  const Real alpha = load(history);
-  const bool is_linear = material.hardening == nullptr;
-  const Real yield =
-      is_linear ? material.yield_stress + material.hardening_modulus * alpha : load(history + n_lanes);
-  yields = q > yield;
-  if (!any(yields))
-    return broadcast(1.);
-  Real delta = Real{};
-  if (is_linear)
-    delta = select(yields, (q - yield) / (m + material.hardening_modulus), delta);
-  else {
-    Real new_yield = yield;
-    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+/// Slope of a hardening law that the kernels know, where the yield stress at α is known too: no exponential.
+BILLET_INLINE Real compute_slope(const Material &material, const Real alpha, const Real yield_stress) {
+  if (material.hardening_kind == HardeningKind::voce)
+    return material.saturation_rate *
+               (material.saturation_stress + material.hardening_modulus * alpha - yield_stress) +
+           material.hardening_modulus;
+  return material.exponent * yield_stress / (material.prestrain + alpha);
+}
+
+BILLET_INLINE Real compute_yield_stress(const Material &material, const Real alpha) {
+  if (material.hardening_kind == HardeningKind::voce)
+    return material.saturation_stress + material.hardening_modulus * alpha -
+           (material.saturation_stress - material.yield_stress) *
+               exponential(-material.saturation_rate * alpha);
+  return material.strength * exponential(material.exponent * logarithm(material.prestrain + alpha));
+}
+
+/// Δα > 0 of the lanes that yield, q − m Δα = σ_y(α + Δα); `yield_stress` becomes the new one. With a concave
+/// σ_y Newton's method approaches the root from one side.
+BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctions &functions,
+                                     const Mask yields, const Real q, const Real m, const Real alpha,
+                                     Real &yield_stress) {
+  Real delta{};
+  if (material.hardening_kind == HardeningKind::other) {
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
       if (get_mask(yields, lane)) {
         double value = 0.;
         set(delta, lane,
             functions.harden(material.hardening, get(q, lane), get(m, lane), get(alpha, lane), value));
-        set(new_yield, lane, value);
+        set(yield_stress, lane, value);
       }
-    store(history + n_lanes, new_yield);
+    return delta;
+  }
+  Real excess = select(yields, q - yield_stress, Real{});
+  for (unsigned int iteration = 0; iteration < 50 && any(excess > 4e-15 * q); ++iteration) {
+    delta += excess / (m + compute_slope(material, alpha + delta, yield_stress));
+    yield_stress = select(yields, compute_yield_stress(material, alpha + delta), yield_stress);
+    excess = select(yields, q - m * delta - yield_stress, Real{});
+  }
+  return delta;
+}
+
+/// Where the yield condition is exceeded α grows; returns (q − m Δα)/q, or 1. `history` points at α (and
+/// σ_y).
+template <bool is_plastic>
+BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
+                              const Real m, double *history, Mask &yields, Watch &watch) {
+  watch.plastic_work = Real{};
+  if constexpr (!is_plastic)
+    return broadcast(1.);
+  const Real alpha = load(history);
+  const bool is_linear = material.hardening_kind == HardeningKind::linear;
+  Real yield =
+      is_linear ? material.yield_stress + material.hardening_modulus * alpha : load(history + n_lanes);
+  yields = q > yield;
+  if (!any(yields))
+    return broadcast(1.);
+  Real delta{};
+  if (is_linear) {
+    delta = select(yields, (q - yield) / (m + material.hardening_modulus), delta);
+    watch.plastic_work = delta * (yield + (0.5 * material.hardening_modulus) * delta);
+  } else {
+    const Real before = yield;
+    delta = solve_consistency(material, functions, yields, q, m, alpha, yield);
+    store(history + n_lanes, yield);
+    watch.plastic_work = delta * (0.5 * (before + yield));
   }
   store(history, alpha + delta);
   return select(yields, 1. - m * delta / q, broadcast(1.));
@@ -144,18 +185,6 @@ struct Polynomial {
     p0 = top * i3 + c;
   }
 };
-
-/// 1/k and 1/k!.
-struct SeriesCoefficients {
-  double reciprocal[40] = {}, inverse_factorial[40] = {1.};
-  constexpr SeriesCoefficients() {
-    for (unsigned int k = 1; k < 40; ++k) {
-      reciprocal[k] = 1. / k;
-      inverse_factorial[k] = inverse_factorial[k - 1] / k;
-    }
-  }
-};
-constexpr SeriesCoefficients series;
 
 /// ln(1 + X) by `n` terms of its series.
 template <unsigned int n> BILLET_INLINE Polynomial logarithm_series(const Real i2, const Real i3) {
@@ -202,7 +231,7 @@ BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real 
 
   const Mask large = !(i2 <= moderate_i2);
   if (__builtin_expect(any(large), 0))
-    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
       if (get_mask(large, lane)) {
         double sb[6], result[6], lane_mean = 0.;
         for (unsigned int k = 0; k < 6; ++k)
@@ -237,8 +266,9 @@ struct Hencky {
     const Real q = (1.224744871391589 * material.shear) * norm; // √(3/2)
     Mask yields{};
     const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3. * material.shear),
-                                             history + 6 * n_lanes, yields);
+                                             history + 6 * n_lanes, yields, watch);
     watch.mises = max(watch.mises, beta * q);
+    watch.distortion = (beta * q) * (beta * q) * (1. / (6. * material.shear));
     const Real factor = beta * material.shear;
     for (unsigned int k = 0; k < 6; ++k)
       dev_tau[k] = factor * log_b[k];
@@ -289,21 +319,33 @@ struct NeoHookean {
     Mask yields{};
     const Real mean_bar = scale * mean; // tr b̄_e / 3
     const Real beta = return_map<is_plastic>(material, functions, q, (3. * material.shear) * mean_bar,
-                                             history + 6 * n_lanes, yields);
+                                             history + 6 * n_lanes, yields, watch);
     // The bound of the tangent takes 2 G; what tr b̄_e/3 adds to it is put into the stress.
     watch.mises = max(watch.mises, beta * q + (material.shear * (2. / 3.)) * (mean_bar - 1.));
     if (is_plastic && any(yields)) {
       for (unsigned int k = 0; k < 6; ++k)
         dev_tau[k] *= beta;
-      flow(material, map, yields, scale, mean_bar, beta, dev_tau, history);
+      flow(material, map, yields, scale, mean_bar, beta, dev_tau, history, watch);
+    } else {
+      const double flexibility = 1. / material.shear;
+      const Real i2 = (flexibility * flexibility / 3.) * q * q;
+      const Real i3 = (flexibility * flexibility * flexibility) * determinant(dev_tau);
+      watch.distortion = compute_distortion(material, mean_bar, i2, i3);
     }
+  }
+
+  /// ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e: x³ − 1 = i2 x − i3, without the
+  /// difference of numbers next to 1.
+  BILLET_INLINE static Real compute_distortion(const Material &material, const Real x, const Real i2,
+                                               const Real i3) {
+    return (1.5 * material.shear) * (i2 * x - i3) / (x * (x + 1.) + 1.);
   }
 
   /// b̄_e = dev τ/G + x 1 with the x that makes det b̄_e = 1: x³ − i2 x + i3 − 1 = 0. In H nothing but a
   /// multiple of j⁻¹ j⁻ᵀ is added.
   BILLET_INLINE static void flow(const Material &material, const Map &map, const Mask yields,
                                  const Real scale, const Real mean_bar, const Real beta,
-                                 const Real dev_tau[6], double *history) {
+                                 const Real dev_tau[6], double *history, Watch &watch) {
     const double flexibility = 1. / material.shear;
     const Real i2 = (0.5 * flexibility * flexibility) * contract(dev_tau, dev_tau);
     const Real i3 = (flexibility * flexibility * flexibility) * determinant(dev_tau);
@@ -313,6 +355,7 @@ struct NeoHookean {
       correction = (x * (x * x - i2) + i3 - 1.) / (3. * x * x - i2);
       x -= correction;
     } while (any(abs(correction) > 1e-9) && ++iteration < 20);
+    watch.distortion = compute_distortion(material, x, i2, i3);
     const Real share = (x - beta * mean_bar) / scale * map.inverse_det * map.inverse_det;
     Real metric[6];
     map.compute_metric(metric);
@@ -348,8 +391,9 @@ struct Hypoelastic {
     const Real q = square_root(1.5 * contract(dev_tau, dev_tau));
     Mask yields{};
     const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3. * material.shear),
-                                             history + 5 * n_lanes, yields);
+                                             history + 5 * n_lanes, yields, watch);
     watch.mises = max(watch.mises, beta * q);
+    watch.distortion = (beta * q) * (beta * q) * (1. / (6. * material.shear));
     if (is_plastic)
       for (unsigned int k = 0; k < 6; ++k)
         dev_tau[k] *= beta;

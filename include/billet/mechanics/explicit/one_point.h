@@ -16,8 +16,8 @@ namespace one_point {
 constexpr unsigned int volume = 0, inverse_det = 1, mean_bound = 2, hourglass_bound = 3;
 constexpr unsigned int beta = 4;    ///< J̄_k = Σ_m m β_mk over the modes a and b: 3 m + k
 constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
-// History: v and Ω of the last call, ĥ_0, then the point's.
-constexpr unsigned int hourglass = 2, point = 14;
+// History: that of the last call, ĥ_0, then the point's.
+constexpr unsigned int hourglass = last::n, point = hourglass + 12;
 } // namespace one_point
 
 /// Stress-like numbers of the hourglass strains `h` (of b_1, b_2, b_3, c, in the element's own directions),
@@ -84,7 +84,8 @@ struct HourglassResult {
 };
 
 /// Forces of modes b and c, and those of J̄'s columns added to `mean_forces`. In plasticity the stored energy
-/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0.
+/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0. The work lost is that of
+/// the mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight on.
 template <bool is_plastic>
 BILLET_INLINE HourglassResult add_hourglass(const Material &material, const Modes &x, const Map &map,
                                             const Real metric[6], const Real eigenvalue,
@@ -109,7 +110,7 @@ BILLET_INLINE HourglassResult add_hourglass(const Material &material, const Mode
     if (any(density > limit)) {
       const Real share = limit / max(density, limit);
       const Real root = square_root(share);
-      result.work = factor * density * (1. - share);
+      result.work = 2. * factor * density * (root - share);
       density *= share;
       for (unsigned int m = 0; m < 4; ++m)
         for (unsigned int k = 0; k < 3; ++k) {
@@ -188,10 +189,8 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
 
   const Real mean_tau = material.bulk * logarithm(J);
   const Real volume = reference_volume * J;
-  const Damping damping =
-      compute_viscosity(material, volume, load(history), load(history + n_lanes), step.inverse_dt);
-  store(history, volume);
-  store(history + n_lanes, omega);
+  const Damping damping = compute_viscosity(material, volume, history, step.inverse_dt);
+  store(history + last::omega * n_lanes, omega);
   const Real factor = reference_volume * map.inverse_det, pressure = mean_tau + J * damping.pressure;
   for (unsigned int k = 0; k < 6; ++k)
     stress[k] = factor * (stress[k] + (k < 3 ? pressure : Real{}));
@@ -202,7 +201,7 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   Modes forces{};
   Real yield_stress{};
   if constexpr (is_plastic)
-    yield_stress = material.hardening == nullptr
+    yield_stress = material.hardening_kind == HardeningKind::linear
                        ? material.yield_stress +
                              material.hardening_modulus * load(point_history + Law::n_tensor * n_lanes)
                        : load(point_history + (Law::n_tensor + 1) * n_lanes);
@@ -213,14 +212,14 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
       for (unsigned int k = 0; k < 3; ++k)
         forces.m[m][i] += mean_forces[k][i] * load(constants + (one_point::beta + 3 * m + k) * n_lanes);
   const std::size_t first = batch * n_lanes;
-  const unsigned int n = elements.n_elements - first < n_lanes
-                             ? static_cast<unsigned int>(elements.n_elements - first)
-                             : n_lanes;
+  const std::size_t n = count_elements(elements, first);
   scatter_modes(forces, nodes, n, step.forces);
 
   const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
-  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), damping.work,
-             hourglass.energy, hourglass.work);
+  const Real elastic = watch.distortion + compute_dilatation_energy(material, mean_tau);
+  const Energies energies{reference_volume * elastic, reference_volume * watch.plastic_work, damping.work,
+                          hourglass.energy, hourglass.work};
+  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), energies);
   const Mask bad = watch.failed | !(map.det > 0. && map.det < 1e300);
   if (__builtin_expect(any(bad), 0))
     note_failure(bad, first, result);
