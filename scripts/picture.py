@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: pvpython picture.py SCENE.pvd PICTURE.png
+"""Usage: pvpython picture.py SCENE.pvd PICTURE.png [TIME...]
 
 The last state of a quarter or an eighth of a body, mirrored to all of it but one quarter, so that its inside is seen:
 equivalent plastic strain, element edges, the tools half transparent, and the body's outline at time 0. It is an eighth
-where scene.prm beside the scene has a symmetry plane z = 0.
+where scene.prm beside the scene has a symmetry plane z = 0. Scenes without symmetry planes x = 0 and y = 0 are shown as they
+are, without tools, at the times given, side by side.
 """
 
 import sys
@@ -16,6 +17,9 @@ from paraview.simple import (AppendDatasets, CellDatatoPointData, CleantoGrid, C
 
 FIELD, TITLE = "equivalent_plastic_strain", "Equivalent plastic strain"
 scene_file, picture_file = Path(sys.argv[1]), sys.argv[2]
+planes = "".join(line for line in (scene_file.parent / "scene.prm").read_text().splitlines()
+                 if line.strip().startswith("set Symmetry planes"))
+is_quarter = "x = 0" in planes and "y = 0" in planes
 is_eighth = any(line.strip().startswith("set Symmetry planes") and "z = 0" in line
                 for line in (scene_file.parent / "scene.prm").read_text().splitlines())
 
@@ -24,6 +28,12 @@ def files(part):
     """The files of the bodies or the tools, by time."""
     return [str(scene_file.parent / entry.get("file")) for entry in ElementTree.parse(scene_file).iter("DataSet")
             if entry.get("name") == part]
+
+
+def file_at(time):
+    """Of the bodies, at the time nearest to this."""
+    entries = [entry for entry in ElementTree.parse(scene_file).iter("DataSet") if entry.get("name") == "bodies"]
+    return str(scene_file.parent / min(entries, key=lambda e: abs(float(e.get("timestep")) - time)).get("file"))
 
 
 def mirrored(source, plane):
@@ -72,33 +82,67 @@ def show_plain(source, colour, opacity, width=1.0):
     return shown
 
 
-view = CreateView("RenderView")
-view.ViewSize = [1200, 720]
-view.UseColorPaletteForBackground = 0
-view.Background = [1.0, 1.0, 1.0]
-view.OrientationAxesVisibility = 0
+def make_view(width):
+    view = CreateView("RenderView")
+    view.ViewSize = [width, 720]
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1.0, 1.0, 1.0]
+    view.OrientationAxesVisibility = 0
+    return view
 
-# The body with its elements; its field smoothed from them to the nodes.
-body = CellDatatoPointData(Input=body_at(files("bodies")[-1]), CellDataArraytoprocess=[FIELD])
-shown = Show(body, view)
-shown.Representation = "Surface With Edges"
-shown.EdgeColor = [0.12, 0.12, 0.12]
-shown.LineWidth = 1.3
-ColorBy(shown, ("POINTS", FIELD))
-shown.Ambient, shown.Diffuse = 0.52, 0.56
-body.UpdatePipeline()
-colours = GetColorTransferFunction(FIELD)
-colours.ApplyPreset("Viridis (matplotlib)", True)
-colours.RescaleTransferFunction(*body.PointData[FIELD].GetRange())
 
-bar = GetScalarBar(colours, view)
-bar.Title, bar.ComponentTitle = TITLE, ""
-bar.Orientation, bar.WindowLocation, bar.Position = "Horizontal", "Any Location", [0.03, 0.03]
-bar.ScalarBarLength, bar.ScalarBarThickness = 0.28, 16
-bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
-bar.TitleFontSize, bar.LabelFontSize = 19, 17
-bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.1f", "%.1f"
-shown.SetScalarBarVisibility(view, True)
+def show_strain(body, view, largest=None, with_bar=True):
+    """The body with its elements; its field smoothed from them to the nodes."""
+    shown = Show(body, view)
+    shown.Representation = "Surface With Edges"
+    shown.EdgeColor = [0.12, 0.12, 0.12]
+    shown.LineWidth = 1.3
+    ColorBy(shown, ("POINTS", FIELD))
+    shown.Ambient, shown.Diffuse = 0.52, 0.56
+    body.UpdatePipeline()
+    colours = GetColorTransferFunction(FIELD)
+    colours.ApplyPreset("Viridis (matplotlib)", True)
+    low, high = body.PointData[FIELD].GetRange()
+    colours.RescaleTransferFunction(low if largest is None else 0.0, largest or high)
+    if with_bar:
+        bar = GetScalarBar(colours, view)
+        bar.Title, bar.ComponentTitle = TITLE, ""
+        bar.Orientation, bar.WindowLocation, bar.Position = "Horizontal", "Any Location", [0.03, 0.03]
+        bar.ScalarBarLength, bar.ScalarBarThickness = 0.28, 16
+        bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
+        bar.TitleFontSize, bar.LabelFontSize = 19, 17
+        digits = "%.1f" if high > 0.5 else "%.2f"
+        bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, digits, digits
+        shown.SetScalarBarVisibility(view, True)
+    return shown
+
+
+def draw_as_it_is(times):
+    """The bodies at each of the times, from left to right along y."""
+    bodies = [merged(XMLPartitionedUnstructuredGridReader(FileName=[file_at(time)])) for time in times]
+    for body in bodies:
+        body.UpdatePipeline()
+    largest = max(body.PointData[FIELD].GetRange()[1] for body in bodies)
+    view = make_view(800 * len(times))
+    bounds = bodies[0].GetDataInformation().GetBounds()
+    centre = [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)]
+    size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
+    for i, body in enumerate(bodies):
+        show_strain(body, view, largest, i == 0).Position = [0.0, 1.25 * size * (0.5 * (len(times) - 1) - i), 0.0]
+    view.CameraFocalPoint = centre
+    view.CameraPosition = [c + size * d for c, d in zip(centre, (-3.0, -0.35, 0.75))]
+    view.CameraViewUp = [0.0, 0.0, 1.0]
+    view.CameraViewAngle = 27
+    SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
+
+
+if not is_quarter:
+    last = max(float(e.get("timestep")) for e in ElementTree.parse(scene_file).iter("DataSet"))
+    draw_as_it_is([float(time) for time in sys.argv[3:]] or [last])
+    sys.exit()
+
+view = make_view(1200)
+show_strain(CellDatatoPointData(Input=body_at(files("bodies")[-1]), CellDataArraytoprocess=[FIELD]), view)
 
 # What it was at time 0.
 start = ExtractSurface(Input=body_at(files("bodies")[0]))

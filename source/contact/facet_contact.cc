@@ -108,40 +108,86 @@ void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) cons
     const SurfaceFacet &facet = search_.facets()[f];
     const auto corner = static_cast<unsigned int>(
         std::find(facet.nodes.begin(), facet.nodes.end(), slave.node) - facet.nodes.begin());
-    const double share =
-        compute_area_share(corners_of(facet, positions_), corner, state.touched.projection.normal);
+    const double share = compute_area_share(corners_of(facet, positions_), corner, state.contact.normal);
     state.area += share;
     if (f < exchange_.n_own_facets())
       state.own_area += share;
   });
 }
 
-template <class Facet, class Law> void FacetContact::evaluate(const Law &law, const double duration) {
-  const Positions normals = settings_.limits.largest_alignment > 1.
-                                ? Positions()
-                                : compute_node_normals(search_.facets(), positions_);
-  for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    const unsigned int node = slaves_[s].node;
-    SlaveState &state = states_[s];
-    state = SlaveState();
+template <class Facet> void FacetContact::find_contact(const std::size_t s) {
+  SlaveState &state = states_[s];
+  state = SlaveState();
+  state.first_share = shares_.size();
+  if (search_.has_candidates(s) || touched_n_[s].exists())
     state.touched =
-        choose_facet<Facet>(search_, s, positions_n_, positions_, normals, touched_n_[s], settings_.limits);
-    const FacetProjection &p = state.touched.projection;
-    if (state.touched.exists())
-      compute_areas(slaves_[s], state);
+        choose_facet<Facet>(search_, s, positions_n_, positions_, touched_n_[s], settings_.limits);
+  if (state.touched.exists()) {
+    state.contact = share_facets<Facet>(search_, state.touched, positions_[slaves_[s].node], positions_,
+                                        settings_.limits, shares_);
+    if (!(state.contact.gap < 0.)) {
+      state.touched = TouchedFacet();
+      shares_.resize(state.first_share);
+    }
+  }
+  if (!state.touched.exists() && search_.has_candidates(s)) {
+    const TouchedFacet below = find_facet_below(search_, s, positions_, settings_.limits);
+    state.is_near = below.exists();
+    if (state.is_near) {
+      state.contact = {below.projection.normal, below.projection.gap};
+      shares_.push_back({below.facet, 1., below.projection});
+    }
+  }
+  state.end_of_shares = shares_.size();
+  if (state.end_of_shares > state.first_share)
+    compute_areas(slaves_[s], state);
+}
+
+SlaveMotion FacetContact::compute_motion(const std::size_t s, const double duration) const {
+  const unsigned int node = slaves_[s].node;
+  SlaveMotion mean{Tensor<1, 3>(), Tensor<2, 3>(), duration};
+  for (std::size_t i = states_[s].first_share; i < states_[s].end_of_shares; ++i) {
+    const FacetShare &share = shares_[i];
+    const SlaveMotion motion = compute_slave_motion(corners_of(search_.facets()[share.facet], positions_n_),
+                                                    target_corners(share.facet), share.projection.weights,
+                                                    positions_n_[node], positions_[node], duration);
+    mean.displacement += share.share * motion.displacement;
+    // Nearly a rotation; what it carries along is made a unit vector again.
+    mean.rotation += share.share * motion.rotation;
+  }
+  return mean;
+}
+
+template <class Facet, class Law> void FacetContact::evaluate(const Law &law, const double duration) {
+  shares_.clear();
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    find_contact<Facet>(s);
+    SlaveState &state = states_[s];
+    const SharedGap &contact = state.contact;
     if constexpr (std::is_same_v<Law, Frictionless>) {
       if (state.touched.exists())
-        state.traction = compute_slave_traction(law, stiffness_[s].normal, p.normal, p.gap);
+        state.traction = compute_slave_traction(law, stiffness_[s].normal, contact.normal, contact.gap);
     } else if (state.touched.exists()) {
-      const SlaveMotion motion = compute_slave_motion(
-          corners_of(search_.facets()[state.touched.facet], positions_n_), target_corners(state), p.weights,
-          positions_n_[node], positions_[node], duration);
-      state.traction =
-          compute_slave_traction(law, stiffness_[s], p.normal, p.gap, motion, history_n_[s], history_[s]);
+      state.traction = compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap,
+                                              compute_motion(s, duration), history_n_[s], history_[s]);
     } else {
       history_[s] = SlaveHistory();
       history_[s].slip = history_n_[s].slip;
     }
+  }
+}
+
+template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
+  const SlaveState &state = states_[s];
+  if (!state.touched.exists() || !(state.own_area > 0.))
+    return;
+  const Tensor<1, 3> force = state.own_area * state.traction.traction;
+  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
+    const FacetShare &share = shares_[i];
+    const Tensor<1, 3> part = share.share * force;
+    visit(share, part,
+          compute_facet_reaction(target_corners(share.facet), share.projection.weights,
+                                 positions_[slaves_[s].node], part));
   }
 }
 
@@ -158,17 +204,12 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
       settings_.friction);
 
   Positions all(exchange_.n_nodes());
-  for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    const SlaveState &state = states_[s];
-    if (!(state.own_area > 0.))
-      continue;
-    const Tensor<1, 3> force = state.own_area * state.traction.traction;
-    const FacetCorners reaction = compute_facet_reaction(
-        target_corners(state), state.touched.projection.weights, positions_[slaves_[s].node], force);
-    all[slaves_[s].node] += force;
-    for (unsigned int a = 0; a < 4; ++a)
-      all[search_.facets()[state.touched.facet].nodes[a]] += reaction[a];
-  }
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
+      all[slaves_[s].node] += force;
+      for (unsigned int a = 0; a < 4; ++a)
+        all[search_.facets()[share.facet].nodes[a]] += reaction[a];
+    });
   if (edges_)
     crossings_ = edges_->find_crossings(positions_);
   for (const auto &crossing : crossings_) {
@@ -189,12 +230,14 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) const {
       continue;
     const double k = std::max(stiffness_[s].normal, history_.empty() ? 0. : stiffness_[s].tangential);
     double columns = 1.;
-    for (const double weight : state.touched.projection.weights)
-      columns += std::abs(weight);
+    for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)
+      for (const double weight : shares_[i].projection.weights)
+        columns += shares_[i].share * std::abs(weight);
     all[slaves_[s].node] += columns * k * state.own_area;
-    for (unsigned int a = 0; a < 4; ++a)
-      all[search_.facets()[state.touched.facet].nodes[a]] +=
-          std::abs(state.touched.projection.weights[a]) * columns * k * state.own_area;
+    for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)
+      for (unsigned int a = 0; a < 4; ++a)
+        all[search_.facets()[shares_[i].facet].nodes[a]] +=
+            shares_[i].share * std::abs(shares_[i].projection.weights[a]) * columns * k * state.own_area;
   }
   for (const auto &crossing : crossings_)
     for (unsigned int i = 0; i < 4; ++i)
@@ -229,28 +272,29 @@ FacetContactLoad FacetContact::compute_load() const {
     const SlaveState &state = states_[s];
     if (!state.touched.exists())
       continue;
-    const FacetProjection &p = state.touched.projection;
-    const FacetCorners corners = target_corners(state);
-    const Tensor<1, 3> x = positions_[slaves_[s].node], force = state.own_area * state.traction.traction;
-    const FacetCorners reaction = compute_facet_reaction(corners, p.weights, x, force);
-    load.residual_force += force;
-    for (unsigned int a = 0; a < 4; ++a) {
-      load.residual_force += reaction[a];
-      load.residual_moment += dealii::cross_product_3d(corners[a] - x, reaction[a]);
-    }
-    load.absolute_force += force.norm();
-    if (slaves_[s].surface == 0)
-      load.force += force;
-    if (search_.facets()[state.touched.facet].surface == 0)
-      load.force -= force;
+    visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
+      const FacetCorners corners = target_corners(share.facet);
+      load.residual_force += force;
+      for (unsigned int a = 0; a < 4; ++a) {
+        load.residual_force += reaction[a];
+        load.residual_moment +=
+            dealii::cross_product_3d(corners[a] - positions_[slaves_[s].node], reaction[a]);
+      }
+      if (slaves_[s].surface == 0)
+        load.force += force;
+      if (search_.facets()[share.facet].surface == 0)
+        load.force -= force;
+    });
+    load.absolute_force += state.own_area * state.traction.traction.norm();
     load.stored_energy += state.own_area * state.traction.stored_energy;
     load.dissipation += state.own_area * state.traction.dissipation;
     load.area += state.own_area;
     load.n_touching += 1.;
+    const FacetCorners corners = target_corners(state.touched.facet);
     const double size =
         std::sqrt(0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]).norm());
-    load.deepest = std::max(load.deepest, -p.gap);
-    load.deepest_relative = std::max(load.deepest_relative, -p.gap / size);
+    load.deepest = std::max(load.deepest, -state.contact.gap);
+    load.deepest_relative = std::max(load.deepest_relative, -state.contact.gap / size);
   }
   add_edges(load);
   std::array<double, 14> sums{load.stored_energy, load.dissipation, load.area, load.n_touching,
@@ -292,11 +336,12 @@ std::vector<FacetContact::NodeReport> FacetContact::report() const {
   std::vector<NodeReport> reports(exchange_.n_own_nodes());
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
+    const bool touches = state.touched.exists();
     reports[slaves_[s].node] = {state.traction.status,
                                 state.traction.pressure,
-                                state.touched.projection.gap,
+                                touches ? state.contact.gap : 0.,
                                 history_.empty() ? 0. : history_[s].slip,
-                                state.area,
+                                touches ? state.area : 0.,
                                 state.traction.traction};
   }
   return reports;

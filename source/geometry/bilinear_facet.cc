@@ -102,10 +102,11 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
   if (!has_area_)
     return projection;
   const auto excess_of = [](const std::array<double, 2> &at) {
-    return std::max({std::abs(at[0]) - 1., std::abs(at[1]) - 1., 0.});
+    return 0.5 * std::max({std::abs(at[0]) - 1., std::abs(at[1]) - 1., 0.});
   };
   const Tensor<1, 3> arm = e_0_ - x;
-  const double range = 1.1 + limits.tolerance; // so that the end of the range is not within the tolerance
+  const double range =
+      1.1 + 2. * limits.tolerance; // so that the end of the range is not within the tolerance
   std::array<double, 2> at = minimise(arm, range, {into_range(start[0], range), into_range(start[1], range)});
   projection.excess = excess_of(at);
   bool is_straight = projection.excess <= limits.tolerance;
@@ -127,6 +128,8 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
   projection.gap = -(difference(at, arm) * projection.normal);
   projection.parameters = at;
   projection.weights = facet::weights(at);
+  projection.share = facet::share_at(0.5 * (1. - std::abs(at[0])), limits.zone) *
+                     facet::share_at(0.5 * (1. - std::abs(at[1])), limits.zone);
   projection.exists = is_straight && projection.gap >= -limits.reach;
   return projection;
 }

@@ -23,13 +23,17 @@ PlanedFacet::PlanedFacet(const FacetCorners &corners)
   }
 }
 
-double PlanedFacet::compute_excess(const Tensor<1, 3> &in_plane) const {
-  double excess = 0.;
+void PlanedFacet::locate(const Tensor<1, 3> &in_plane, const double zone, FacetProjection &projection) const {
+  projection.excess = 0.;
+  projection.share = 1.;
   for (unsigned int i = 0; i < 4; ++i) {
     const Tensor<1, 3> &from = corners_[facet::around[i]], &to = corners_[facet::around[(i + 1) % 4]];
-    excess = std::max(excess, -2. * cross(to - from, in_plane - from) / double_area_);
+    if (!((to - from).norm_square() > 0.)) // the tip of a triangle is no border
+      continue;
+    const double distance = 2. * cross(to - from, in_plane - from) / double_area_;
+    projection.excess = std::max(projection.excess, -distance);
+    projection.share *= facet::share_at(distance, zone);
   }
-  return excess;
 }
 
 std::array<double, 2> PlanedFacet::compute_parameters(const Tensor<1, 3> &in_plane) const {
@@ -63,7 +67,7 @@ FacetProjection PlanedFacet::project(const Tensor<1, 3> &x, const FacetLimits &l
   const Tensor<1, 3> arm = x - centre_;
   projection.gap = arm * normal_;
   const Tensor<1, 3> in_plane = arm - projection.gap * normal_;
-  projection.excess = compute_excess(in_plane);
+  locate(in_plane, limits.zone, projection);
   projection.exists = projection.excess <= limits.tolerance && projection.gap >= -limits.reach;
   if (!projection.exists)
     return projection;

@@ -257,7 +257,11 @@ void ExplicitDynamics::remove_tools() {
           contact.add_forces(*fading_forces_[i], ignored);
           contact.remove_tool();
         }
-      works_.external -= tool_loads_[i].stored_energy; // what its penalty springs held goes with it
+      // What its penalty springs held goes with it, and what it has of its own, which all ranks know.
+      works_.external -= tool_loads_[i].stored_energy;
+      if (dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0)
+        works_.external -= tools_[i].kinetic_energy();
+      tools_[i].remove();
     }
     const Tool &gone = scene_.tools()[i];
     const double left =
@@ -327,8 +331,14 @@ void ExplicitDynamics::choose_step(const double event) {
   const double n = std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
   step_ = remaining / n;
   n_planned_ = static_cast<unsigned int>(std::min(n, 1e9)) - 1;
-  if (!(time_ + step_ > time_) || !(n < 1e15))
-    fail("the stable step of " + std::to_string(largest) + " is too short for the clock");
+  if (!(time_ + step_ > time_) || !(n < 1e15)) {
+    std::ostringstream why;
+    why << "the stable step, " << largest
+        << ", is too short for the clock: is an element nearly flat, a density tiny or a penalty huge? 'Mass "
+           "scaling "
+           "step' makes it longer";
+    fail(why.str());
+  }
 }
 
 void ExplicitDynamics::kick() {

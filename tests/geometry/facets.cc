@@ -102,7 +102,7 @@ template <class Facet> void check_flat_square(const std::string &name) {
   // (20) with a tolerance: 1 % of the width of 2 on each side.
   const FacetLimits limits{0.01};
   const auto exists = [&](const double x) { return facet.project(vector(x, 0.3, -0.1), limits).exists; };
-  const double range = name == "planed" ? 1.02 : 1.01; // relative to the extent, or to ξ
+  const double range = 1.02;
   check(name + ": the tolerance at the border",
         exists(0.999 * range) && exists(-0.999 * range) && !exists(1.001 * range) && !exists(-1.001 * range));
 }

@@ -37,12 +37,7 @@ parameters::Load make_load(const parameters::Load::Kind kind, const double coeff
 
 /// Mean displacement along an axis.
 double mean_displacement(const ExplicitRun &run, const unsigned int axis) {
-  double sum = 0.;
-  unsigned int n = 0;
-  for (const auto &element : run.discretization.elements(0))
-    for (unsigned int a = 0; a < n_element_nodes; ++a, ++n)
-      sum += run.state().displacements(element.dofs[3 * a + axis]);
-  return sum / n;
+  return testing::mean_of_body(run, run.state().displacements, 0)[axis];
 }
 
 void test_flight() {
@@ -176,6 +171,79 @@ void test_supports() {
   check("supports: energy", run.worst_drift, 1e-3);
 }
 
+void test_sector() {
+  // A sixth of a thin ring between oblique planes breathes at sqrt(E/ρ)/r.
+  parameters::Scene scene = bar_alone(1.);
+  auto &mesh = scene.bodies[0].mesh;
+  mesh.arguments = "2, 12, 2 : 0.99, 0, 0 : 1.01, 1.0471975511965976, 0.02 : true";
+  mesh.positions.value = {"x*cos(y)", "x*sin(y)", "z"};
+  parameters::SymmetryPlane below, above;
+  below.normal[1] = 1.;
+  below.offset = above.offset = 0.;
+  above.normal[0] = -std::sin(dealii::numbers::PI / 3.);
+  above.normal[1] = std::cos(dealii::numbers::PI / 3.);
+  scene.bodies[0].symmetry_planes.value = {below, above};
+  scene.bodies[0].initial_velocity.value = {"x/sqrt(x^2+y^2)", "y/sqrt(x^2+y^2)", "0"};
+  const double omega = 5000., quarter = 0.5 * dealii::numbers::PI / omega;
+  scene.time_stepping.end_time = quarter;
+  ExplicitRun run(scene);
+  run.finish(quarter, [] {});
+  testing::WorstError radial;
+  for (const auto &element : run.discretization.elements(0))
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const auto X = element.cell->vertex(a);
+      const double angle = std::atan2(X[1], X[0]);
+      const double u = run.state().displacements(element.dofs[3 * a]) * std::cos(angle) +
+                       run.state().displacements(element.dofs[3 * a + 1]) * std::sin(angle);
+      radial.add(std::abs(u * omega - 1.));
+    }
+  check("sector: amplitude, everywhere", radial.value(), 0.02);
+  check("sector: energy", run.worst_drift, 1e-4);
+}
+
+void test_removal() {
+  // A tool that is driven against the bar's end, which is held at the other one, and taken away; with and
+  // without a time in which its force fades; with its own motion, with a mass, and stopped at a force.
+  for (const double release : {0., 20e-6})
+    for (const auto control : {parameters::Motion::Control::motion, parameters::Motion::Control::force,
+                               parameters::Motion::Control::stop}) {
+      parameters::Scene scene = testing::read_test_scene("elastic_bar.prm");
+      scene.bodies[0].initial_velocity.value = {"0", "0", "0"};
+      scene.bodies[0].mesh.arguments = "20, 2, 2 : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
+      scene.bodies[0].supports.resize(1);
+      scene.bodies[0].supports[0].boundary_ids.value = {1};
+      scene.bodies[0].supports[0].components = {{true, false, false}};
+      scene.bodies[0].supports[0].displacement.value = {"0", "0", "0"};
+      auto &motion = scene.tools[0].motion;
+      motion.control = control;
+      motion.direction[0] = 1.;
+      motion.load.value = control == parameters::Motion::Control::force ? "4e5" : "1.2e6";
+      motion.inertia = 0.1 * mass;
+      motion.removal_time.value = 120e-6;
+      motion.release_time = release;
+      if (control != parameters::Motion::Control::force)
+        motion.translation.value[0] = "50*t";
+      ExplicitRun run(scene);
+      double travel = 0., force = 0.;
+      run.finish(1e-6, [&] {
+        if (run.state().time < 120e-6) {
+          travel = run.state().placements[0].translation[0];
+          force = std::max(force, run.state().tool_loads[0].force[0]);
+        }
+      });
+      const std::string name = "removal, control " + std::to_string(static_cast<int>(control)) +
+                               (release > 0. ? ", released" : "");
+      check(name + ": energy", run.worst_drift, 5e-3);
+      check(name + ": it pressed", force > 3e5);
+      check(name + ": touches no more", run.state().tool_loads[0].force.norm(), 0.);
+      if (control == parameters::Motion::Control::force)
+        check(name + ": stays where it was", std::abs(run.state().placements[0].translation[0] / travel - 1.),
+              0.05);
+      if (control == parameters::Motion::Control::stop)
+        check(name + ": stopped", travel < 0.8 * 50. * 119e-6);
+    }
+}
+
 void test_free_tool() {
   // A wall with the bar's mass flies at it at 100 m/s, driven by nothing: they exchange momentum.
   parameters::Scene scene = testing::read_test_scene("elastic_bar.prm");
@@ -204,6 +272,17 @@ void test_free_tool() {
   check("driven tool: way",
         std::abs(driven.state().placements[0].translation[0] / (0.5 * 1000. / mass * 1e-8) - 1.), 1e-10);
   check("driven tool: work", driven.worst_drift, 1e-10);
+
+  // The same with a moment about its axis, far from the bar.
+  motion.control = parameters::Motion::Control::moment;
+  motion.load.value = "-3";
+  motion.inertia = 2e-3;
+  motion.initial_rate = 1.;
+  ExplicitRun turned(scene);
+  turned.finish(100e-6, [] {});
+  check("turned tool: angle",
+        std::abs(turned.state().placements[0].rotation_angle / (1e-4 - 0.5 * 3. / 2e-3 * 1e-8) - 1.), 1e-10);
+  check("turned tool: work", turned.worst_drift, 1e-10);
 }
 
 } // namespace
@@ -217,6 +296,8 @@ int main(int argc, char *argv[]) {
   test_dashpot();
   test_pressure();
   test_supports();
+  test_sector();
+  test_removal();
   test_free_tool();
   return testing::exit_code();
 }

@@ -7,6 +7,7 @@
 
 #include "../testing.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -18,8 +19,8 @@ public:
   explicit ExplicitRun(const parameters::Scene &parameters)
       : scene(parameters), discretization(scene, MPI_COMM_WORLD), problem(scene, discretization) {}
 
-  /// Runs to the end time, and calls look() at the start, at every multiple of `interval` and at the end, with
-  /// the state up to date.
+  /// Runs to the end time, and calls look() at the start, at every multiple of `interval` and at the end,
+  /// with the state up to date.
   template <class Look> void finish(const double interval, const Look &look) {
     const double end = scene.parameters().time_stepping.end_time;
     for (;;) {
@@ -45,6 +46,20 @@ public:
   ExplicitDynamics problem;
   double worst_drift = 0.; ///< relative, where look() was called
 };
+
+/// Mean of a nodal field over a body whose elements are all alike. Collective.
+inline dealii::Tensor<1, 3> mean_of_body(const ExplicitRun &run, const Vector &field,
+                                         const std::size_t body) {
+  std::array<double, 4> sums{};
+  for (const auto &element : run.discretization.elements(body))
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      for (unsigned int i = 0; i < 3; ++i)
+        sums[i] += field(element.dofs[3 * a + i]);
+      sums[3] += 1.;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return dealii::Tensor<1, 3>({sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]});
+}
 
 inline parameters::Scene read_test_scene(const std::string &name) {
   return parameters::Scene::read(std::string(SOURCE_DIR) + "/" + name);

@@ -9,16 +9,24 @@ namespace billet {
 /// What decides which facet a node touches. Lengths relative to the facet's own.
 struct ContactLimits {
   double tolerance = 0.02; ///< of the inside test (20), as FacetLimits::tolerance
+  /// A node so near to an edge, inside or outside, is shared with the facets around it: FacetLimits::zone.
+  double zone = 0.1;
   /// A node that touches already is held down to this many times the facet's reach.
   double held_depth = 5.;
   /// A node that touches already and has come to lie below the seam of two facets that meet in a concave
   /// edge, behind both of them and before neither, is held by the one whose border it is less than this far
   /// beyond.
   double seam_tolerance = 0.5;
-  /// The normals of node and facet have to make a scalar product less than this one: 0 for surfaces that
-  /// must face each other, as of one body; above 1 for all.
-  double largest_alignment = 2.;
+  /// The normals of node and facet have to make a scalar product less than this one; 1 or more for all. A
+  /// little above 0: an edge or a corner whose normal is a mean may touch what is at right angles to it; but
+  /// the rim of an end, 0.7, or a corner, 0.58, is no partner of the other body's end that goes on beside it.
+  double largest_alignment = 0.2;
 };
+
+/// For a projection that may lie so far beyond the border.
+inline FacetLimits make_limits(const double tolerance, const ContactLimits &limits) {
+  return {tolerance, std::numeric_limits<double>::infinity(), limits.zone};
+}
 
 /// The facet that a node touches, if any.
 struct TouchedFacet {
@@ -30,8 +38,7 @@ struct TouchedFacet {
 };
 
 /// Chooses for a slave node, by index into search.slaves(), the facet that it touches, as a plane
-/// (PlanedFacet) or as a bilinear surface (BilinearFacet). `last` is the choice at the step's start,
-/// `normals` the unit normals of nodes, or nothing if none are asked for.
+/// (PlanedFacet) or as a bilinear surface (BilinearFacet). `last` is the choice at the step's start.
 ///
 /// Touched can be a facet that the node is straight above or below, is behind, and faces. A facet that the
 /// node has not touched before must have been come through: at the start of the step the node was before it,
@@ -42,13 +49,20 @@ struct TouchedFacet {
 /// then touch nothing the candidates. Of several, at one stage, where the middle of one facet lies behind the
 /// other's plane (a convex edge, or the two sides of a wall) the one with the shortest way out counts; else,
 /// in a concave edge, where the node must get out of both, the one in which it is deeper. Unlike in the
-/// paper, this may also replace the last facet, in concave edges only: else a node that slides along one
-/// flank would go through the other. One node touches one facet at a time.
+/// paper, this may also replace the last facet, in concave edges: else a node that slides along one flank
+/// would go through the other; and so may a facet that the node has come through and that faces it far
+/// better.
+///
+/// Where facets meet smoothly, one is as good as the other: share_facets() makes the contact of both.
 template <class Facet>
 TouchedFacet choose_facet(const FacetSearch &search, std::size_t slave,
                           const FacetSearch::Positions &positions_n, const FacetSearch::Positions &positions,
-                          const FacetSearch::Positions &normals, const TouchedFacet &last,
-                          const ContactLimits &limits);
+                          const TouchedFacet &last, const ContactLimits &limits);
+
+/// The candidate that a node which touches none is straight above, before, and faces; the nearest, as a
+/// plane. Its gap is >= 0.
+TouchedFacet find_facet_below(const FacetSearch &search, std::size_t slave,
+                              const FacetSearch::Positions &positions, const ContactLimits &limits);
 
 /// Corners of a facet.
 inline FacetCorners corners_of(const SurfaceFacet &facet, const FacetSearch::Positions &positions) {
@@ -56,9 +70,10 @@ inline FacetCorners corners_of(const SurfaceFacet &facet, const FacetSearch::Pos
           positions[facet.nodes[3]]};
 }
 
-/// Unit normals of nodes: the mean of the area vectors of the facets around them; 0 where they cancel.
-FacetSearch::Positions compute_node_normals(const std::vector<SurfaceFacet> &facets,
-                                            const FacetSearch::Positions &positions);
+/// Unit normal of a node: the mean of those of the facets around it, whatever their areas, so that a rim of
+/// narrow facets counts; 0 where they cancel, but for round-off, and where there are none.
+dealii::Tensor<1, 3> compute_node_normal(const FacetSearch &search, unsigned int node,
+                                         const FacetSearch::Positions &positions);
 
 } // namespace billet
 

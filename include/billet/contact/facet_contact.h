@@ -3,7 +3,7 @@
 #define BILLET_CONTACT_FACET_CONTACT_H
 
 #include "billet/contact/edge_contact.h"
-#include "billet/contact/facet_choice.h"
+#include "billet/contact/facet_sharing.h"
 #include "billet/contact/slave_traction.h"
 #include "billet/contact/surface_exchange.h"
 
@@ -74,7 +74,9 @@ public:
 
   /// Adds to each of this rank's nodes what bounds the time step, after add_forces(): the sum Σ_j |K_ij| of
   /// its row of the contact stiffness, 2 k A for a slave and 2 w_I k A for a facet's corner [force/length].
-  /// With the same sum of the elements, ω² <= max_i Σ_j |K_ij|/m_i.
+  /// With the same sum of the elements, ω² <= max_i Σ_j |K_ij|/m_i. A slave straight before one of its
+  /// candidates counts as if it touched it: a step that were shortened only when a node has entered would be
+  /// too long for that entry.
   void add_row_sums(std::vector<double> &row_sums) const;
 
   /// After add_forces().
@@ -107,6 +109,10 @@ public:
 private:
   struct SlaveState {
     TouchedFacet touched;
+    bool is_near = false; ///< touches nothing yet, but may soon
+    /// Of what is touched or near: normal and gap, and the facets, by index into shares_.
+    SharedGap contact{dealii::Tensor<1, 3>(), 0.};
+    std::size_t first_share = 0, end_of_shares = 0;
     SlaveTraction traction;
     double own_area = 0.; ///< of this rank's facets
     double area = 0.;     ///< of all
@@ -115,14 +121,19 @@ private:
   void update_search(const Positions &positions_n, const Positions &positions);
   void rebuild();
   template <class Facet, class Law> void evaluate(const Law &law, double duration);
+  /// What slave s touches, or is near, and with which areas.
+  template <class Facet> void find_contact(std::size_t s);
+  SlaveMotion compute_motion(std::size_t s, double duration) const;
   void compute_areas(const SlaveNode &slave, SlaveState &state) const;
+  /// Calls visit(share, force on the slave, reaction on the corners) for each facet that slave s touches.
+  template <class Visit> void visit_forces(std::size_t s, const Visit &visit) const;
   /// k A of a crossing [force/length].
   double edge_spring(const EdgeContact::Crossing &crossing) const {
     return 0.5 * crossing.area * (edge_stiffness_[crossing.nodes[0]] + edge_stiffness_[crossing.nodes[1]]);
   }
   void add_edges(FacetContactLoad &load) const;
-  FacetCorners target_corners(const SlaveState &state) const {
-    return corners_of(search_.facets()[state.touched.facet], positions_);
+  FacetCorners target_corners(const unsigned int facet) const {
+    return corners_of(search_.facets()[facet], positions_);
   }
 
   MPI_Comm communicator_;
@@ -135,6 +146,7 @@ private:
   Positions positions_n_, positions_;       ///< with ghosts
   std::vector<TouchedFacet> touched_n_;
   std::vector<SlaveState> states_;
+  std::vector<FacetShare> shares_;                ///< slave by slave
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only
   std::optional<EdgeContact> edges_;
   std::vector<double> edge_stiffness_; ///< full normal penalties of own nodes, if there are edges

@@ -72,10 +72,19 @@ public:
       visit(candidates_[i]);
   }
 
+  bool has_candidates(const std::size_t slave) const {
+    return first_candidate_[slave] < first_candidate_[slave + 1];
+  }
+
   /// Calls visit(facet) for each facet that has this node.
   template <class Visit> void visit_around(const unsigned int node, const Visit &visit) const {
     for (std::size_t i = first_around_[node]; i < first_around_[node + 1]; ++i)
       visit(around_[i]);
+  }
+
+  /// The node at the corner that is nearest to these parameters of a facet.
+  unsigned int nearest_corner(const unsigned int facet, const std::array<double, 2> &parameters) const {
+    return facets_[facet].nodes[(parameters[0] < 0. ? 0U : 1U) + (parameters[1] < 0. ? 0U : 2U)];
   }
 
   /// Calls visit(facet) once for each facet that shares nodes with this one.

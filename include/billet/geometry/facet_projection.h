@@ -4,6 +4,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -43,6 +44,11 @@ inline bool has_area(const dealii::Tensor<1, 3> &diagonal_0, const dealii::Tenso
   return cross_product.norm() > least * std::max(diagonal_0.norm_square(), diagonal_1.norm_square());
 }
 
+/// One edge's factor of FacetProjection::share; `distance` from it is positive inside.
+inline double share_at(const double distance, const double zone) {
+  return std::min(std::max(0.5 * (distance / zone + 1.), 0.), 1.);
+}
+
 } // namespace facet
 
 /// How far from a facet a node may be and still belong to it.
@@ -52,6 +58,8 @@ struct FacetLimits {
   double tolerance = 0.02;
   /// A node whose gap is < −reach has not come through this facet [length].
   double reach = std::numeric_limits<double>::infinity();
+  /// How far from an edge, to both sides and relative to the same, facets share a node; > 0.
+  double zone = 0.1;
 };
 
 /// A node x before a facet or behind it.
@@ -67,6 +75,9 @@ struct FacetProjection {
   std::array<double, 2> parameters{}; ///< (ξ, η), where a search for the next projection starts
   /// How far the projection lies beyond the border, as FacetLimits::tolerance; 0 inside.
   double excess = std::numeric_limits<double>::infinity();
+  /// The facet's part, not normalised, of a node that it shares with those around it: the product over its
+  /// edges of (distance + zone)/(2 zone), cut off at 0 and 1. 1 well inside; the sum over a regular grid.
+  double share = 0.;
 };
 
 } // namespace billet

@@ -34,7 +34,8 @@ private:
   double cross(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b) const {
     return dealii::cross_product_3d(a, b) * normal_;
   }
-  double compute_excess(const dealii::Tensor<1, 3> &in_plane) const;
+  /// Excess and share.
+  void locate(const dealii::Tensor<1, 3> &in_plane, double zone, FacetProjection &projection) const;
   std::array<double, 2> compute_parameters(const dealii::Tensor<1, 3> &in_plane) const;
 
   std::array<dealii::Tensor<1, 3>, 4> corners_; ///< in the plane, from the centre

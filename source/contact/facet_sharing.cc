@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/facet_sharing.h"
+
+#include "billet/geometry/bilinear_facet.h"
+#include "billet/geometry/planed_facet.h"
+
+#include <algorithm>
+
+namespace billet {
+
+using dealii::Tensor;
+
+bool meet_smoothly(const Tensor<1, 3> &normal, const Tensor<1, 3> &other) { return normal * other > 0.5; }
+
+template <class Facet>
+SharedGap share_facets(const FacetSearch &search, const TouchedFacet &touched, const Tensor<1, 3> &x,
+                       const FacetSearch::Positions &positions, const ContactLimits &limits,
+                       std::vector<FacetShare> &shares) {
+  const FacetProjection &own = touched.projection;
+  const std::size_t first = shares.size();
+  shares.push_back({touched.facet, 1., own});
+  // Twice the zone, since a larger neighbour's is wider: (1 − |ξ|)/2 is the distance from the border.
+  const double inner = 1. - 4. * limits.zone;
+  if (std::max(std::abs(own.parameters[0]), std::abs(own.parameters[1])) <= inner)
+    return {own.normal, own.gap};
+  shares[first].share = own.share;
+  search.visit_around(search.nearest_corner(touched.facet, own.parameters), [&](const unsigned int f) {
+    if (f == touched.facet)
+      return;
+    const FacetProjection p =
+        Facet(corners_of(search.facets()[f], positions)).project(x, make_limits(limits.zone, limits));
+    if (p.exists && p.share > 0. && meet_smoothly(own.normal, p.normal))
+      shares.push_back({f, p.share, p});
+  });
+  if (shares.size() == first + 1) {
+    shares[first].share = 1.;
+    return {own.normal, own.gap};
+  }
+  // Round-off does not depend on the choice.
+  std::sort(shares.begin() + static_cast<std::ptrdiff_t>(first), shares.end(),
+            [&](const FacetShare &a, const FacetShare &b) {
+              return search.facets()[a.facet].key < search.facets()[b.facet].key;
+            });
+  double sum = 0.;
+  for (std::size_t i = first; i < shares.size(); ++i)
+    sum += shares[i].share;
+  SharedGap result{Tensor<1, 3>(), 0.};
+  for (std::size_t i = first; i < shares.size(); ++i) {
+    shares[i].share /= sum;
+    result.normal += shares[i].share * shares[i].projection.normal;
+    result.gap += shares[i].share * shares[i].projection.gap;
+  }
+  const double length = result.normal.norm();
+  result.normal /= length;
+  result.gap /= length;
+  return result;
+}
+
+#define BILLET_INSTANTIATE(Facet)                                                                            \
+  template SharedGap share_facets<Facet>(const FacetSearch &, const TouchedFacet &, const Tensor<1, 3> &,    \
+                                         const FacetSearch::Positions &, const ContactLimits &,              \
+                                         std::vector<FacetShare> &);
+BILLET_INSTANTIATE(PlanedFacet)
+BILLET_INSTANTIATE(BilinearFacet)
+#undef BILLET_INSTANTIATE
+
+} // namespace billet
