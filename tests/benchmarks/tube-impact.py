@@ -101,6 +101,8 @@ for _ in range(REPEAT):
                 steps[name + suffix], ns = run_billet({**changes, **end}, folder)
             costs[name + suffix].append(ns)
     for name, contact in (("ccx", False), ("ccx, contact", True)):
+        if costs["ccx, contact"] and contact:  # ten times dearer, once will do
+            continue
         short, long = (run_ccx(*grid, count, contact) for count in (SHORT, LONG))
         steps[name] = LONG - SHORT
         if short and long:
@@ -121,7 +123,7 @@ publish(
     f"`prm/tube_impact.prm`, {n} bricks; CalculiX {version.group(1)} (`*DYNAMIC, EXPLICIT`, C3D8R, the same nodes, bricks, "
     f"material and velocities, steps of {STEP:g} s). Processor time on one core without other threads: of billet's stepping "
     f"loop for the first {END['Time stepping/End time'] * 1e3:g} ms, contact included, and for the flight before contact; of CalculiX "
-    f"the difference of runs of {LONG} and {SHORT} steps, without contact and with it (surface to surface, linear, 2.5e12 N/m³). Median and least of {REPEAT} runs, programs by turns; load average "
+    f"the difference of runs of {LONG} and {SHORT} steps, without contact and with it (surface to surface, linear, 2.5e12 N/m³). Median and least of {REPEAT} runs (ccx with contact: one), programs by turns; load average "
     f"{min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores. Wanted: at least ten times cheaper than CalculiX.",
     table(["program", "contact", "steps", "ns per element and step", "least", "times cheaper than ccx"], rows),
     "" if costs["ccx, contact"] else "With contact CalculiX did not finish these steps.")
