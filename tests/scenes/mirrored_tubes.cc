@@ -87,7 +87,9 @@ void check_overlap() {
   } catch (const InputError &error) {
     message = error.what();
   }
-  check("an overlap is refused", message.find("start at least 0.00") != std::string::npos);
+  const auto depth = message.find("start ");
+  check("an overlap is refused, with its depth",
+        depth == std::string::npos ? 1. : std::abs(std::stod(message.substr(depth + 6)) / 0.002 - 1.), 1e-6);
 }
 
 } // namespace
