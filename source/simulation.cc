@@ -12,8 +12,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -226,6 +228,13 @@ private:
   std::vector<double> stops_;
 };
 
+/// Of this process, in seconds.
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 void run_explicit(const Scene &scene, const Discretization &discretization) {
   const parameters::Scene &parameters = scene.parameters();
   ExplicitDynamics problem(scene, discretization);
@@ -260,11 +269,20 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
     throw SolutionFailure(message.str());
   };
 
+  double seconds = 0., processor_seconds = 0.; // of the steps, without output
+  const auto measure = [&](const auto &run) {
+    const auto start = std::chrono::steady_clock::now();
+    const double processor_start = processor_time();
+    run();
+    processor_seconds += processor_time() - processor_start;
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   for (bool is_finished = false; !is_finished;) {
     is_finished = problem.time() >= events.end();
     const bool is_due = events.is_history_due(problem.time());
     try {
-      problem.prepare_step(is_finished ? events.end() + problem.step_length() : events.next(problem.time()));
+      const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
+      measure([&] { problem.prepare_step(event); });
     } catch (const SolutionFailure &) { // nothing already computed is lost
       problem.update_state();
       outputs.snapshots.write(problem);
@@ -282,8 +300,10 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
       outputs.snapshots.after_step(problem.n_steps(), problem);
     }
     if (!is_finished)
-      problem.finish_step();
+      measure([&] { problem.finish_step(); });
   }
+  outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
+                             processor_seconds);
   outputs.progress.finish(outputs.writer.file_to_open());
 }
 

@@ -142,6 +142,18 @@ void Progress::erase_bar() {
   has_bar_ = false;
 }
 
+void Progress::show_pace(const unsigned int n_steps, const std::size_t n_elements, const double seconds,
+                         const double processor_seconds) {
+  if (verbosity_ == Verbosity::quiet || n_steps == 0)
+    return;
+  erase_bar();
+  const double n = static_cast<double>(n_steps) * static_cast<double>(n_elements);
+  stream_ << n_steps << " steps of " << n_elements << " elements in " << std::setprecision(4) << seconds
+          << " s: " << 1e9 * seconds / n << " ns for each element and step, " << 1e9 * processor_seconds / n
+          << " of this process\n"
+          << std::setprecision(6);
+}
+
 void Progress::finish(const std::string &file_to_open) {
   if (verbosity_ == Verbosity::quiet)
     return;

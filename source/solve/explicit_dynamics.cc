@@ -257,7 +257,11 @@ void ExplicitDynamics::remove_tools() {
           contact.add_forces(*fading_forces_[i], ignored);
           contact.remove_tool();
         }
-      works_.external -= tool_loads_[i].stored_energy; // what its penalty springs held goes with it
+      // What its penalty springs held goes with it, and what it has of its own, which all ranks know.
+      works_.external -= tool_loads_[i].stored_energy;
+      if (dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0)
+        works_.external -= tools_[i].kinetic_energy();
+      tools_[i].remove();
     }
     const Tool &gone = scene_.tools()[i];
     const double left =

@@ -16,7 +16,7 @@ void FreeTool::kick(const double t, const ContactLoad &load, const double step_b
                     const bool is_first) {
   if (tool_.control() == Tool::Control::stop)
     has_stopped_ = has_stopped_ || resistance(load) >= tool_.load(t);
-  if (!is_free())
+  if (!is_free() || is_removed_)
     return;
   load_ = tool_.load(t);
   const double acceleration = (load_ - resistance(load)) / inertia_;
@@ -27,11 +27,16 @@ void FreeTool::kick(const double t, const ContactLoad &load, const double step_b
 void FreeTool::move(const double t, const double dt) {
   before_ = now_;
   offset_before_ = offset_;
-  if (has_stopped_)
+  if (has_stopped_ || is_removed_)
     return;
   if (is_free())
     offset_ += dt * rate_;
   now_ = tool_.placement(t + dt, offset_);
+}
+
+void FreeTool::remove() {
+  is_removed_ = true;
+  rate_ = rate_before_ = load_ = 0.;
 }
 
 dealii::Tensor<1, 3> FreeTool::momentum() const {

@@ -3,8 +3,8 @@
 //
 // Prints the time per element and step in nanoseconds of every kernel of explicit dynamics, for each
 // instruction set that this machine has: a cube of distorted elements, nearly all yielding; the least of
-// several steps. Beside it what the machine gives in the same run: memory bandwidth (triad) and
-// floating-point peak (multiply-add).
+// several steps (0 elements: no kernels). Beside it what the machine gives in the same run: memory bandwidth
+// (triad) and floating-point peak (multiply-add).
 #include "billet/mechanics/explicit_block.h"
 
 #include <deal.II/base/aligned_vector.h>
@@ -172,7 +172,8 @@ int main(int argc, char *argv[]) {
   std::printf("%-8s %6s", "", "GF/s");
   for (const auto &element : elements)
     for (const auto &law : kinematics)
-      std::printf("  %s %s", element.first, law.first);
+      if (n > 0)
+        std::printf("  %s %s", element.first, law.first);
   std::printf("\n");
   for (const auto &set : sets) {
     if (!is_available(set.second))
@@ -180,6 +181,8 @@ int main(int argc, char *argv[]) {
     std::printf("%-8s %6.1f", set.first, measure_peak(set.second));
     for (const auto &element : elements)
       for (const auto &law : kinematics) {
+        if (n == 0)
+          continue;
         Formulation formulation;
         formulation.element = element.second;
         formulation.kinematics = law.second;

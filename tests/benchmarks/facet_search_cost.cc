@@ -33,7 +33,7 @@ std::size_t choose_all(const FacetSearch &search, const Positions &positions_n, 
                        std::vector<TouchedFacet> &touched) {
   std::size_t n = 0;
   for (std::size_t s = 0; s < search.slaves().size(); ++s) {
-    touched[s] = choose_facet<Facet>(search, s, positions_n, positions, {}, touched[s], {});
+    touched[s] = choose_facet<Facet>(search, s, positions_n, positions, touched[s], ContactLimits());
     n += touched[s].exists() ? 1 : 0;
   }
   return n;

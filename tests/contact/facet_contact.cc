@@ -2,6 +2,8 @@
 // Contact between surfaces as a whole: forces of known size, in one pass and in two, balance of all forces
 // and moments, momentum and energy in an impact, and the same on any number of ranks.
 #include "billet/contact/facet_contact.h"
+#include "billet/geometry/bilinear_facet.h"
+#include "billet/geometry/planed_facet.h"
 
 #include "surfaces.h"
 
@@ -285,6 +287,84 @@ void check_edges() {
   report("roofs: apart they are free", contact.compute_load().absolute_force, 0.);
 }
 
+Tensor<1, 3> warped(const double s, const double t) {
+  return Tensor<1, 3>({s, t, 0.05 * std::sin(5. * s + 3. * t)});
+}
+
+/// A small facet slides below a warped surface of 4 x 4 facets, along seams and over corners.
+void check_sliding(const FacetMethod method, const double zone, const bool expected,
+                   const std::string &name) {
+  Surface surface;
+  add_sheet(surface, 1, 1, 0, 0.05, [](const double s, const double t) {
+    return Tensor<1, 3>({0.02 * t, 0.02 * s, 0.}); // looks down
+  });
+  add_sheet(surface, 4, 4, 1, 0.05, warped);
+  const Part part = everything(surface);
+  FacetContactSettings settings = make_settings(method, Frictionless(), false);
+  settings.limits.zone = zone;
+  const Positions start = part.take(surface.positions);
+  double largest = 0., jump = 0.;
+  Tensor<1, 3> last;
+  const unsigned int n_steps = 2000;
+  for (unsigned int step = 0; step <= n_steps; ++step) {
+    const double along = 0.2 + 0.6 * step / n_steps;
+    Positions positions = start;
+    for (const auto &facet : part.facets)
+      if (facet.surface == 0)
+        for (const unsigned int node : facet.nodes)
+          positions[node] = start[node] + warped(along, 0.99 * along) - Tensor<1, 3>({0., 0., 0.01});
+    FacetContact contact = make_contact(MPI_COMM_SELF, settings, part);
+    Positions forces(positions.size());
+    contact.add_forces(positions, positions, 0., forces);
+    const Tensor<1, 3> force = contact.compute_load().force;
+    largest = std::max(largest, force.norm());
+    if (step > 0)
+      jump = std::max(jump, (force - last).norm());
+    last = force;
+  }
+  report(name, (jump < 0.01 * largest) == expected && largest > 0. ? 0. : 1., 0.);
+}
+
+/// Nodes around the corner of four facets: the same from whichever facet, and in whichever order.
+template <class Facet> void check_sharing(const std::string &name) {
+  Surface surface;
+  add_sheet(surface, 4, 4, 0, 0.05, warped);
+  FacetSearch search(FacetSearch::Partners::other_surfaces, 0.05), reversed = search;
+  search.set_surface(surface.facets, {});
+  reversed.set_surface({surface.facets.rbegin(), surface.facets.rend()}, {});
+  const ContactLimits limits;
+  Random random;
+  WorstError differ, sum_of_shares;
+  double most_shares = 0.;
+  for (unsigned int i = 0; i < 1000; ++i) {
+    const Tensor<1, 3> x = warped(0.5 + random(-0.02, 0.02), 0.5 + random(-0.02, 0.02)) -
+                           Tensor<1, 3>({0., 0., random(0., 0.01)});
+    bool is_first = true;
+    SharedGap expected{Tensor<1, 3>(), 0.};
+    for (const FacetSearch *at : {&search, &reversed})
+      for (unsigned int f = 0; f < at->facets().size(); ++f) {
+        const TouchedFacet touched{f, Facet(corners_of(at->facets()[f], surface.positions))
+                                          .project(x, make_limits(limits.zone, limits))};
+        if (!touched.projection.exists || !(touched.projection.share > 0.))
+          continue;
+        std::vector<FacetShare> shares;
+        const SharedGap result = share_facets<Facet>(*at, touched, x, surface.positions, limits, shares);
+        double sum = 0.;
+        for (const auto &share : shares)
+          sum += share.share;
+        sum_of_shares.add(std::abs(sum - 1.));
+        most_shares = std::max(most_shares, static_cast<double>(shares.size()));
+        if (is_first)
+          expected = result;
+        is_first = false;
+        differ.add((result.normal - expected.normal).norm() + std::abs(result.gap - expected.gap));
+      }
+  }
+  report(name + ": corner: four facets share a node", std::abs(most_shares - 4.), 0.);
+  report(name + ": corner: all of it", sum_of_shares.value(), 1e-15);
+  report(name + ": corner: whichever facet was chosen", differ.value(), 1e-14);
+}
+
 void check_ranks(const Surface &surface, const FacetContactSettings &settings, const std::string &name) {
   const std::size_t n = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   Random random;
@@ -351,6 +431,8 @@ int main(int argc, char *argv[]) {
     check_balance(method, Frictionless(), name + ", frictionless");
     check_balance(method, Coulomb{0.2}, name + ", Coulomb");
     check_impact(method, name);
+    check_sliding(method, 0.1, true, name + ": forces do not jump across seams");
+    check_sliding(method, 1e-6, false, name + ": but would if facets did not share nodes");
     FacetContactSettings settings = make_settings(method, Coulomb{0.2}, true);
     settings.edges = true;
     check_ranks(make_balls(), settings, name);
@@ -358,6 +440,8 @@ int main(int argc, char *argv[]) {
     settings.limits.largest_alignment = 0.;
     check_ranks(make_strip(0.015), settings, name + ", self-contact");
   }
+  check_sharing<PlanedFacet>("planed");
+  check_sharing<BilinearFacet>("bilinear");
   check_edges();
   return exit_code();
 }

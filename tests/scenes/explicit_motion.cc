@@ -201,6 +201,49 @@ void test_sector() {
   check("sector: energy", run.worst_drift, 1e-4);
 }
 
+void test_removal() {
+  // A tool that is driven against the bar's end, which is held at the other one, and taken away; with and
+  // without a time in which its force fades; with its own motion, with a mass, and stopped at a force.
+  for (const double release : {0., 20e-6})
+    for (const auto control : {parameters::Motion::Control::motion, parameters::Motion::Control::force,
+                               parameters::Motion::Control::stop}) {
+      parameters::Scene scene = testing::read_test_scene("elastic_bar.prm");
+      scene.bodies[0].initial_velocity.value = {"0", "0", "0"};
+      scene.bodies[0].mesh.arguments = "20, 2, 2 : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
+      scene.bodies[0].supports.resize(1);
+      scene.bodies[0].supports[0].boundary_ids.value = {1};
+      scene.bodies[0].supports[0].components = {{true, false, false}};
+      scene.bodies[0].supports[0].displacement.value = {"0", "0", "0"};
+      auto &motion = scene.tools[0].motion;
+      motion.control = control;
+      motion.direction[0] = 1.;
+      motion.load.value = control == parameters::Motion::Control::force ? "4e5" : "1.2e6";
+      motion.inertia = 0.1 * mass;
+      motion.removal_time.value = 120e-6;
+      motion.release_time = release;
+      if (control != parameters::Motion::Control::force)
+        motion.translation.value[0] = "50*t";
+      ExplicitRun run(scene);
+      double travel = 0., force = 0.;
+      run.finish(1e-6, [&] {
+        if (run.state().time < 120e-6) {
+          travel = run.state().placements[0].translation[0];
+          force = std::max(force, run.state().tool_loads[0].force[0]);
+        }
+      });
+      const std::string name = "removal, control " + std::to_string(static_cast<int>(control)) +
+                               (release > 0. ? ", released" : "");
+      check(name + ": energy", run.worst_drift, 5e-3);
+      check(name + ": it pressed", force > 3e5);
+      check(name + ": touches no more", run.state().tool_loads[0].force.norm(), 0.);
+      if (control == parameters::Motion::Control::force)
+        check(name + ": stays where it was", std::abs(run.state().placements[0].translation[0] / travel - 1.),
+              0.05);
+      if (control == parameters::Motion::Control::stop)
+        check(name + ": stopped", travel < 0.8 * 50. * 119e-6);
+    }
+}
+
 void test_free_tool() {
   // A wall with the bar's mass flies at it at 100 m/s, driven by nothing: they exchange momentum.
   parameters::Scene scene = testing::read_test_scene("elastic_bar.prm");
@@ -254,6 +297,7 @@ int main(int argc, char *argv[]) {
   test_pressure();
   test_supports();
   test_sector();
+  test_removal();
   test_free_tool();
   return testing::exit_code();
 }

@@ -17,12 +17,14 @@ public:
   BodyContact(const Scene &scene, std::size_t pair, const LocalNodes &nodes);
 
   /// Adds F_c [force] at these displacements, `duration` after those of the last commit(), and to component 0
-  /// of `bounds` what bounds the stiffness at a node [force/length]. Collective.
+  /// of `bounds` what bounds the stiffness at a node, and more, so that impacts keep their energy
+  /// [force/length]. Collective.
   void add_forces(const NodalVectors &displacements, double duration, NodalVectors &forces,
                   NodalVectors &bounds);
 
   /// After the first add_forces(): throws InputError, with the largest overlap and where it is, if the bodies
-  /// start deeper in each other than the scene allows. Collective.
+  /// start deeper in each other than the scene allows. Nodes are found that are behind facets by no more than
+  /// the thickness of the elements there. Collective.
   void check_overlap() const;
 
   /// The state of the last add_forces() becomes the start of the next step.
@@ -39,6 +41,7 @@ public:
 
 private:
   void collect();
+  std::vector<std::uint64_t> node_keys() const;
   std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
 
   const BodyPair &pair_;
@@ -47,6 +50,8 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<SurfaceFacet> facets_;
   std::vector<double> areas_; ///< of the undeformed facets
+  std::vector<double> walls_; ///< thickness of the elements below them
+  FacetContactSettings settings_;
   std::unique_ptr<FacetContact> contact_;
   FacetContact::Positions positions_n_, positions_;
 };

@@ -21,6 +21,9 @@ public:
   void show(unsigned int step, double length, const SolutionState &state);
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
+  /// Of an explicit scene, at its end: how long its steps took without output, by the clock and of the
+  /// processor.
+  void show_pace(unsigned int n_steps, std::size_t n_elements, double seconds, double processor_seconds);
   void finish(const std::string &file_to_open);
 
 private:

@@ -28,6 +28,9 @@ public:
   /// Moves on to t + dt.
   void move(double t, double dt);
 
+  /// Taken away, with its mass: from now on it neither moves nor counts.
+  void remove();
+
   double kinetic_energy() const { return 0.5 * inertia_ * rate_before_ * rate_; }
   /// Of a tool that turns none: its axis is held.
   dealii::Tensor<1, 3> momentum() const;
@@ -48,7 +51,7 @@ private:
   double inertia_, rate_, rate_before_;
   double offset_ = 0., offset_before_ = 0.;
   double load_ = 0.; ///< at the last kick
-  bool has_stopped_ = false;
+  bool has_stopped_ = false, is_removed_ = false;
   Placement before_, now_;
 };
 
