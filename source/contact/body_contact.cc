@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/body_contact.h"
 
+#include "billet/contact/overlap.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace billet {
@@ -31,7 +33,7 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
     : pair_(scene.body_pairs()[pair]), nodes_(nodes) {
   collect();
   const MPI_Comm communicator = nodes.discretization().communicator();
-  FacetContactSettings &settings = settings_;
+  FacetContactSettings settings;
   settings.method =
       pair_.facets == parameters::ContactPair::Facets::planed ? FacetMethod::planed : FacetMethod::bilinear;
   settings.friction = pair_.friction;
@@ -43,15 +45,10 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   for (const double area : areas_)
     smallest = std::min(smallest, std::sqrt(area));
   settings.search_margin = pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator);
-  contact_ =
-      std::make_unique<FacetContact>(communicator, settings, node_keys(), facets_, compute_stiffness(scene));
-}
-
-std::vector<std::uint64_t> BodyContact::node_keys() const {
   std::vector<std::uint64_t> keys;
   for (const unsigned int node : local_nodes_)
-    keys.push_back(nodes_.dofs(node)[0]);
-  return keys;
+    keys.push_back(nodes.dofs(node)[0]);
+  contact_ = std::make_unique<FacetContact>(communicator, settings, keys, facets_, compute_stiffness(scene));
 }
 
 void BodyContact::collect() {
@@ -64,7 +61,6 @@ void BodyContact::collect() {
       facet.surface = surface;
       facet.key = make_key(boundary);
       areas_.push_back(boundary.area_vector().norm());
-      walls_.push_back(boundary.thickness);
       // What is deeper than half the wall below is nearer to the wall's other side; and a node that comes in
       // from beside the facet, rather than through it, is not to be thrown out from the depth.
       facet.reach = std::min(0.1 * std::sqrt(areas_.back()), 0.4 * boundary.thickness);
@@ -148,35 +144,28 @@ ContactLoad BodyContact::compute_load() const {
 }
 
 void BodyContact::check_overlap() const {
-  const MPI_Comm communicator = nodes_.discretization().communicator();
-  // Whatever faces a facet and is as deep as the element below it, which is more than may touch it later.
-  FacetContactSettings settings = settings_;
-  settings.friction = Frictionless();
-  settings.edges = false;
-  settings.limits.largest_alignment = -0.5;
-  std::vector<SurfaceFacet> facets = facets_;
-  for (std::size_t f = 0; f < facets.size(); ++f)
-    facets[f].reach = walls_[f];
-  FacetContact contact(communicator, settings, node_keys(), facets,
-                       std::vector<ContactStiffness>(local_nodes_.size(), {1., 1.}));
-  FacetContact::Positions forces(local_nodes_.size());
-  contact.add_forces(positions_, positions_, 0., forces);
-  const FacetContactLoad load = contact.compute_load();
-  if (load.deepest_relative <= pair_.input->allowed_penetration.value)
+  const Discretization &discretization = nodes_.discretization();
+  const MPI_Comm communicator = discretization.communicator();
+  if (pair_.is_self_contact) // its elements have nodes in common: the mesh is sound, or no mesh
     return;
-  const auto reports = contact.report();
-  std::array<double, 4> deepest{}; // gap and place
-  for (std::size_t i = 0; i < reports.size(); ++i)
-    if (reports[i].gap < deepest[0])
-      deepest = {reports[i].gap, positions_[i][0], positions_[i][1], positions_[i][2]};
-  const std::vector<std::array<double, 4>> of_ranks =
-      dealii::Utilities::MPI::all_gather(communicator, deepest);
-  deepest = *std::min_element(of_ranks.begin(), of_ranks.end());
+  std::array<double, 2> sums{std::accumulate(areas_.begin(), areas_.end(), 0.),
+                             static_cast<double>(areas_.size())};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
+  const double size = std::sqrt(sums[0] / sums[1]);
+  Overlap deepest;
+  for (unsigned int side = 0; side < 2; ++side) {
+    const Overlap overlap = find_overlap(discretization, pair_.bodies[side], pair_.boundary_ids[side],
+                                         pair_.bodies[1 - side], pair_.boundary_ids[1 - side]);
+    if (overlap.depth > deepest.depth)
+      deepest = overlap;
+  }
+  if (deepest.depth <= pair_.input->allowed_penetration.value * size)
+    return;
   std::ostringstream message;
-  message << pair_.input->origin << ": the bodies start at least " << -deepest[0] << " deep ("
-          << load.deepest_relative << " facet sizes) in each other, deepest at (" << deepest[1] << ", "
-          << deepest[2] << ", " << deepest[3] << "); allowed are " << pair_.input->allowed_penetration.value
-          << " facet sizes ('Allowed initial penetration')";
+  message << pair_.input->origin << ": the bodies start " << deepest.depth << " deep ("
+          << deepest.depth / size << " facet sizes) in each other, deepest at (" << deepest.position[0]
+          << ", " << deepest.position[1] << ", " << deepest.position[2] << "); allowed are "
+          << pair_.input->allowed_penetration.value << " facet sizes ('Allowed initial penetration')";
   throw InputError(message.str());
 }
 

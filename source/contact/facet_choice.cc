@@ -31,32 +31,31 @@ Tensor<1, 3> middle_of(const FacetCorners &corners) {
 class MeanPlane {
 public:
   MeanPlane(const FacetCorners &x, const Tensor<1, 3> &point)
-      : normal_(dealii::cross_product_3d(x[3] - x[0], x[2] - x[1])) {
-    const Tensor<1, 3> middle = middle_of(x);
-    arm_ = point - middle;
-    height_ = arm_ * normal_;
-    warp_ = 0.25 * std::abs((x[0] + x[3] - x[1] - x[2]) * normal_);
-    for (const auto &corner : x)
-      square_ = std::max(square_, (corner - middle).norm_square());
-  }
+      : corners_(x), middle_(middle_of(x)), arm_(point - middle_),
+        normal_(dealii::cross_product_3d(x[3] - x[0], x[2] - x[1])), height_(arm_ * normal_) {}
 
   /// The whole facet, and its surface continued by `tolerance` beyond the border, is behind the point.
   bool is_before(const double tolerance) const {
-    return height_ > warp_ * (1. + 2. * tolerance) * (1. + 2. * tolerance);
+    const double warp = 0.25 * std::abs((corners_[0] + corners_[3] - corners_[1] - corners_[2]) * normal_);
+    return height_ > warp * (1. + 2. * tolerance) * (1. + 2. * tolerance);
   }
   /// Neither above nor below the facet nor within `tolerance` of its border, wherever its normals point.
   bool is_aside(const double tolerance) const {
     const double square = normal_.norm_square();
     if (!(square > 0.))
       return true;
-    const double largest = (1. + 4. * tolerance) * std::sqrt(square_) + std::abs(height_) / std::sqrt(square);
+    double farthest = 0.; // corner, from the middle, squared
+    for (const auto &corner : corners_)
+      farthest = std::max(farthest, (corner - middle_).norm_square());
+    const double largest =
+        (1. + 4. * tolerance) * std::sqrt(farthest) + std::abs(height_) / std::sqrt(square);
     return arm_.norm_square() - height_ * height_ / square > largest * largest;
   }
 
 private:
-  Tensor<1, 3> arm_, normal_; ///< from the middle; of any length, 0 without area
-  double height_, warp_;      ///< of the point and of corners, times the length of the normal
-  double square_ = 0.;        ///< of the distance from the middle to the farthest corner
+  const FacetCorners &corners_;
+  Tensor<1, 3> middle_, arm_, normal_; ///< arm from the middle; the normal of any length, 0 without area
+  double height_;                      ///< of the point, times the length of the normal
 };
 
 /// The choice for one node. Each consider_ adds a facet to what is chosen from.
@@ -136,7 +135,8 @@ private:
   /// The facet, if the node is behind it, and not farther beyond its border than where it may be shared.
   TouchedFacet look_at(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
-    const MeanPlane plane(corners_of(search_.facets()[facet], positions_), x_);
+    const FacetCorners corners = corners_of(search_.facets()[facet], positions_);
+    const MeanPlane plane(corners, x_);
     if (plane.is_before(tolerance) || plane.is_aside(tolerance))
       return {};
     const TouchedFacet touched{facet, project(facet, tolerance, start)};
@@ -245,9 +245,6 @@ TouchedFacet find_facet_below(const FacetSearch &search, const std::size_t slave
     if (p.exists && p.gap >= 0. && (!nearest.exists() || p.gap < nearest.projection.gap))
       nearest = {facet, p};
   });
-  if (nearest.exists() && limits.largest_alignment < 1. &&
-      !(compute_node_normal(search, node, positions) * nearest.projection.normal < limits.largest_alignment))
-    return {};
   return nearest;
 }
 

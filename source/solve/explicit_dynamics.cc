@@ -85,8 +85,6 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   find_touched_nodes();
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
-    NodalVectors ignored_forces = nodes_.make_vectors(), ignored_bounds = ignored_forces;
-    body_contacts_.back()->add_forces(u_, 0., ignored_forces, ignored_bounds);
     body_contacts_.back()->check_overlap();
   }
   state_.body_pair_loads.resize(body_contacts_.size());

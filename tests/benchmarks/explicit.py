@@ -62,11 +62,10 @@ ONE = {"block": "47, 47, 46 : -0.235, -0.235, -0.23 : 0.235, 0.235, 0.23"}
 TWO = {"lower": "50, 50, 20 : -0.25, -0.25, -0.2 : 0.25, 0.25, 0",
        "upper": "50, 50, 20 : -0.25, -0.25, 0 : 0.25, 0.25, 0.2"}
 KERNELS = {"one point, hypoelastic": ("one point", "hypoelastic"),
-           "one point, Hencky": ("one point", "Hencky"),
            "8 points, hypoelastic": ("mean dilatation", "hypoelastic"),
            "8 points, neo-Hookean": ("mean dilatation", "neo-Hookean"),
            "8 points, Hencky": ("mean dilatation", "Hencky")}
-GOALS = {"AVX-512": (65, 65, 170, 190, 260), "AVX2": (85, 85, 220, 260, 370)}
+GOALS = {"AVX-512": (65, 170, 190, 260), "AVX2": (85, 220, 260, 370)}
 
 
 def measure(kernel, instructions, bodies, more=""):
@@ -96,6 +95,7 @@ def probe():
 
 
 SETS = ("AVX-512",) if options.quick else ("scalar", "SSE2", "AVX2", "AVX-512")
+SLOW = ("scalar", "SSE2")
 CONTACT_KERNELS = ("one point, hypoelastic", "8 points, Hencky")
 cases = {(kernel, instructions, name): [] for instructions in SETS for kernel in KERNELS for name in ("one",)}
 cases.update({(kernel, "automatic", name): [] for kernel in CONTACT_KERNELS for name in ("apart", "contact")})
@@ -107,6 +107,8 @@ for repetition in range(REPEAT):  # alternately, so that what else the machine d
         peaks.setdefault(name, []).append(value)
     loads.append(os.getloadavg()[0])
     for (kernel, instructions, name), times in cases.items():
+        if repetition > 0 and instructions in SLOW:
+            continue
         got = measure(kernel, instructions, ONE if name == "one" else TWO, CONTACT if name == "contact" else "")
         times += [got] if got else []
 
@@ -147,7 +149,7 @@ publish(
     "by its initial velocities, so that nearly all of it yields from the second step on; 40 to 50 steps, output off, "
     "one core. The stepping loop alone, as the program prints it at its end: forces, contact, energies, velocities, "
     "displacements, the choice of the step. Nanoseconds per element and step: by the clock / of processor time, "
-    f"each the median of {REPEAT}, and in brackets the least processor time. Scenes alternate, and before each round "
+    f"each the median of {REPEAT} (scalar and SSE2: one run), and in brackets the least processor time. Scenes alternate, and before each round "
     f"the machine was probed: triad {min(triads):.1f} to {max(triads):.1f} GB/s, median {statistics.median(triads):.1f}; "
     f"load average {min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores, so that other work shared core and cache.",
     table(["instructions", "peak GF/s"] + list(KERNELS), rows),

@@ -22,9 +22,8 @@ public:
   void add_forces(const NodalVectors &displacements, double duration, NodalVectors &forces,
                   NodalVectors &bounds);
 
-  /// After the first add_forces(): throws InputError, with the largest overlap and where it is, if the bodies
-  /// start deeper in each other than the scene allows. Nodes are found that are behind facets by no more than
-  /// the thickness of the elements there. Collective.
+  /// Throws InputError, with the largest overlap and where it is, if the undeformed bodies are deeper in each
+  /// other than the scene allows. Collective.
   void check_overlap() const;
 
   /// The state of the last add_forces() becomes the start of the next step.
@@ -41,7 +40,6 @@ public:
 
 private:
   void collect();
-  std::vector<std::uint64_t> node_keys() const;
   std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
 
   const BodyPair &pair_;
@@ -50,8 +48,6 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<SurfaceFacet> facets_;
   std::vector<double> areas_; ///< of the undeformed facets
-  std::vector<double> walls_; ///< thickness of the elements below them
-  FacetContactSettings settings_;
   std::unique_ptr<FacetContact> contact_;
   FacetContact::Positions positions_n_, positions_;
 };

@@ -59,8 +59,8 @@ TouchedFacet choose_facet(const FacetSearch &search, std::size_t slave,
                           const FacetSearch::Positions &positions_n, const FacetSearch::Positions &positions,
                           const TouchedFacet &last, const ContactLimits &limits);
 
-/// The candidate that a node which touches none is straight above, before, and faces; the nearest, as a
-/// plane. Its gap is >= 0.
+/// The candidate that a node which touches none is straight above and before; the nearest, as a plane. Its
+/// gap is >= 0.
 TouchedFacet find_facet_below(const FacetSearch &search, std::size_t slave,
                               const FacetSearch::Positions &positions, const ContactLimits &limits);
 

@@ -75,7 +75,7 @@ public:
     double plastic_work; ///< in this step: mean of both ends' yield stress times the plastic strain [energy]
     /// Dissipated by bulk viscosity in this step [energy]: ½ (q_{n−1} + q_n) ΔV, as the trapezoidal rule
     /// books all works. Where the rate has just changed its sign it can be negative for a step; the sum over
-    /// the steps is not, but for what that of the last one takes back.
+    /// equal steps from rest is not, if viscosity is linear.
     double viscous_work;
     double hourglass_energy; ///< stored by the stabilisation now [energy]
     double hourglass_work;   ///< dissipated by the stabilisation in this step, ≥ 0 [energy]

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_OVERLAP_H
+#define BILLET_CONTACT_OVERLAP_H
+
+#include "billet/discretization/discretization.h"
+
+#include <vector>
+
+namespace billet {
+
+/// How deep undeformed bodies are in each other.
+struct Overlap {
+  double depth = 0.; ///< largest distance of a node of one to the surface of the other, inside it [length]
+  dealii::Tensor<1, 3> position; ///< of that node
+};
+
+/// Looks for the nodes of one body's faces inside the elements of another, and how far they are from its
+/// faces. Collective; meant for the start only: ranks tell each other all of the first body's nodes.
+Overlap find_overlap(const Discretization &discretization, std::size_t body,
+                     const std::vector<unsigned int> &boundary_ids, std::size_t other_body,
+                     const std::vector<unsigned int> &other_boundary_ids);
+
+} // namespace billet
+
+#endif
