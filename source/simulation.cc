@@ -259,13 +259,16 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
     outputs.snapshots.write(problem);
     std::ostringstream message;
     message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
-            << " steps the energies fail to balance by " << 100. * problem.relative_drift()
-            << " % of the largest energy so far, allowed are "
-            << 100. * parameters.explicit_dynamics.largest_drift
-            << " % ('Largest drift'): try a smaller 'Safety factor', a softer penalty or more bulk "
-               "viscosity. What "
-               "was computed until then is in '"
-            << parameters.output.folder.value << "'.";
+            << " steps the energies ";
+    if (std::isfinite(problem.relative_drift()))
+      message << "fail to balance by " << 100. * problem.relative_drift()
+              << " % of the largest energy so far, allowed are "
+              << 100. * parameters.explicit_dynamics.largest_drift
+              << " % ('Largest drift'): try a smaller 'Safety factor', a softer penalty or more bulk "
+                 "viscosity";
+    else
+      message << "are not finite; a velocity, a load or a penalty may be too large for its units";
+    message << ". What was computed until then is in '" << parameters.output.folder.value << "'.";
     throw SolutionFailure(message.str());
   };
 
@@ -283,10 +286,11 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
     try {
       const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
       measure([&] { problem.prepare_step(event); });
-    } catch (const SolutionFailure &) { // nothing already computed is lost
+    } catch (const SolutionFailure &failure) { // nothing already computed is lost
       problem.update_state();
       outputs.snapshots.write(problem);
-      throw;
+      throw SolutionFailure(std::string(failure.what()) + ". What was computed until then is in '" +
+                            parameters.output.folder.value + "'.");
     }
     if (is_due) {
       put_out();

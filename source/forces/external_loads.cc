@@ -2,6 +2,7 @@
 #include "billet/forces/external_loads.h"
 
 #include "billet/discretization/boundary_facets.h"
+#include "billet/errors.h"
 
 #include <algorithm>
 
@@ -61,6 +62,14 @@ ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::v
         add_resistances(load, b);
         break;
       }
+  // An expression without a value shows before anything is written.
+  fail_together(nodes.discretization().communicator(), [&] {
+    check_before_start([&] {
+      const NodalVectors at_rest = nodes.make_vectors();
+      NodalVectors forces = at_rest;
+      add_forces(0., at_rest, at_rest, forces);
+    });
+  });
 }
 
 void ExternalLoads::add_resistances(const Load &load, const std::size_t body) {

@@ -7,6 +7,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
@@ -104,17 +105,56 @@ void check_amplitude_name(const std::string &name, const std::string &file_name)
                      "first a letter, and not x, y, z, t, pi");
 }
 
-/// A face that met one tool in two pairs would be pushed back twice.
+/// Faces of a body that a contact pair names.
+struct Side {
+  const std::string &body;
+  const std::vector<unsigned int> &ids;
+
+  /// An id that the other has, too; none: the largest number.
+  unsigned int common_id(const Side &other) const {
+    if (body == other.body)
+      for (const unsigned int id : ids)
+        if (std::count(other.ids.begin(), other.ids.end(), id) > 0)
+          return id;
+    return no_id;
+  }
+  static constexpr unsigned int no_id = static_cast<unsigned int>(-1);
+};
+
+/// Both sides of a pair of bodies: the same one twice where faces touch among themselves.
+std::array<Side, 2> sides_of(const ContactPair &pair) {
+  const Side first{pair.body.value, pair.boundary_ids.value};
+  return {first, pair.second_boundary_ids.value.empty()
+                     ? first
+                     : Side{pair.second_body.value, pair.second_boundary_ids.value}};
+}
+
+/// An id of the second pair's faces that meet what they meet in the first pair already.
+unsigned int repeated_id(const ContactPair &first, const ContactPair &second) {
+  if (first.is_between_bodies() != second.is_between_bodies())
+    return Side::no_id;
+  const std::array<Side, 2> those = sides_of(first), these = sides_of(second);
+  if (!first.is_between_bodies())
+    return first.tool.value == second.tool.value ? these[0].common_id(those[0]) : Side::no_id;
+  for (const unsigned int turned : {0U, 1U})
+    if (these[1].common_id(those[1 - turned]) != Side::no_id) {
+      const unsigned int id = these[0].common_id(those[turned]);
+      if (id != Side::no_id)
+        return id;
+    }
+  return Side::no_id;
+}
+
+/// A face that met a tool, or another face, in two pairs would be pushed back twice.
 void check_twice(const std::vector<ContactPair> &pairs) {
   for (auto second = pairs.begin(); second != pairs.end(); ++second)
-    for (auto first = pairs.begin(); first != second; ++first)
-      if (!second->is_between_bodies() && first->body.value == second->body.value &&
-          first->tool.value == second->tool.value)
-        for (const auto id : second->boundary_ids.value)
-          if (std::count(first->boundary_ids.value.begin(), first->boundary_ids.value.end(), id) > 0)
-            throw InputError(second->boundary_ids.origin + ": found boundary id " + std::to_string(id) +
-                             ", allowed are others: pair '" + first->name +
-                             "' already has it against the same tool");
+    for (auto first = pairs.begin(); first != second; ++first) {
+      const unsigned int id = repeated_id(*first, *second);
+      if (id != Side::no_id)
+        throw InputError(second->boundary_ids.origin + ": found boundary id " + std::to_string(id) +
+                         ", allowed are others: pair '" + first->name + "' already has it against the same " +
+                         (first->is_between_bodies() ? "faces" : "tool"));
+    }
 }
 
 /// What only one of the schemes knows is refused in scenes of the other: a forgotten switch is the usual
@@ -172,13 +212,20 @@ private:
       refuse_entry(path, entry->key);
   }
   [[noreturn]] void refuse_entry(const SceneFile::Path &path, const std::string &key) const {
-    throw InputError(file_.where(path, key) + ": '" + key + "': found '" + file_.value(path, key, "") +
-                     "', allowed is no value: 'Scheme' in 'Time stepping' is " +
+    throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + ": found '" +
+                     file_.value(path, key, "") + "', allowed is no value: 'Scheme' in 'Time stepping' is " +
                      (scene_.is_explicit() ? "explicit" : "quasi-static"));
+  }
+  static std::string in(const SceneFile::Path &path) {
+    std::string names;
+    for (const auto &name : path)
+      names += (names.empty() ? " in '" : " / ") + name;
+    return names + "'";
   }
   void require(const bool is_there, const SceneFile::Path &path, const std::string &key) const {
     if (!is_there)
-      throw InputError(file_.where(path, key) + ": '" + key + "': found '" + file_.value(path, key, "0") +
+      throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + ": found '" +
+                       file_.value(path, key, "0") +
                        "', allowed is a number > 0, since the scheme is explicit");
   }
 

@@ -235,6 +235,16 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "A body that starts deeper than this inside the tool is refused. [facet sizes]");
 }
 
+namespace {
+
+void refuse_twice(const Reader &reader, const std::string &key, const std::vector<unsigned int> &ids) {
+  for (auto id = ids.begin(); id != ids.end(); ++id)
+    if (std::find(ids.begin(), id, *id) != id)
+      reader.reject(key, "each boundary id once; " + std::to_string(*id) + " is there twice");
+}
+
+} // namespace
+
 void ContactPair::parse(Reader &reader) {
   origin = reader.origin();
   body = reader.located("Body", reader.text("Body"));
@@ -242,6 +252,7 @@ void ContactPair::parse(Reader &reader) {
   boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
   if (boundary_ids.value.empty())
     reader.reject("Boundary ids", "at least one boundary id");
+  refuse_twice(reader, "Boundary ids", boundary_ids.value);
   parse_friction(reader);
   penalty_unit = reader.text("Penalty unit") == "factor" ? PenaltyUnit::factor : PenaltyUnit::absolute;
   normal_penalty = reader.positive("Normal penalty");
@@ -266,6 +277,7 @@ void ContactPair::parse_bodies(Reader &reader) {
     reader.reject(tool.value.empty() ? "Tool" : "Second body",
                   "either a 'Tool' or a 'Second body' for each pair");
   second_boundary_ids = reader.located("Second boundary ids", reader.counts("Second boundary ids"));
+  refuse_twice(reader, "Second boundary ids", second_boundary_ids.value);
   if (!is_between_bodies())
     for (const std::string key :
          {"Second boundary ids", "Facets", "Passes", "Edges", "Penalty of", "Search margin"})

@@ -3,7 +3,7 @@
 # Usage: bad_input.pl TABLE COMMAND...      in an empty current folder; COMMAND is billet, or mpirun ... billet
 #
 # Each line of TABLE is a scene that billet must refuse:    EDIT -> MESSAGE
-# EDIT of block.prm: see edit_scene.pl. MESSAGE: all that is printed, where '...' stands for anything, '@' for the file
+# EDIT of block.prm, or of the file that a line 'scene FILE' names: see edit_scene.pl. MESSAGE: all that is printed, where '...' stands for anything, '@' for the file
 # and the line of the last edit, '@{name}' for those of that subsection. 'allowed ...' alone stands for
 # "@: 'Key' in 'Path': found 'value', allowed ...". After NAME := EDIT, NAME at the start of a line stands for EDIT.
 # '#' begins a comment.
@@ -23,17 +23,18 @@ my $runs_all = basename($table) =~ /^run_/;
 
 enter_folder();
 mkdir 'no_history' and mkdir 'no_history/history.csv'; # a folder where a file should be
-my $base = read_text("$here/block.prm");
+my $base_name = read_text($table) =~ /^scene (\S+)$/m ? $1 : 'block.prm';
+my $base = read_text("$here/$base_name");
 write_text('scene.prm', $base);
 my ($code, undef, $errors) = run($command[-1], 'scene.prm');
-die "block.prm itself fails ($code): $errors\n" if $code;
+die "$base_name itself fails ($code): $errors\n" if $code;
 
 # --- the table -----------------------------------------------------------------------------------------------------
 
 my (@cases, %short); # of each case: its name, its file, the message and its pattern
 for (split /\n/, read_text($table))
 {
-  next if /^\s*(#|$)/;
+  next if /^\s*(#|$)|^scene \S+$/;
   if (/^(\w+) := (.*)/)
   {
     $short{$1} = $2;

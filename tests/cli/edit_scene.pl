@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# What bad_input.pl and runs.pl share: scenes that differ from block.prm by an edit, runs with a time limit, and pictures
+# What bad_input.pl and runs.pl share: scenes that differ from a base by an edit, runs with a time limit, and pictures
 # of a folder. An edit is one or more of these, joined by ' & ':
 #
-#   Section: Key = value    sets the parameter in the subsection of that (last) name; without 'Section:' at the top level
+#   Section: Key = value    sets the parameter in the subsection of that (last) name; without 'Section:' at the top level.
+#                           Where the last name is not the only one of its kind: Body / Section
 #   Section: - Key          takes its line away
 #   Section: + text         adds lines (\n between them) at the subsection's start, at the top level at the file's end
 #   Section: delete         takes the subsection away
@@ -58,8 +59,9 @@ sub line_of
 {
   my ($text, $section) = @_;
   my @lines = split /\n/, $text;
-  my @found = grep { $lines[$_ - 1] =~ /^\s*subsection\s+\Q$section\E\s*$/ } 1 .. @lines;
-  die "block.prm has not one, but " . @found . " subsections '$section'\n" unless @found == 1;
+  my @paths = map { join ' / ', @$_ } paths(@lines);
+  my @found = grep { $lines[$_ - 1] =~ /^\s*subsection\s/ && "/ $paths[$_ - 1]" =~ m{/ \Q$section\E$} } 1 .. @lines;
+  die "the scene has not one, but " . @found . " subsections '$section'\n" unless @found == 1;
   return $found[0];
 }
 
@@ -70,7 +72,7 @@ sub edit
   my ($line, $path, $key, $value);
   for my $edit (split / & /, $edits)
   {
-    my ($section, $change) = $edit =~ /^([\w ]+): (.*)$/s ? ($1, $2) : ('', $edit);
+    my ($section, $change) = $edit =~ m{^([\w /]+): (.*)$}s ? ($1, $2) : ('', $edit);
     my @lines = split /\n/, $text;
     my @paths = map { join ' / ', @$_ } paths(@lines);
     my $begin = $section ? line_of($text, $section) : 0; # index of the first line in the section

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Usage: runs.pl BILLET [LAUNCHER...]      in an empty current folder; LAUNCHER is mpirun with its option -n
 #
-# Scenes that billet must run, and some that it must give up. Each is block.prm with an edit (edit_scene.pl); 'same' ones
+# Scenes that billet must run, and some that it must give up. Each is block.prm, or impact.prm where they are explicit, with
+# an edit (edit_scene.pl); 'same' ones
 # must come out as block.prm does, whatever way they say it.
 use strict;
 use warnings;
@@ -15,6 +16,7 @@ require "$here/edit_scene.pl";
 
 my ($billet, @launcher) = @ARGV;
 my $base = read_text("$here/block.prm");
+my $impact = read_text("$here/impact.prm");
 my $no_mesh = 'Mesh: - Primitive & Mesh: - Arguments & Mesh: - Boundary ids & Mesh: Source = file & Mesh: File = ';
 my $fixed = 'Time stepping: Step control = fixed & Time stepping: - Largest step';
 my $no_law = 'Material: - Yield stress & Material: - Hardening modulus & Material: Hardening = ';
@@ -91,7 +93,7 @@ sub billet
 {
   my ($edits, %how) = @_;
   my $folder = 'r' . ++$n_runs;
-  my ($scene) = edit($base, "Output: Folder = $folder" . ($edits && " & $edits"));
+  my ($scene) = edit($how{base} // $base, "Output: Folder = $folder" . ($edits && " & $edits"));
   $scene = $how{rewrite}->($scene) if $how{rewrite};
   my $file = $how{file} // 'scene.prm';
   write_text($file, $scene);
@@ -320,6 +322,26 @@ check 'a die that is nowhere for a moment', sub {
   return near('last time', last_of($folder, 'time'), 0.2)
     || ($complained =~ /'Translation' in 'Tools \/ die \/ Motion': .* at time 0.3/ ? '' : "says $complained");
 };
+
+my $until_then = qr/What was computed until then is in 'r\d+'\.\n$/;
+check "$_->[0], on $_->[1] ranks", sub {
+  my (undef, $ranks, $edits, $message, $pictures) = @$_;
+  my $folder = billet($edits, base => $impact, ranks => $ranks, code => 3);
+  my $times = pictured("$folder/scene.pvd");
+  return "says $complained" unless $complained =~ /^billet: scene\.prm: at time $message.*$until_then/s;
+  return "pictures at $times" unless split(/ /, $times) == $pictures;
+  return -s "$folder/history.csv" ? '' : 'no history';
+} for (map { my $ranks = $_;
+  ['an element that is blown inside out', $ranks, 'push: Pressure = if(t > 1e-4, 1e6, 0)',
+   qr/0\.0001\d* after \d+ steps an element of body 'block' at \([-\d.e]+ [-\d.e]+ [-\d.e]+\) is inside out/, 2],
+  ['a motion without bounds', $ranks, 'block: Initial velocity = 0 ; 0 ; 1e200',
+   qr/0 after 0 steps the energies are not finite; /, 1],
+  ['a pressure that is not a number', $ranks, 'push: Pressure = if(t > 1e-4, log(-t), 0)', qr/0\.0001/, 2],
+  ['energies that do not balance', $ranks, 'Explicit dynamics: Largest drift = 1e-9',
+   qr/[-\d.e]+ after \d+ steps the energies fail to balance by [-\d.e]+ % .* allowed are 1e-07 % \('Largest drift'\): try /, 2]
+} 1, 2),
+  ['a step too short for the clock', 1, 'block / Material: Density = 1e-300',
+   qr/0 after 0 steps the stable step, [\d.e-]+, is too short for the clock: .*'Mass scaling step' makes it longer/, 1];
 
 # --- --check -------------------------------------------------------------------------------------------------------
 

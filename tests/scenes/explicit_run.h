@@ -16,8 +16,8 @@ namespace billet::testing {
 /// An explicit scene that runs in memory, without output, its parameters changed at will before that.
 class ExplicitRun {
 public:
-  explicit ExplicitRun(const parameters::Scene &parameters)
-      : scene(parameters), discretization(scene, MPI_COMM_WORLD), problem(scene, discretization) {}
+  explicit ExplicitRun(const parameters::Scene &parameters, const MPI_Comm communicator = MPI_COMM_WORLD)
+      : scene(parameters), discretization(scene, communicator), problem(scene, discretization) {}
 
   /// Runs to the end time, and calls look() at the start, at every multiple of `interval` and at the end,
   /// with the state up to date.
@@ -57,7 +57,7 @@ inline dealii::Tensor<1, 3> mean_of_body(const ExplicitRun &run, const Vector &f
         sums[i] += field(element.dofs[3 * a + i]);
       sums[3] += 1.;
     }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, run.discretization.communicator());
   return dealii::Tensor<1, 3>({sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]});
 }
 
