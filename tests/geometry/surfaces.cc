@@ -47,6 +47,15 @@ int main() {
       c, 3.);
   check_surface("disc", *make_surface("disc", at + "set Normal = 1, 2, 2\nset Radius = 4"), c, 4.);
   check_surface("ring", *make_surface("disc", at + "set Radius = 4\nset Inner radius = 1"), c, 4.);
+  const auto slice = make_surface(
+      "disc", at + "set Normal = 0, 0, 1\nset Radius = 4\nset Start = 0, 1, 0\nset Sector = 100");
+  check_surface("sector of a disc", *slice, c, 4.);
+  check_gap("sector of a disc, above it", *slice, c + Tensor<1, 3>({-2., 0.1, 0.7}), 0.7);
+  check("sector of a disc: not beside it", !slice->project(c + Tensor<1, 3>({2., 0.1, 0.7})).exists);
+  check_surface("sector of a ring",
+                *make_surface("disc", at + "set Normal = 1, 2, 2\n"
+                                           "set Radius = 4\nset Inner radius = 1\nset Sector = 290"),
+                c, 4.);
 
   const auto sphere = make_surface("sphere", at + "set Radius = 2");
   check_surface("sphere", *sphere, c, 4.);
@@ -112,6 +121,21 @@ int main() {
                               "set Corners = -4, 2 ; -1, 2 : 0.7 ; -1, 0 : 0.5 ; 1, 0 ; via 2, 1 "
                               "to 3, 0 : 0.2 ; 5, 0\nset Axis = 0, 1, 0\nset Length = 6"),
                 origin, 5.);
+
+  const auto extruded_arc = make_surface(
+      "extruded profile", "set Outside = right\nset Corners = -2, 0 ; via 0, -2 to 2, 0\nset Axis = 0, 0, 1");
+  check_gap("axis of an extruded arc", *extruded_arc, Tensor<1, 3>({0., 0., 3.}), -2.);
+  check_turning("axis of an extruded arc", *extruded_arc, Tensor<1, 3>({0., 0., 3.}));
+
+  // A sector of the die, against the whole and against the torus that its fillet is.
+  const auto part = make_surface(
+      "revolved profile", "set Corners = 5, -4 ; 5, 0 : 2 ; 12, 0\nset Start = 0, 1, 0\nset Sector = 90");
+  check_surface("sector of a revolved profile", *part, Tensor<1, 3>({-4., 4., 0.}), 8.);
+  check("sector of a revolved profile: not beside it", !part->project(Tensor<1, 3>({6., 6., 1.})).exists);
+  check("... but above it",
+        std::abs(part->project(Tensor<1, 3>({-6., 6., 1.})).gap -
+                 die->project(Tensor<1, 3>({-6., 6., 1.})).gap),
+        1e-13);
 
   // The same surface, described in two ways.
   Random random;
