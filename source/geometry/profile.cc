@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/profile.h"
 
+#include "billet/geometry/surface_patch.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -129,7 +131,7 @@ Profile::Closest Profile::at_joint(const Point &x, const Point &joint, const Poi
   const bool is_smooth = std::abs(cross(first_normal, second_normal)) <= 1e-9;
   if (is_smooth || distance <= on_the_end * size_) {
     const double gap = arm * normal;
-    return {joint, normal, gap, curvature / (1. + curvature * gap), false};
+    return {joint, normal, gap, turned(curvature, gap), false};
   }
   const double gap = arm * normal < 0. ? -distance : distance;
   return {joint, arm / gap, gap, 1. / gap, false};
@@ -164,7 +166,7 @@ Profile::Closest Profile::closest_point(const Point &x) const {
       segment.is_arc ? (normal * (best_position - segment.centre) > 0. ? 1. : -1.) / segment.radius : 0.;
   const Point arm = x - best_position;
   const double gap = arm * normal;
-  const Closest straight_above = {best_position, normal, gap, curvature / (1. + curvature * gap), false};
+  const Closest straight_above = {best_position, normal, gap, turned(curvature, gap), false};
   if (best_end == 0)
     return straight_above;
 

@@ -151,6 +151,8 @@ void check_closed_forms() {
   check("it is projected upon as the cylinder is", n > 200 ? projections.value() : 1., 1e-11);
   check("on the cylinder's axis, where many points are nearest",
         std::abs(drawn->project(Point({0., 0., 1.3})).gap + 2.), 1e-13);
+  check("... no normal is the one, and it does not turn", drawn->project(Point({0., 0., 1.3})).turning.norm(),
+        1e-12);
 }
 
 void check_derivatives(const Example &example) {

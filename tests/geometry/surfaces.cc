@@ -31,6 +31,12 @@ void check_gap(const std::string &name, const RigidSurface &surface, const Tenso
   check(name, p.exists ? std::abs(p.gap - gap) + std::abs(p.normal.norm() - 1.) : 1., 1e-12);
 }
 
+/// Where many points are as near: the normal turns with x only in the directions in which it does so around.
+void check_turning(const std::string &name, const RigidSurface &surface, const Tensor<1, 3> &x,
+                   const Tensor<2, 3> &expected = {}) {
+  check(name + ": how the normal turns", (surface.project(x).turning - expected).norm(), 1e-12);
+}
+
 } // namespace
 
 int main() {
@@ -68,6 +74,7 @@ int main() {
   check_surface("cap", *make_surface("sphere", at + about + "set Radius = 2\nset To latitude = -20"), c, 3.);
   check_curvatures("sphere: curvature 1/R", *sphere, {}, {0.5, 0.5});
   check_gap("centre of a sphere", *sphere, c, -2.);
+  check_turning("centre of a sphere", *sphere, c);
 
   const auto cylinder = make_surface("cylinder", "set Point = 1, -2, 0.5\n" + about + "set Radius = 2");
   check_surface("cylinder", *cylinder, c, 4.);
@@ -78,6 +85,7 @@ int main() {
       c, 4.);
   check_curvatures("cylinder: curvatures 0, 1/R", *cylinder, {}, {0., 0.5});
   check_gap("axis of a cylinder", *cylinder, c, -2.);
+  check_turning("axis of a cylinder", *cylinder, c);
 
   const auto cone =
       make_surface("cone", "set Apex = 1, -2, 0.5\n" + about + "set Half angle = 30\nset To height = 6");
@@ -102,6 +110,9 @@ int main() {
   check_gap("axis of a torus", *torus, c + 4. * axis, 4.);
   const auto upright = make_surface("torus", "set Ring radius = 3\nset Tube radius = 1");
   check_gap("in the middle of the tube", *upright, Tensor<1, 3>({3., 0., 0.}), -1.);
+  Tensor<2, 3> around; // the ring, seen from outside or inside
+  around[1][1] = upright->project(Tensor<1, 3>({3., 0., 0.})).normal[0] / 3.;
+  check_turning("in the middle of the tube", *upright, Tensor<1, 3>({3., 0., 0.}), around);
   check_curvatures("torus, outer equator", *upright, Tensor<1, 3>({5., 0., 0.}), {0.25, 1.});
   check_curvatures("torus, inner equator", *upright, Tensor<1, 3>({1., 0., 0.}), {-0.5, 1.});
   check_curvatures("torus, top", *upright, Tensor<1, 3>({3., 0., 2.}), {0., 1.});
