@@ -163,7 +163,12 @@ void run_quasi_static(const Scene &scene, const Discretization &discretization) 
   while (!control.is_finished()) {
     const double from = control.time(), to = control.next_time();
     report.length = to - from;
-    report.newton = problem.step(to, continued);
+    try {
+      report.newton = problem.step(to, continued);
+    } catch (const SolutionFailure &) { // nothing already computed is lost
+      outputs.snapshots.write(problem);
+      throw;
+    }
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
     if (report.newton.converged) {
       control.accept(static_cast<unsigned int>(report.newton.iterations.size()));

@@ -440,6 +440,13 @@ double RigidContact::distance_to_touch(const Tensor<1, 3> &direction) const {
   return least;
 }
 
+void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
+  for (const auto &state : states_)
+    if (state.status != ContactStatus::open)
+      add_contact(state.position, state.normal, tool_.control() == Tool::Control::force, pair_.has_friction(),
+                  resistances);
+}
+
 void RigidContact::commit() {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].gap_n = states_[i].gap;

@@ -327,12 +327,18 @@ Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const Point &normal, const do
   const double b_uu = normal * jet.uu, b_uv = normal * jet.uv, b_vv = normal * jet.vv;
   const double w_ee = -a * a * b_uu, w_ef = -a * (b * b_uu + c * b_uv),
                w_ff = -(b * b * b_uu + 2. * b * c * b_uv + c * c * b_vv);
-  // W (I + gap W)⁻¹ = (W + gap det W I)/det(I + gap W)
-  const double determinant = w_ee * w_ff - w_ef * w_ef;
-  const double scale = 1. / (1. + gap * (w_ee + w_ff) + gap * gap * determinant);
-  return scale * ((w_ee + gap * determinant) * dealii::outer_product(e, e) +
-                  (w_ff + gap * determinant) * dealii::outer_product(f, f) +
-                  w_ef * (dealii::outer_product(e, f) + dealii::outer_product(f, e)));
+  // W = mean I + D with D² = half² I and principal curvatures mean ± half, so W (I + gap W)⁻¹ is of that
+  // form, too: the half sum of the turned curvatures, and D times their difference over that of the
+  // curvatures.
+  const double mean = 0.5 * (w_ee + w_ff), half = std::hypot(0.5 * (w_ee - w_ff), w_ef);
+  const double high = turned(mean + half, gap), low = turned(mean - half, gap);
+  const double part_high = 1. + gap * (mean + half), part_low = 1. + gap * (mean - half);
+  // Their difference is 2 half/((1 + κ_high gap)(1 + κ_low gap)), but in a centre of curvature.
+  const bool is_centre = high == 0. || low == 0.;
+  const double ratio = !is_centre ? 1. / (part_high * part_low) : half > 0. ? 0.5 * (high - low) / half : 0.;
+  const double sum = 0.5 * (high + low), across = ratio * 0.5 * (w_ee - w_ff);
+  return (sum + across) * dealii::outer_product(e, e) + (sum - across) * dealii::outer_product(f, f) +
+         ratio * w_ef * (dealii::outer_product(e, f) + dealii::outer_product(f, e));
 }
 
 ClosestPoint CoonsPatch::closest_point(const Point &x) const {

@@ -2,6 +2,8 @@
 // The patch and its cells; coons_closest_point.cc searches them.
 #include "billet/geometry/coons_patch.h"
 
+#include "billet/geometry/self_crossing.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -18,7 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double meeting = 1e-8; // parts of the patch's size: curves nearer than this meet
 // What a cell turns at most, in radians: Newton's method is safe from its middle, and its box is tight.
 constexpr double cell_angle = 0.2;
-constexpr unsigned int facets_per_cell = 2; // of the picture and of the search for folds, along a side
+constexpr unsigned int facets_per_cell =
+    2; // of the picture and of the search for folds and crossings, along a side
 
 double size_of(const std::array<CurveSketch, 4> &round) {
   double size = 0.;
@@ -75,6 +78,7 @@ CoonsPatch::CoonsPatch(const std::array<CurveSketch, 4> &round) : size_(size_of(
   measure();
   make_cells();
   refuse_folds();
+  refuse_crossings();
 }
 
 CoonsPatch::Jet CoonsPatch::at(const double u, const double v) const {
@@ -199,6 +203,36 @@ void CoonsPatch::refuse_folds() const {
     }
     std::swap(row, row_before);
   }
+}
+
+void CoonsPatch::refuse_crossings() const {
+  const unsigned int n_u = facets_per_cell * n_u_, n_v = facets_per_cell * n_v_;
+  // Not in equal steps: the corners of two sheets that cross symmetrically would meet where none pierces the
+  // other.
+  const auto parameter = [](const unsigned int i, const unsigned int n) {
+    const double t = i / static_cast<double>(n);
+    return t + 0.1 * t * (1. - t);
+  };
+  std::vector<Point> points;
+  std::vector<std::array<unsigned int, 3>> triangles;
+  for (unsigned int i = 0; i <= n_u; ++i)
+    for (unsigned int j = 0; j <= n_v; ++j)
+      points.push_back(at(parameter(i, n_u), parameter(j, n_v)).position);
+  // All points of a side that has shrunk to one are its first.
+  const auto corner = [&](unsigned int i, unsigned int j) {
+    if ((j == 0 && is_pole_[0]) || (j == n_v && is_pole_[2]))
+      i = 0;
+    if ((i == 0 && is_pole_[3]) || (i == n_u && is_pole_[1]))
+      j = 0;
+    return i * (n_v + 1) + j;
+  };
+  for (unsigned int i = 0; i < n_u; ++i)
+    for (unsigned int j = 0; j < n_v; ++j) {
+      triangles.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+      triangles.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+    }
+  if (const auto where = find_self_crossing(points, triangles))
+    throw std::invalid_argument("the patch crosses itself near " + print(*where));
 }
 
 void CoonsPatch::draw(const PictureRegion &, SurfacePicture &picture) const {

@@ -2,7 +2,7 @@
 #include "billet/geometry/plane.h"
 
 #include "billet/geometry/frame.h"
-#include "billet/geometry/surface_type.h"
+#include "billet/geometry/sector.h"
 #include "billet/geometry/swept_profile.h"
 
 #include <array>
@@ -78,18 +78,18 @@ SurfaceType rectangle_type() {
 }
 
 SurfaceType disc_type() {
-  return {"disc",
-          "A disc, or a ring.",
-          {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
-           normal_parameter,
-           {"Radius", "1", Kind::number, "> 0, its size. [length]"},
-           {"Inner radius", "0", Kind::number, ">= 0; of the hole. [length]"}},
+  return {"disc", "A disc or a ring, or a sector of one.",
+          with_sector({{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
+                       {"Normal", "0, 0, 1", Kind::text,
+                        "Normal out of the tool, towards the bodies; the axis that a sector goes round."},
+                       {"Radius", "1", Kind::number, "> 0, its size. [length]"},
+                       {"Inner radius", "0", Kind::number, ">= 0; of the hole. [length]"}}),
           [](const SurfaceInput &input) {
             const double radius = input.positive("Radius"), inner = input.not_negative("Inner radius");
             if (inner >= radius)
               input.reject("Inner radius", "a number below the radius");
-            return single_patch<RevolvedProfile>(flat_profile(inner, radius, inner == 0.),
-                                                 Axes(input.vector("Centre"), input.direction("Normal")));
+            return revolve(input, flat_profile(inner, radius, inner == 0.), input.vector("Centre"),
+                           input.direction("Normal"));
           }};
 }
 

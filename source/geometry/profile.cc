@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/profile.h"
 
+#include "billet/geometry/surface_patch.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -129,7 +131,7 @@ Profile::Closest Profile::at_joint(const Point &x, const Point &joint, const Poi
   const bool is_smooth = std::abs(cross(first_normal, second_normal)) <= 1e-9;
   if (is_smooth || distance <= on_the_end * size_) {
     const double gap = arm * normal;
-    return {joint, normal, gap, curvature / (1. + curvature * gap), false};
+    return {joint, normal, gap, turned(curvature, gap), false};
   }
   const double gap = arm * normal < 0. ? -distance : distance;
   return {joint, arm / gap, gap, 1. / gap, false};
@@ -164,7 +166,7 @@ Profile::Closest Profile::closest_point(const Point &x) const {
       segment.is_arc ? (normal * (best_position - segment.centre) > 0. ? 1. : -1.) / segment.radius : 0.;
   const Point arm = x - best_position;
   const double gap = arm * normal;
-  const Closest straight_above = {best_position, normal, gap, curvature / (1. + curvature * gap), false};
+  const Closest straight_above = {best_position, normal, gap, turned(curvature, gap), false};
   if (best_end == 0)
     return straight_above;
 
@@ -320,15 +322,37 @@ Segment round_off(Segment &before, Segment &after, const double radius) {
   return best;
 }
 
-/// Chords of the segments, which must not cross each other but where they follow each other.
+/// Distance from x to the nearest point between a and b.
+double distance_to(const Point &x, const Point &a, const Point &b) {
+  const Point along = b - a;
+  const double part = std::clamp((x - a) * along / along.norm_square(), 0., 1.);
+  return (x - a - part * along).norm();
+}
+
+/// Chords of the segments, which must meet each other only where they follow each other, and not turn back
+/// there.
 void check_crossings(const std::vector<Segment> &segments) {
-  std::vector<Point> points = Profile(segments, Profile::Outside::left).polyline(M_PI / 60., Point(), 0.);
+  const Profile profile(segments, Profile::Outside::left);
+  const std::vector<Point> points = profile.polyline(M_PI / 60., Point(), 0.);
+  const double tolerance = meeting * profile.size();
+  const std::size_t n = points.size() - 1; // chords
+  const bool is_loop = (points.back() - points.front()).norm() <= tolerance;
   const auto side = [](const Point &a, const Point &b, const Point &c) { return cross(b - a, c - a); };
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
-    for (std::size_t j = i + 2; j + 1 < points.size(); ++j) {
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
       const Point &a = points[i], &b = points[i + 1], &c = points[j], &d = points[j + 1];
+      const bool follows = j == i + 1, closes = is_loop && i == 0 && j + 1 == n;
+      if (follows || closes) {
+        const Point first = follows ? b - a : d - c, second = follows ? d - c : b - a;
+        if (first * second < 0. && std::abs(cross(first, second)) <= 1e-9 * first.norm() * second.norm())
+          throw std::invalid_argument("it folds back on itself at " + print(follows ? b : a));
+        continue;
+      }
       if (side(a, b, c) * side(a, b, d) < 0. && side(c, d, a) * side(c, d, b) < 0.)
         throw std::invalid_argument("it crosses itself near " + print(0.5 * (a + b)));
+      if (std::min({distance_to(a, c, d), distance_to(b, c, d), distance_to(c, a, b),
+                    distance_to(d, a, b)}) <= tolerance)
+        throw std::invalid_argument("it touches itself near " + print(0.5 * (a + b)));
     }
 }
 
@@ -343,10 +367,19 @@ std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners)
   std::vector<Segment> legs;
   for (std::size_t i = 1; i < corners.size(); ++i) {
     const Point &start = corners[i - 1].position, &end = corners[i].position;
-    const bool goes_round = corners[i].has_via;
     if ((end - start).norm() <= meeting * size)
       throw std::invalid_argument("two points coincide at " + print(end));
-    legs.push_back(goes_round ? Segment::arc_through(start, corners[i].via, end) : Segment::line(start, end));
+    if (corners[i].has_via) {
+      // In line, between the ends, it is a flat arc, a line; elsewhere there is no arc.
+      const Point along = end - start;
+      const double part = (corners[i].via - start) * along / along.norm_square();
+      legs.push_back(Segment::arc_through(start, corners[i].via, end));
+      if (!legs.back().is_arc && !(part > meeting && part < 1. - meeting))
+        throw std::invalid_argument("no arc leads to " + print(end) + " via " + print(corners[i].via) +
+                                    ", which is in line with its ends, but not between them");
+      continue;
+    }
+    legs.push_back(Segment::line(start, end));
   }
   std::vector<Segment> segments{legs.front()};
   for (std::size_t i = 1; i < legs.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Profiles of lines and arcs as a user draws them, revolved or extruded.
-#include "billet/geometry/surface_type.h"
+#include "billet/geometry/sector.h"
 #include "billet/geometry/swept_profile.h"
 
 #include <cmath>
@@ -85,12 +85,12 @@ Profile::Outside read_outside(const SurfaceInput &input) {
 
 SurfaceType revolved_profile_type() {
   return {"revolved profile",
-          "Lines and arcs in a plane through an axis, revolved about it.",
-          {{"Corners", "", Kind::text,
-            corners_meaning + "x: distance from the axis, >= 0; y: along it. [length]"},
-           outside_parameter,
-           {"Origin", "0, 0, 0", Kind::text, "The point of the axis where y = 0. [length]"},
-           {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}},
+          "Lines and arcs in a plane through an axis, revolved about it, all around or over a sector.",
+          with_sector({{"Corners", "", Kind::text,
+                        corners_meaning + "x: distance from the axis, >= 0; y: along it. [length]"},
+                       outside_parameter,
+                       {"Origin", "0, 0, 0", Kind::text, "The point of the axis where y = 0. [length]"},
+                       {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
           [](const SurfaceInput &input) {
             const auto segments = read_segments(input);
             const Profile profile(segments, read_outside(input));
@@ -99,8 +99,7 @@ SurfaceType revolved_profile_type() {
               input.reject("Corners", "a profile on one side of the axis, x >= 0");
             const Profile closed(segments, read_outside(input), std::abs(segments.front().start[0]) <= tiny,
                                  std::abs(segments.back().end[0]) <= tiny);
-            return single_patch<RevolvedProfile>(closed,
-                                                 Axes(input.vector("Origin"), input.direction("Axis")));
+            return revolve(input, closed, input.vector("Origin"), input.direction("Axis"));
           }};
 }
 

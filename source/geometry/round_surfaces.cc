@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Sphere, cylinder, cone and torus: profiles of one arc or one line, revolved. Trimmed along the profile and
 // around the axis.
-#include "billet/geometry/surface_type.h"
-#include "billet/geometry/swept_profile.h"
+#include "billet/geometry/sector.h"
 
 #include <cmath>
 
@@ -17,13 +16,8 @@ using Segment = Profile::Segment;
 constexpr double degree = M_PI / 180.;
 
 const SurfaceParameter axis_parameter{"Axis", "0, 0, 1", Kind::text, "Direction of the axis of revolution."};
-const std::vector<SurfaceParameter> sector_parameters{
-    {"Start", "1, 0, 0", Kind::text, "Direction across the axis where the sector begins."},
-    {"Sector", "360", Kind::number,
-     "> 0 and <= 360: how far it goes round, right-handed about the axis. [degrees]"}};
-
-std::vector<SurfaceParameter> with_sector(std::vector<SurfaceParameter> parameters) {
-  parameters.insert(parameters.end(), sector_parameters.begin(), sector_parameters.end());
+std::vector<SurfaceParameter> with_sector_and_side(std::vector<SurfaceParameter> parameters) {
+  parameters = with_sector(std::move(parameters));
   parameters.push_back(side_parameter);
   return parameters;
 }
@@ -37,20 +31,7 @@ double in_range(const SurfaceInput &input, const std::string &key, const double 
 }
 
 SurfacePatches revolve(const SurfaceInput &input, const std::string &origin_key, const Profile &profile) {
-  const auto axis = input.direction("Axis");
-  const double sector = input.number("Sector");
-  if (!(sector > 0. && sector <= 360.))
-    input.reject("Sector", "a number > 0 and <= 360");
-  const auto origin = input.vector(origin_key);
-  Axes axes(origin, axis);
-  if (sector < 360.) {
-    const auto start = input.direction("Start");
-    if (dealii::cross_product_3d(start, axis).norm() < 1e-6)
-      input.reject("Start", "a direction across the axis");
-    axes = Axes(origin, axis, start);
-  } else if (input.is_set("Start"))
-    input.reject("Start", "no value: the surface goes all around");
-  return single_patch<RevolvedProfile>(profile, axes, 0., sector * degree);
+  return revolve(input, profile, input.vector(origin_key), input.direction("Axis"));
 }
 
 /// Walked upwards (counter-clockwise, for an arc), the axis is on the left.
@@ -63,7 +44,7 @@ Profile::Outside away_from_axis(const SurfaceInput &input) {
 SurfaceType sphere_type() {
   return {
       "sphere", "A sphere, or a zone of it.",
-      with_sector(
+      with_sector_and_side(
           {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
            {"Radius", "1", Kind::number, "> 0, its size. [length]"},
            axis_parameter,
@@ -82,7 +63,7 @@ SurfaceType sphere_type() {
 
 SurfaceType cylinder_type() {
   return {"cylinder", "A cylinder, infinite unless it has a length.",
-          with_sector(
+          with_sector_and_side(
               {{"Point", "0, 0, 0", Kind::text, "A point of the axis, in the middle of the length. [length]"},
                axis_parameter,
                {"Radius", "1", Kind::number, "> 0, its size. [length]"},
@@ -103,29 +84,29 @@ SurfaceType cylinder_type() {
 }
 
 SurfaceType cone_type() {
-  return {
-      "cone", "A cone, or a part of it between two circles.",
-      with_sector({{"Apex", "0, 0, 0", Kind::text, "The cone's tip. [length]"},
-                   {"Axis", "0, 0, 1", Kind::text, "Direction of the axis, from the apex into the cone."},
-                   {"Half angle", "45", Kind::number, "> 0 and < 90, between axis and surface. [degrees]"},
-                   {"From height", "0", Kind::number, ">= 0, along the axis from the apex. [length]"},
-                   {"To height", "1", Kind::number, "> From height. [length]"}}),
-      [](const SurfaceInput &input) {
-        const double angle = input.number("Half angle") * degree;
-        if (!(angle > 0. && angle < 0.5 * M_PI))
-          input.reject("Half angle", "a number > 0 and < 90");
-        const double from = input.not_negative("From height"), to = input.number("To height");
-        if (!(to > from))
-          input.reject("To height", "a number above 'From height'");
-        const double slope = std::tan(angle);
-        const Segment line = Segment::line(Point({slope * from, from}), Point({slope * to, to}));
-        return revolve(input, "Apex", Profile({line}, away_from_axis(input), from == 0.));
-      }};
+  return {"cone", "A cone, or a part of it between two circles.",
+          with_sector_and_side(
+              {{"Apex", "0, 0, 0", Kind::text, "The cone's tip. [length]"},
+               {"Axis", "0, 0, 1", Kind::text, "Direction of the axis, from the apex into the cone."},
+               {"Half angle", "45", Kind::number, "> 0 and < 90, between axis and surface. [degrees]"},
+               {"From height", "0", Kind::number, ">= 0, along the axis from the apex. [length]"},
+               {"To height", "1", Kind::number, "> From height. [length]"}}),
+          [](const SurfaceInput &input) {
+            const double angle = input.number("Half angle") * degree;
+            if (!(angle > 0. && angle < 0.5 * M_PI))
+              input.reject("Half angle", "a number > 0 and < 90");
+            const double from = input.not_negative("From height"), to = input.number("To height");
+            if (!(to > from))
+              input.reject("To height", "a number above 'From height'");
+            const double slope = std::tan(angle);
+            const Segment line = Segment::line(Point({slope * from, from}), Point({slope * to, to}));
+            return revolve(input, "Apex", Profile({line}, away_from_axis(input), from == 0.));
+          }};
 }
 
 SurfaceType torus_type() {
   return {"torus", "A torus, or a part of it such as a fillet.",
-          with_sector(
+          with_sector_and_side(
               {{"Centre", "0, 0, 0", Kind::text, "Of the ring. [length]"},
                axis_parameter,
                {"Ring radius", "2", Kind::number, "> 0, of the circle in the tube's middle. [length]"},

@@ -2,6 +2,7 @@
 #include "billet/solve/quasi_static.h"
 
 #include "billet/errors.h"
+#include "billet/scene/rigid_motions.h"
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
@@ -10,6 +11,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
+#include <sstream>
 
 namespace billet {
 
@@ -314,6 +318,8 @@ void QuasiStatic::start_step(const double t) {
 }
 
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
+  if (!body_failure_.empty())
+    throw SolutionFailure(body_failure_);
   NewtonReport report;
   time_ = t;
   tool_failure_.clear();
@@ -580,12 +586,15 @@ double QuasiStatic::fading(const double t, const std::size_t tool) const {
 }
 
 void QuasiStatic::remove_tools(const double t) {
+  std::map<std::size_t, std::set<std::string>> let_go; // names of the tools that each body loses now
   for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
     if (t < scene_.tools()[i].removal_time() || fading_forces_[i])
       continue;
     Vector forces = discretization_.make_additive_vector();
     for (auto &contact : contacts_)
       if (contact.tool() == i) {
+        if (contact.compute_load().area > 0.)
+          let_go[contact.body()].insert(scene_.tools()[i].name());
         contact.add_forces(forces);
         contact.remove_tool();
       }
@@ -597,6 +606,62 @@ void QuasiStatic::remove_tools(const double t) {
     state_.energies.contact -= state_.tool_loads[i].stored_energy;
     has_lost_pace_ = true;
   }
+  for (const auto &[body, removed] : let_go)
+    if (body_failure_.empty())
+      body_failure_ = describe_freedom(body, removed);
+}
+
+std::string QuasiStatic::describe_freedom(const std::size_t body,
+                                          const std::set<std::string> &removed) const {
+  std::vector<Resistance> resistances;
+  for (const auto &entry : collect_held_nodes(scene_, discretization_)) {
+    dealii::Tensor<1, 3> position = entry.second.position;
+    for (unsigned int i = 0; i < 3; ++i)
+      position[i] += state_.displacements(entry.second.dofs[i]);
+    for (const auto &hold : scene_.bodies()[body].holds)
+      if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0)
+        resistances.push_back({position, hold.normal, Resistance::Sense::both_ways});
+  }
+  for (const auto &contact : contacts_)
+    if (contact.body() == body)
+      contact.add_resistances(resistances);
+
+  // Those of all ranks, in the same order on each, so that all find the same.
+  std::vector<double> numbers;
+  for (const auto &[position, direction, sense] : resistances) {
+    numbers.insert(numbers.end(), position.begin_raw(), position.end_raw());
+    numbers.insert(numbers.end(), direction.begin_raw(), direction.end_raw());
+    numbers.push_back(static_cast<double>(sense));
+  }
+  resistances.clear();
+  BoundingBox box = BoundingBox::empty();
+  for (const auto &part : dealii::Utilities::MPI::all_gather(discretization_.communicator(), numbers))
+    for (auto x = part.begin(); x != part.end(); x += 7) {
+      resistances.push_back({dealii::Tensor<1, 3>({x[0], x[1], x[2]}),
+                             dealii::Tensor<1, 3>({x[3], x[4], x[5]}),
+                             static_cast<Resistance::Sense>(static_cast<int>(x[6]))});
+      box.add(resistances.back().position);
+    }
+  // Of what holds the body: where that is but a point, turns about it are free.
+  const double size =
+      resistances.empty() ? 1. : std::max((box.high - box.low).norm(), 1e-6 * discretization_.radius());
+  const auto motion = find_free_motion(resistances, 0.5 * (box.low + box.high), size);
+  if (!motion)
+    return "";
+  std::ostringstream message;
+  message << scene_.parameters().file_name << ": at time " << state_.time << ", without ";
+  for (const auto &name : removed)
+    message << "tool '" << name << "', ";
+  message
+      << "which " << (removed.size() == 1 ? "is" : "are") << " removed then, body '"
+      << scene_.bodies()[body].name
+      << "' is left without support: neither supports, nor symmetry planes, nor tools that it touches hold "
+         "its rigid motion with "
+      << print(*motion)
+      << ". Hold it there by a support or a symmetry plane, or let a tool stay. What was computed until "
+         "time "
+      << state_.time << " is in '" << scene_.parameters().output.folder.value << "'.";
+  return message.str();
 }
 
 } // namespace billet

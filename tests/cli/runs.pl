@@ -342,6 +342,37 @@ check "$_->[0], on $_->[1] ranks", sub {
 } 1, 2),
   ['a step too short for the clock', 1, 'block / Material: Density = 1e-300',
    qr/0 after 0 steps the stable step, [\d.e-]+, is too short for the clock: .*'Mass scaling step' makes it longer/, 1];
+# Between bed and die, which both go; a third tool, which may come to touch, does not.
+sub tool
+{
+  my ($name, $surface, $motion) = @_;
+  return "subsection $name\n subsection Surfaces\n subsection p\n $surface\n end\n end\n subsection Motion\n $motion\n end\nend";
+}
+sub pair { my ($tool, $id) = @_; return "subsection on $tool\n set Body = block\n set Boundary ids = $id\n set Tool = $tool\nend" }
+my $let_go = 'Motion: Removed at = 0.5 & Motion: Release time = 0.2 & floor: delete'
+  . ' & Tools: + ' . tool('far', 'set Point = 0, 0, 3\n set Normal = 0, 0, -1', '') . "\n" . tool('bed', '', 'set Removed at = 0.5')
+  . ' & Contact pairs: + ' . pair('far', 7) . "\n" . pair('bed', 4);
+check "a body that removed tools leave free, on $_ ranks", sub {
+  my $folder = billet("$let_go & Output: Every steps = 0", ranks => $_, code => 3);
+  my $message = "billet: scene.prm: at time 0.5, without tool 'bed', tool 'die', which are removed then, body 'block' is left"
+    . ' without support: neither supports, nor symmetry planes, nor tools that it touches hold its rigid motion with'
+    . ' translation (0, 0, 1) and rotation (0, 0, 0). Hold it there by a support or a symmetry plane, or let a tool stay.'
+    . " What was computed until time 0.5 is in '$folder'.\n";
+  $complained =~ s/\(0, 0, -1\)/(0, 0, 1)/; # both are free
+  return is('the message', $complained, $message) || near('last time', last_of($folder, 'time'), 0.5)
+    || is('times', pictured("$folder/scene.pvd"), '0 0.5');
+} for 1, 2;
+check 'a body that one tool is left to', sub {
+  my $folder = billet('Motion: Removed at = 0.5 & floor: delete & Tools: + ' . tool('bed', '', '')
+    . ' & Contact pairs: + ' . pair('bed', 4), code => 3);
+  # The bed pushes, but does not pull.
+  return $complained =~ /without tool 'die', which is removed then, body 'block' is left .* translation \(0, 0, 1\)/
+    ? '' : "says $complained";
+};
+check 'a body that its supports hold when the tool goes', sub {
+  billet('Motion: Removed at = 0.5 & Motion: Release time = 0.2');
+  return '';
+};
 
 # --- --check -------------------------------------------------------------------------------------------------------
 

@@ -6,6 +6,7 @@
 #include "check_surface.h"
 
 #include <sstream>
+#include <stdexcept>
 
 using namespace billet;
 using namespace billet::testing;
@@ -150,6 +151,8 @@ void check_closed_forms() {
   check("it is projected upon as the cylinder is", n > 200 ? projections.value() : 1., 1e-11);
   check("on the cylinder's axis, where many points are nearest",
         std::abs(drawn->project(Point({0., 0., 1.3})).gap + 2.), 1e-13);
+  check("... no normal is the one, and it does not turn", drawn->project(Point({0., 0., 1.3})).turning.norm(),
+        1e-12);
 }
 
 void check_derivatives(const Example &example) {
@@ -267,6 +270,34 @@ void check_degenerate() {
         (plate.normal(plate.at(0., 0.), 0., 0.) - Point({0., 0., 1.})).norm(), 1e-14);
 }
 
+/// What crosses itself, though its normals turn smoothly; and what only meets itself, in a seam.
+void check_crossings() {
+  const auto is_refused = [](const std::string &curves) {
+    try {
+      make_patch(curves);
+    } catch (const std::invalid_argument &error) {
+      return std::string(error.what()).find("crosses itself") != std::string::npos;
+    }
+    return false;
+  };
+  check(
+      "a swept loop crosses itself",
+      is_refused("spline: -2, 0, 0 via 0, 0, 1 via 1, 0, 2 via 0, 0, 3 via -1, 0, 2 via 0, 0, 1 to 2, 0, 0 ; "
+                 "line: 2, 0, 0 to 2, 5, 0 ; spline: 2, 5, 0 via 0, 5, 1 via -1, 5, 2 via 0, 5, 3 via 1, 5, "
+                 "2 via 0, 5, 1 to "
+                 "-2, 5, 0 ; line: -2, 5, 0 to -2, 0, 0"));
+  check("a flat ring of more than a turn lies on itself",
+        is_refused(
+            "spline: 2, 0, 0 via 0, 2, 0 via -2, 0, 0 via 0, -2, 0 via 2.1, 0, 0 to 0, 2.2, 0 ; line: 0, "
+            "2.2, 0 to 0, 4.2, 0 ; spline: 0, 4.2, 0 via 4.1, 0, 0 via 0, -4, 0 via -4, 0, 0 via 0, 4, 0 "
+            "to 4, 0, 0 ; line: 4, 0, 0 to 2, 0, 0"));
+  const CoonsPatch tube = make_patch(
+      "spline: 2, 0, 0 via 0, 2, 0 via -2, 0, 0 via 0, -2, 0 to 2, 0, 0 ; line: 2, 0, 0 to 2, 0, 3 ; "
+      "spline: 2, 0, 3 via 0, -2, 3 via -2, 0, 3 via 0, 2, 3 to 2, 0, 3 ; line: 2, 0, 3 to 2, 0, 0");
+  check("a tube that meets itself in a seam is a patch",
+        std::abs(tube.closest_point(Point({-4., 0., 1.})).gap - 2.), 1e-12);
+}
+
 } // namespace
 
 int main() {
@@ -289,5 +320,6 @@ int main() {
     check_against_points(example);
   }
   check_degenerate();
+  check_crossings();
   return exit_code();
 }

@@ -31,6 +31,12 @@ void check_gap(const std::string &name, const RigidSurface &surface, const Tenso
   check(name, p.exists ? std::abs(p.gap - gap) + std::abs(p.normal.norm() - 1.) : 1., 1e-12);
 }
 
+/// Where many points are as near: the normal turns with x only in the directions in which it does so around.
+void check_turning(const std::string &name, const RigidSurface &surface, const Tensor<1, 3> &x,
+                   const Tensor<2, 3> &expected = {}) {
+  check(name + ": how the normal turns", (surface.project(x).turning - expected).norm(), 1e-12);
+}
+
 } // namespace
 
 int main() {
@@ -47,6 +53,15 @@ int main() {
       c, 3.);
   check_surface("disc", *make_surface("disc", at + "set Normal = 1, 2, 2\nset Radius = 4"), c, 4.);
   check_surface("ring", *make_surface("disc", at + "set Radius = 4\nset Inner radius = 1"), c, 4.);
+  const auto slice = make_surface(
+      "disc", at + "set Normal = 0, 0, 1\nset Radius = 4\nset Start = 0, 1, 0\nset Sector = 100");
+  check_surface("sector of a disc", *slice, c, 4.);
+  check_gap("sector of a disc, above it", *slice, c + Tensor<1, 3>({-2., 0.1, 0.7}), 0.7);
+  check("sector of a disc: not beside it", !slice->project(c + Tensor<1, 3>({2., 0.1, 0.7})).exists);
+  check_surface("sector of a ring",
+                *make_surface("disc", at + "set Normal = 1, 2, 2\n"
+                                           "set Radius = 4\nset Inner radius = 1\nset Sector = 290"),
+                c, 4.);
 
   const auto sphere = make_surface("sphere", at + "set Radius = 2");
   check_surface("sphere", *sphere, c, 4.);
@@ -59,6 +74,7 @@ int main() {
   check_surface("cap", *make_surface("sphere", at + about + "set Radius = 2\nset To latitude = -20"), c, 3.);
   check_curvatures("sphere: curvature 1/R", *sphere, {}, {0.5, 0.5});
   check_gap("centre of a sphere", *sphere, c, -2.);
+  check_turning("centre of a sphere", *sphere, c);
 
   const auto cylinder = make_surface("cylinder", "set Point = 1, -2, 0.5\n" + about + "set Radius = 2");
   check_surface("cylinder", *cylinder, c, 4.);
@@ -69,6 +85,7 @@ int main() {
       c, 4.);
   check_curvatures("cylinder: curvatures 0, 1/R", *cylinder, {}, {0., 0.5});
   check_gap("axis of a cylinder", *cylinder, c, -2.);
+  check_turning("axis of a cylinder", *cylinder, c);
 
   const auto cone =
       make_surface("cone", "set Apex = 1, -2, 0.5\n" + about + "set Half angle = 30\nset To height = 6");
@@ -93,6 +110,9 @@ int main() {
   check_gap("axis of a torus", *torus, c + 4. * axis, 4.);
   const auto upright = make_surface("torus", "set Ring radius = 3\nset Tube radius = 1");
   check_gap("in the middle of the tube", *upright, Tensor<1, 3>({3., 0., 0.}), -1.);
+  Tensor<2, 3> around; // the ring, seen from outside or inside
+  around[1][1] = upright->project(Tensor<1, 3>({3., 0., 0.})).normal[0] / 3.;
+  check_turning("in the middle of the tube", *upright, Tensor<1, 3>({3., 0., 0.}), around);
   check_curvatures("torus, outer equator", *upright, Tensor<1, 3>({5., 0., 0.}), {0.25, 1.});
   check_curvatures("torus, inner equator", *upright, Tensor<1, 3>({1., 0., 0.}), {-0.5, 1.});
   check_curvatures("torus, top", *upright, Tensor<1, 3>({3., 0., 2.}), {0., 1.});
@@ -112,6 +132,21 @@ int main() {
                               "set Corners = -4, 2 ; -1, 2 : 0.7 ; -1, 0 : 0.5 ; 1, 0 ; via 2, 1 "
                               "to 3, 0 : 0.2 ; 5, 0\nset Axis = 0, 1, 0\nset Length = 6"),
                 origin, 5.);
+
+  const auto extruded_arc = make_surface(
+      "extruded profile", "set Outside = right\nset Corners = -2, 0 ; via 0, -2 to 2, 0\nset Axis = 0, 0, 1");
+  check_gap("axis of an extruded arc", *extruded_arc, Tensor<1, 3>({0., 0., 3.}), -2.);
+  check_turning("axis of an extruded arc", *extruded_arc, Tensor<1, 3>({0., 0., 3.}));
+
+  // A sector of the die, against the whole and against the torus that its fillet is.
+  const auto part = make_surface(
+      "revolved profile", "set Corners = 5, -4 ; 5, 0 : 2 ; 12, 0\nset Start = 0, 1, 0\nset Sector = 90");
+  check_surface("sector of a revolved profile", *part, Tensor<1, 3>({-4., 4., 0.}), 8.);
+  check("sector of a revolved profile: not beside it", !part->project(Tensor<1, 3>({6., 6., 1.})).exists);
+  check("... but above it",
+        std::abs(part->project(Tensor<1, 3>({-6., 6., 1.})).gap -
+                 die->project(Tensor<1, 3>({-6., 6., 1.})).gap),
+        1e-13);
 
   // The same surface, described in two ways.
   Random random;

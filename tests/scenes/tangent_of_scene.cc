@@ -61,6 +61,26 @@ void check_curved() {
        "set Origin = 0.45, 0.55, 0\nset Corners = 0, 0 ; 0.35, 0 : 1 ; 1, -0.2\nset Outside = left"}};
   for (const auto &part : parts)
     testing::check_curved(part.shape, part);
+  // Trimmed planes and cavities.
+  const std::vector<std::pair<std::string, testing::SurfacePart>> more{
+      {"rectangle",
+       {"rectangle", "set Centre = 0.6, 0.5, -0.005\nset Normal = 0.04, 0.02, 1\nset Direction = "
+                     "1, 0.3, 0\nset Length = 1.3\nset Width = 1.1"}},
+      {"disc", {"disc", "set Centre = 0.52, 0.51, -0.005\nset Normal = 0.04, 0.02, 1\nset Radius = 0.61"}},
+      {"cylinder from inside",
+       {"cylinder",
+        "set Side = inside\nset Point = 0.45, 0.55, 4.95\nset Radius = 5\nset Axis = 1, 0.4, 0.01"}},
+      {"cone from inside",
+       {"cone", "set Side = inside\nset Apex = -4, 0.6, -0.06\nset Axis = 0.8660254037844386, 0, 0.5\nset "
+                "Half angle = 30\nset To height = 12"}},
+      {"torus from inside",
+       {"torus", "set Side = inside\nset Centre = 0.45, 0.55, 7.94\nset Axis = 0, 1, "
+                 "0\nset Ring radius = 5\nset Tube radius = 3"}},
+      {"inner side of a torus from inside",
+       {"torus", "set Side = inside\nset Centre = 0.45, 0.55, -2.03\nset Axis = 0, 1, 0\nset Ring radius = "
+                 "5\nset Tube radius = 3"}}};
+  for (const auto &[name, part] : more)
+    testing::check_curved(name, part);
   // A tool that presses with a force, and one that a moment turns: the bordered system.
   for (const auto &[name, friction] : {std::pair<std::string, double>{"force, much friction", 0.8},
                                        {"force, little friction", 0.03},
@@ -76,10 +96,52 @@ void check_curved() {
     SceneRun run(pressed);
     check(name + ": exact tangent with the tool's travel", tangent_error(run, 0.75, 3), 1e-6);
   }
-  parameters::Scene scene = make_curved(parts[4], 0.03);
-  scene.solver.contact_tangent = parameters::ContactTangent::numerical;
-  SceneRun numerical(scene);
-  check("torus, slipping: numerical tangent", tangent_error(numerical, 0.75, 3), 1e-6);
+  for (const double friction : {0.8, 0.03}) {
+    parameters::Scene scene = make_curved(parts[4], friction);
+    scene.solver.contact_tangent = parameters::ContactTangent::numerical;
+    SceneRun numerical(scene);
+    const std::string name = friction > 0.5 ? "torus, sticking" : "torus, slipping";
+    check(name + ": numerical tangent", tangent_error(numerical, 0.75, 3), 1e-6);
+    unsigned int n_stick = 0, n_slip = 0;
+    for (const auto &node : numerical.problem.contacts()[0].report()) {
+      n_stick += node.status == ContactStatus::stick;
+      n_slip += node.status == ContactStatus::slip;
+    }
+    check(name + ": most nodes do", friction > 0.5 ? n_stick > n_slip : n_slip > n_stick);
+  }
+}
+
+/// Some nodes are nearest to the edge where a floor meets a ramp.
+void check_edge() {
+  for (const double friction : {0.8, 0.03, 0.}) {
+    // Nodes that stick go less far.
+    const std::string edge = friction > 0.5 ? "1.0045" : "1.01";
+    parameters::Scene scene =
+        make_curved({"extruded profile", "set Axis = 0, -1, 0\nset Direction = 1, 0, 0\nset Corners = -3, "
+                                         "-0.01 ; " +
+                                             edge + ", -0.01 ; 3, 1.2"},
+                    friction);
+    scene.solver.contact_tangent = parameters::ContactTangent::exact;
+    SceneRun run(scene);
+    const std::string name = "edge of a profile" + std::string(friction > 0.5  ? ", much friction"
+                                                               : friction > 0. ? ", little friction"
+                                                                               : ", no friction");
+    check(name + ": exact tangent", tangent_error(run, 0.75, 3), 1e-6);
+    unsigned int n_on_edge = 0;
+    const Tool &tool = run.scene.tools()[0];
+    const auto &state = run.problem.state();
+    for (const auto &element : run.discretization.elements(0))
+      for (const unsigned int v : element.cell->vertex_indices()) {
+        dealii::Tensor<1, 3> x = element.cell->vertex(v);
+        if (x[2] > 0.)
+          continue;
+        for (unsigned int i = 0; i < 3; ++i)
+          x[i] += state.displacements(element.dofs[3 * v + i]);
+        const auto projection = tool.surface().project(state.placements[0].to_tool(x));
+        n_on_edge += projection.gap < 0. && projection.turning.norm() > 1. ? 1 : 0; // else it is flat
+      }
+    check(name + ": nodes are on it", n_on_edge > 0);
+  }
 }
 
 void check_friction_laws() {
@@ -122,6 +184,7 @@ int main(int argc, char *argv[]) {
   check("block on a turning plane, slipping: exact tangent", tangent_error(dragged, 0.8, 5), 1e-6);
 
   check_curved();
+  check_edge();
   check_friction_laws();
   return billet::testing::exit_code();
 }

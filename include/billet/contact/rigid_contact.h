@@ -6,6 +6,7 @@
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/supports.h"
 #include "billet/geometry/frame.h"
+#include "billet/scene/rigid_motions.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -30,6 +31,7 @@ public:
                ContactTangent tangent);
 
   std::size_t tool() const { return pair_.tool; }
+  std::size_t body() const { return pair_.body; }
 
   /// The tool moves in this time from one placement to the other.
   void start_step(const Placement &from, const Placement &to, double duration);
@@ -66,6 +68,10 @@ public:
   /// How far the tool has to go along `direction` (unit) until it touches a node, at the last update();
   /// infinite if it cannot. On this rank.
   double distance_to_touch(const dealii::Tensor<1, 3> &direction) const;
+
+  /// Adds what the tool does where it touches a node of this rank, at the last update(); none if it is
+  /// removed.
+  void add_resistances(std::vector<Resistance> &resistances) const;
 
   /// The state of the last update() becomes the start of the next step.
   void commit();

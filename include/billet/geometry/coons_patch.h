@@ -21,7 +21,7 @@ public:
   /// The curves run round the patch, each from where the one before ends: c_0, d_1, c_1 backwards, d_0
   /// backwards. That is counter-clockwise for one who looks against the normal. Sides may have shrunk to a
   /// point, but not two neighbours. Throws std::invalid_argument, with the reason, where the curves do not
-  /// meet or the patch folds over or has no area.
+  /// meet or the patch folds over, crosses itself or has no area.
   explicit CoonsPatch(const std::array<CurveSketch, 4> &round);
 
   ClosestPoint closest_point(const Point &x) const override;
@@ -73,7 +73,8 @@ private:
   void measure();
   void make_cells();
   Cell make_cell(unsigned int i, unsigned int j) const;
-  void refuse_folds() const;
+  void refuse_folds() const;     ///< where normals turn back
+  void refuse_crossings() const; ///< where facets of its picture's size go through each other
 
   Foot foot(const Point &x) const;
   bool may_be_nearer(std::size_t cell, const Point &arm, double square, double distance) const;

@@ -85,7 +85,9 @@ struct ProfileCorner {
 };
 
 /// The segments between the corners, in their order, fillets inserted. Throws std::invalid_argument, with the
-/// reason, where corners coincide or a fillet does not fit between its neighbours.
+/// reason, where corners coincide, a point that an arc leads through is in line with its ends but not between
+/// them, a fillet does not fit between its neighbours, or the profile crosses, touches or folds back on
+/// itself (arcs as chords of at most 3 degrees).
 std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners);
 
 } // namespace billet

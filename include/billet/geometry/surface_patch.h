@@ -4,6 +4,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -70,13 +71,22 @@ struct PictureRegion {
   double radius;
 };
 
+/// κ/(1 + κ gap), how the normal turns with x along a principal direction of curvature κ [1/length]. Zero in
+/// the centre of curvature, such as the middle of a sphere: there all normals around are as good, and the one
+/// that was chosen stays.
+inline double turned(const double curvature, const double gap) {
+  const double part = 1. + curvature * gap;
+  return std::abs(part) > 1e-9 ? curvature / part : 0.;
+}
+
 /// The point of a surface that is nearest to a point x.
 struct ClosestPoint {
   dealii::Tensor<1, 3> position;
   dealii::Tensor<1, 3> normal; ///< unit, out of the tool
   double gap;                  ///< (x − position)·normal [length]
   /// ∂n/∂x, the second derivative of the gap: with the principal curvatures κ of the surface, positive where
-  /// it is convex, Σ κ/(1 + κ gap) e⊗e. On the surface itself it is the curvature tensor [1/length].
+  /// it is convex, Σ κ/(1 + κ gap) e⊗e. On the surface itself it is the curvature tensor [1/length]. Always
+  /// finite; see turned().
   dealii::Tensor<2, 3> turning;
   /// x is not straight above the surface, but beyond its border; the gap is then no distance.
   bool is_beyond_border = false;

@@ -12,6 +12,7 @@
 #include <Epetra_Vector.h>
 
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace billet {
@@ -24,7 +25,8 @@ public:
   QuasiStatic(const Scene &scene, const Discretization &discretization);
 
   /// Tries the step from the current time to `t`. On convergence the new state is committed. `previous_step`
-  /// is the length of the last accepted step if its increment may be continued, 0 else.
+  /// is the length of the last accepted step if its increment may be continued, 0 else. Throws
+  /// SolutionFailure, on all ranks, where the removal of tools has left a body free.
   NewtonReport step(double t, double previous_step);
 
   /// Moves the tools to where they are at `t`; residuals and tangents are those of the step that ends there.
@@ -87,6 +89,9 @@ private:
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
   double fading(double t, std::size_t tool) const;
   void remove_tools(double t);
+  /// A message if the supports and the contacts that are left do not hold a body, else empty. Tools of these
+  /// names were `removed`. On all ranks.
+  std::string describe_freedom(std::size_t body, const std::set<std::string> &removed) const;
   /// Folds forces on constrained dofs into those that they depend on, and empties them.
   void condense(Vector &forces) const;
 
@@ -109,6 +114,7 @@ private:
   std::vector<double> last_offset_increments_;
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
+  std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
   std::vector<std::size_t> unknown_tools_;             ///< those whose offset is unknown in this step
   std::unique_ptr<Epetra_Map> map_;                    ///< of displacements and unknown offsets
   std::vector<std::unique_ptr<Placement>> stopped_;    ///< where tools have stopped for good

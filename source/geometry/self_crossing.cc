@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/geometry/self_crossing.h"
+
+#include "billet/geometry/box_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using Point = dealii::Tensor<1, 3>;
+
+namespace {
+
+using Corners = std::array<Point, 3>;
+
+constexpr double on_it = 1e-9; // parts of the triangle's size that count as nothing
+
+struct Triangle {
+  Corners corners;
+  Point normal; ///< unit
+  double size, area;
+};
+
+Triangle make_triangle(const Corners &x) {
+  const Point normal = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
+  const double twice = normal.norm();
+  return {x, twice > 0. ? normal / twice : Point(), std::max((x[1] - x[0]).norm(), (x[2] - x[0]).norm()),
+          0.5 * twice};
+}
+
+/// Whether a point of the triangle's plane is in it, round-off allowed.
+bool contains(const Triangle &triangle, const Point &x, const double slack) {
+  for (unsigned int i = 0; i < 3; ++i) {
+    const Point &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3];
+    if (dealii::cross_product_3d(b - a, x - a) * triangle.normal < -slack * triangle.size * triangle.size)
+      return false;
+  }
+  return true;
+}
+
+/// Whether an edge of the first goes through the second.
+bool pierces(const Triangle &first, const Triangle &second) {
+  const double nothing = on_it * second.size;
+  for (unsigned int i = 0; i < 3; ++i) {
+    const Point &a = first.corners[i], &b = first.corners[(i + 1) % 3];
+    const double above = (a - second.corners[0]) * second.normal,
+                 below = (b - second.corners[0]) * second.normal;
+    if (std::min(std::abs(above), std::abs(below)) <= nothing || above * below > 0.)
+      continue;
+    if (contains(second, a + above / (above - below) * (b - a), on_it))
+      return true;
+  }
+  return false;
+}
+
+/// Whether the two lie in one plane and have more in common than a border. Of generic triangles, that is
+/// those with a corner of one inside of the other, or edges that cross.
+bool overlap_in_plane(const Triangle &first, const Triangle &second) {
+  for (const auto &corner : first.corners)
+    if (std::abs((corner - second.corners[0]) * second.normal) > on_it * second.size)
+      return false;
+  for (const auto &[one, other] :
+       {std::pair<const Triangle &, const Triangle &>(first, second), {second, first}})
+    for (const auto &corner : one.corners)
+      if (contains(other, corner, -on_it))
+        return true;
+  const auto side = [&](const Point &a, const Point &b, const Point &x) {
+    const double area = dealii::cross_product_3d(b - a, x - a) * second.normal;
+    return std::abs(area) <= on_it * second.size * second.size ? 0. : area;
+  };
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j) {
+      const Point &a = first.corners[i], &b = first.corners[(i + 1) % 3];
+      const Point &c = second.corners[j], &d = second.corners[(j + 1) % 3];
+      if (side(a, b, c) * side(a, b, d) < 0. && side(c, d, a) * side(c, d, b) < 0.)
+        return true;
+    }
+  return false;
+}
+
+} // namespace
+
+std::optional<Point> find_self_crossing(const std::vector<Point> &points,
+                                        const std::vector<std::array<unsigned int, 3>> &triangles) {
+  std::vector<Triangle> made;
+  std::vector<BoundingBox> boxes;
+  for (const auto &corners : triangles) {
+    made.push_back(make_triangle({points[corners[0]], points[corners[1]], points[corners[2]]}));
+    boxes.push_back(BoundingBox::empty());
+    for (const auto &corner : made.back().corners)
+      boxes.back().add(corner);
+  }
+  const BoxTree tree(boxes);
+  std::optional<Point> found;
+  for (unsigned int i = 0; i < made.size() && !found; ++i) {
+    const Point middle = 0.5 * (boxes[i].low + boxes[i].high);
+    const double reach_square = 0.25 * (boxes[i].high - boxes[i].low).norm_square();
+    tree.visit_near(middle, reach_square, [&](const unsigned int j) {
+      const auto &first = triangles[i], &second = triangles[j];
+      if (found ||
+          std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) != first.end() ||
+          !boxes[i].overlaps(boxes[j]) || made[i].area == 0. || made[j].area == 0.)
+        return;
+      if (pierces(made[i], made[j]) || (j > i && overlap_in_plane(made[i], made[j])))
+        found = middle;
+    });
+  }
+  return found;
+}
+
+} // namespace billet
