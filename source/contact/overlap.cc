@@ -52,10 +52,11 @@ public:
   bool contain(const dealii::Point<3> &x) const {
     bool is_inside = false;
     const double nowhere_else = 0.;
+    constexpr double rounding = 1e-9; // a point on the face between two elements is in both
     tree_.visit_near(x, nowhere_else, [&](const unsigned int e) {
       try {
         is_inside = is_inside || dealii::GeometryInfo<3>::is_inside_unit_cell(
-                                     mapping_.transform_real_to_unit_cell(elements_[e].cell, x));
+                                     mapping_.transform_real_to_unit_cell(elements_[e].cell, x), rounding);
       } catch (const dealii::Mapping<3>::ExcTransformationFailed &) { // far outside of a distorted element
       }
     });
