@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A square tube crushed along its axis: folds, force, energies, and a geometric check that its wall does not pass through
+itself."""
+
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+import matplotlib
+import numpy
+from matplotlib.collections import PolyCollection
+from scipy.spatial import cKDTree
+
+from billet_runs import ROOT, arguments, number, percent, publish, table
+from explicit_runs import ExplicitRun
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+options = arguments("tube-crush")
+SCENE = ROOT / "prm/tube_crush.prm"
+WALL, LENGTH, SPEED, INTERVAL = 2.0, 150.0, 25e3, 0.25e-3
+# Corners of a brick's faces, in the order of the vtu file's points, outward normal.
+FACES = numpy.array([[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]])
+
+
+class Tube:
+    """Nodes and bricks of a picture, and the boundary's facets."""
+
+    def __init__(self, points, fields):
+        start = points - fields["displacement"]
+        _, first, index = numpy.unique(start.round(4), axis=0, return_index=True, return_inverse=True)
+        self.start, self.now = start[first], points[first]
+        self.bricks = index.reshape(-1, 8)
+        self.strain = fields["equivalent_plastic_strain"].reshape(-1, 8)[:, 0]
+        faces = self.bricks[:, FACES].reshape(-1, 4)
+        self.brick_of_face = numpy.repeat(numpy.arange(len(self.bricks)), 6)
+        _, back, count = numpy.unique(numpy.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)
+        outer = count[back.reshape(-1)] == 1
+        self.all_facets, self.brick_of_facet = faces[outer], self.brick_of_face[outer]
+        on_plane = [(abs(self.start[self.all_facets, axis]) < 1e-4).all(axis=1) for axis in (0, 1)]
+        self.sections = [self.all_facets[on] for on in on_plane]
+        self.section_strains = [self.strain[self.brick_of_facet[on]] for on in on_plane]
+        self.facets = self.all_facets[~on_plane[0] & ~on_plane[1]]
+
+    def middle_line(self, axis):
+        """Outward displacement of the middle of the side with this normal, by the length along the wall from the foot."""
+        across = 1 - axis
+        line = numpy.flatnonzero((abs(self.start[:, across]) < 1e-4) & (abs(self.start[:, axis] - 25) < 0.5))
+        line = line[numpy.argsort(self.start[line, 2])]
+        return self.now[line, axis] - 25
+
+
+def lobes(line, least=2 * WALL):
+    """Turning points of a line that stand out by at least `least` on both sides: outward, inward."""
+    count, extreme, direction = {1: 0, -1: 0}, line[0], 0
+    for value in line[1:]:
+        if direction == 0:
+            if abs(value - extreme) >= least:
+                direction, extreme = (1 if value > extreme else -1), value
+        elif (value - extreme) * direction > 0:
+            extreme = value
+        elif (extreme - value) * direction >= least:
+            count[direction] += 1
+            direction, extreme = -direction, value
+    return count[1], count[-1]
+
+
+def crossings(tube, tolerances=(0.05 * WALL, 0.5 * WALL)):
+    """Of the edges of boundary facets that go through other facets: how many do, how many with both ends farther than the
+    tolerances from the facet's plane, and how far at most. Penalty contact lets nodes in by less."""
+    quads = tube.facets
+    edges = numpy.unique(numpy.sort(numpy.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0)
+    triangles = numpy.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    x = tube.now
+    reach = max(numpy.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1).max() / 2,
+                max(numpy.linalg.norm(x[triangles[:, i]] - x[triangles].mean(axis=1), axis=1).max() for i in range(3)))
+    near = cKDTree(x[edges].mean(axis=1)).query_ball_tree(cKDTree(x[triangles].mean(axis=1)), 2 * reach)
+    e = numpy.repeat(numpy.arange(len(edges)), [len(row) for row in near])
+    t = numpy.concatenate([numpy.array(row, dtype=int) for row in near])
+    apart = ~(edges[e][:, :, None] == triangles[t][:, None, :]).any(axis=(1, 2))
+    e, t = e[apart], t[apart]
+    p, q = x[edges[e, 0]], x[edges[e, 1]]
+    a, b, c = (x[triangles[t, i]] for i in range(3))
+    normal = numpy.cross(b - a, c - a)
+    normal /= numpy.linalg.norm(normal, axis=1)[:, None]
+    before, behind = ((p - a) * normal).sum(axis=1), ((q - a) * normal).sum(axis=1)
+    through = before * behind < 0
+    e, t, p, q, a, b, c, normal, before, behind = (v[through] for v in (e, t, p, q, a, b, c, normal, before, behind))
+    hit = p + (before / (before - behind))[:, None] * (q - p)
+    inside = numpy.ones(len(hit), dtype=bool)
+    for u, v in ((a, b), (b, c), (c, a)):
+        inside &= (numpy.cross(v - u, hit - u) * normal).sum(axis=1) > 0
+    depth = numpy.minimum(abs(before), abs(behind))[inside]
+    return [len(depth)] + [int((depth > t).sum()) for t in tolerances] + [float(depth.max(initial=0))]
+
+
+def deepest_inside(tube):
+    """Boundary nodes that lie inside a brick that is not theirs, and the largest depth below that brick's outer facet."""
+    x = tube.now
+    nodes = numpy.unique(tube.facets)
+    facet_bricks = numpy.unique(tube.brick_of_facet)
+    corners = x[tube.bricks]
+    tree = cKDTree(x[nodes])
+    radius = numpy.linalg.norm(corners - corners.mean(axis=1)[:, None], axis=2).max(axis=1)
+    count, deepest = 0, 0.0
+    for brick in facet_bricks:
+        own = set(tube.bricks[brick])
+        near = [nodes[i] for i in tree.query_ball_point(corners[brick].mean(axis=0), radius[brick])]
+        for node in near:
+            if node in own:
+                continue
+            depth = inside_brick(corners[brick], x[node])
+            if depth is None:
+                continue
+            outer = tube.all_facets[tube.brick_of_facet == brick]
+            planes = [(x[f].mean(axis=0), numpy.cross(x[f[2]] - x[f[0]], x[f[3]] - x[f[1]])) for f in outer
+                      if not any((abs(tube.start[f, axis]) < 1e-4).all() for axis in (0, 1))]
+            if not planes:
+                continue
+            count += 1
+            deepest = max(deepest, min(abs(((x[node] - m) * n).sum()) / numpy.linalg.norm(n) for m, n in planes))
+    return count, deepest
+
+
+def inside_brick(corners, x):
+    """Whether the trilinear map of the brick has x inside, by Newton's method: its parameters, or None."""
+    xi = numpy.full(3, 0.5)
+    signs = numpy.array([[a & 1, (a >> 1) & 1, (a >> 2) & 1] for a in range(8)])
+    for _ in range(12):
+        factors = numpy.where(signs == 1, xi, 1 - xi)
+        shape = factors.prod(axis=1)
+        residual = x - shape @ corners
+        if numpy.abs(residual).max() < 1e-9:
+            break
+        slope = numpy.array([(2 * signs[:, i] - 1) * numpy.delete(factors, i, axis=1).prod(axis=1) for i in range(3)])
+        try:
+            xi = xi + numpy.linalg.solve((slope @ corners).T, residual)
+        except numpy.linalg.LinAlgError:
+            return None
+        if numpy.abs(xi).max() > 3:
+            return None
+    return xi if (xi > 0).all() and (xi < 1).all() else None
+
+
+def draw(tubes, path):
+    """Sections through the middles of the sides, the inward folding one on the right."""
+    figure, axes = pyplot.subplots(1, len(tubes), figsize=(3.1 * len(tubes), 6.2), sharey=True)
+    for axis, (time, tube) in zip(axes, tubes):
+        for plane, side in ((0, -1), (1, 1)):
+            other = 1 - plane
+            shape = tube.now[tube.sections[plane]][:, :, [other, 2]] * [side, 1]
+            patches = PolyCollection(shape, array=tube.section_strains[plane], cmap="viridis", edgecolors="black",
+                                     linewidths=0.2)
+            patches.set_clim(0, 0.6)
+            axis.add_collection(patches)
+        axis.axvline(0, color="grey", linewidth=0.5, linestyle="--")
+        axis.set_xlim(-50, 50)
+        axis.set_ylim(-2, LENGTH + 2)
+        axis.set_aspect("equal")
+        axis.set_title(f"{1e3 * time:.3g} ms")
+        axis.set_xlabel("mm")
+    figure.colorbar(patches, ax=axes, label="equivalent plastic strain", shrink=0.6)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=110, bbox_inches="tight")
+
+
+def run(changes, pictures):
+    with tempfile.TemporaryDirectory() as folder:
+        r = ExplicitRun(SCENE, changes, folder, options.ranks)
+        return r, [(i * INTERVAL, Tube(*r.picture(i))) for i in pictures(r)]
+
+
+def geometry_rows(name, tubes):
+    rows = []
+    for time, tube in tubes:
+        *counts, depth = crossings(tube)
+        inside, deepest = deepest_inside(tube)
+        rows.append([name, f"{1e3 * time:.3g}", *counts, number(depth), inside, number(deepest),
+                     number(float(tube.now[:, :2].min()))])
+    return rows
+
+
+def every_picture(r):
+    return range(1, len(list((r.folder / "results").glob("fields_*.pvtu"))))
+
+
+control = {"Contact pairs/folds/Boundary ids": "5", "Explicit dynamics/Largest drift": 1}
+with ThreadPoolExecutor() as pool:
+    runs = [pool.submit(run, changes, every_picture) for changes in ([{}] if options.quick else [{}, control])]
+r, tubes = runs[0].result()
+last = tubes[-1][1]
+drawn = [tubes[i] for i in numpy.linspace(0, len(tubes) - 1, 4).round().astype(int)]
+draw(drawn, ROOT / "doc/images/tube_crush.png")
+
+fold_rows = []
+for time, tube in tubes:
+    out_y, in_y = lobes(tube.middle_line(1))
+    out_x, in_x = lobes(tube.middle_line(0))
+    row = min(r.rows, key=lambda row: abs(row["time"] - time))
+    window = [q for q in r.rows if 0 < q["time"] <= time]
+    mean = -4 * sum(q["plane.force_z"] for q in window) / len(window) / 1e3
+    fold_rows.append([f"{1e3 * time:.3g}", number(SPEED * time), f"{out_y} + {in_y}", f"{out_x} + {in_x}", number(mean),
+                      number(1e2 * row["folds.deepest_penetration"] / WALL) + " %",
+                      percent(abs(row["energy_drift"]) / sum(row[k] for k in row if k.endswith(
+                          ("_energy", "_work", "_dissipation")) and k != "external_work"))])
+geometry = geometry_rows("with", tubes[2::2])
+if not options.quick:
+    geometry += geometry_rows("without", runs[1].result()[1][8::4])
+
+publish(
+    "tube-crush", "A square tube crushed along its axis", options,
+    f"[`prm/tube_crush.prm`](../../prm/tube_crush.prm): a quarter of a tube of 50 x 50 x 150 mm with 2 mm wall, "
+    f"{len(last.bricks)} bricks, under a plane that comes at 25 m/s. {r.steps} steps; largest drift of energy "
+    f"{percent(r.largest_drift())} of the largest sum of energies.",
+    "![Sections through the middles of the sides](../images/tube_crush.png)",
+    "## Folds\n\nLobes, outward + inward, of the middle of a side: turning points of its line that stand out by two wall "
+    "thicknesses on both sides. Mean force of the whole tube so far; penetration of self-contact relative to the wall.",
+    table(["time [ms]", "way [mm]", "lobes of the side y", "lobes of the side x", "mean force [kN]", "penetration",
+           "drift of energy"], fold_rows),
+    "## Does the wall pass through itself?\n\nEdges of boundary facets that go through another facet, and those of them both "
+    "ends of which are farther than 5 and 50 % of the wall from its plane: the others are nodes that penalty contact lets "
+    "in. Nodes that lie inside a brick of another place of the wall, and how far from the mean plane of its outer facet, "
+    "which in a sharp crease may be far. Least coordinate across: symmetry planes "
+    "are at 0. Without self-contact the same check finds a wall that passes through itself. With it, edges cross facets at "
+    "the creases of the corners, where sharp ridges one brick wide meet and no node is near.",
+    table(["self-contact", "time [ms]", "edges in facets", "by more than 5 %", "by more than 50 %", "farthest [mm]",
+           "nodes inside", "deepest [mm]", "least x, y [mm]"], geometry))
