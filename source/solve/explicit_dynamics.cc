@@ -294,7 +294,7 @@ void ExplicitDynamics::compute_forces() {
   nodes_.sum_shared(forces_);
   if (has_bounds_)
     nodes_.sum_shared(bounds_);
-  element_step_ = dealii::Utilities::MPI::min(failure ? -1. : stable_step(), discretization_.communicator());
+  element_step_ = stable_step();
   if (element_step_ < 0.)
     fail_together(discretization_.communicator(), [&failure] {
       if (failure)
@@ -306,11 +306,16 @@ double ExplicitDynamics::stable_step() const {
   // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
   double stiffest = 0., most_damped = 0.;
   for (const unsigned int node : bounded_nodes_) {
-    const double *bounds = &bounds_[std::size_t{nodal_stride} * node];
-    stiffest = std::max(stiffest, bounds[0] * inverse_masses_[node]);
-    most_damped = std::max(most_damped, bounds[1] * inverse_masses_[node]);
+    const double *of_node = &bounds_[std::size_t{nodal_stride} * node];
+    stiffest = std::max(stiffest, of_node[0] * inverse_masses_[node]);
+    most_damped = std::max(most_damped, of_node[1] * inverse_masses_[node]);
   }
-  const double a = 1. / (element_step_ * element_step_) + 0.25 * stiffest, b = 0.5 * most_damped;
+  // Each over all ranks before they are put together: else the step would depend on which rank has what.
+  std::array<double, 3> bounds{element_step_, -stiffest, -most_damped};
+  MPI_Allreduce(MPI_IN_PLACE, bounds.data(), 3, MPI_DOUBLE, MPI_MIN, discretization_.communicator());
+  if (bounds[0] < 0.)
+    return bounds[0];
+  const double a = 1. / (bounds[0] * bounds[0]) - 0.25 * bounds[1], b = -0.5 * bounds[2];
   return 2. / (b + std::sqrt(b * b + 4. * a));
 }
 
