@@ -52,11 +52,14 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
 }
 
 void BodyContact::collect() {
+  const Discretization &discretization = nodes_.discretization();
   std::map<DofIndex, unsigned int> index;
   const unsigned int n_surfaces = pair_.is_self_contact ? 1 : 2;
+  std::vector<BoundaryFacet> all;
   for (unsigned int surface = 0; surface < n_surfaces; ++surface)
-    for (const auto &boundary : collect_boundary_facets(nodes_.discretization(), pair_.bodies[surface],
-                                                        pair_.boundary_ids[surface])) {
+    for (const auto &boundary :
+         collect_boundary_facets(discretization, pair_.bodies[surface], pair_.boundary_ids[surface])) {
+      all.push_back(boundary);
       SurfaceFacet facet{};
       facet.surface = surface;
       facet.key = make_key(boundary);
@@ -76,29 +79,26 @@ void BodyContact::collect() {
       facets_.push_back(facet);
     }
   positions_.resize(local_nodes_.size());
+  const auto sizes = compute_facet_sizes(discretization, all);
+  for (const unsigned int node : local_nodes_)
+    sizes_.push_back(sizes.at(nodes_.dofs(node)[0]));
 }
 
 std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene) const {
-  // Facet size at a node: root of the mean area of the facets around it, on all ranks.
   const MPI_Comm communicator = nodes_.discretization().communicator();
-  NodalVectors sums = nodes_.make_vectors();
   std::array<double, 4> totals{}; // area and number of facets, by surface
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     totals[facets_[f].surface] += areas_[f];
     totals[2 + facets_[f].surface] += 1.;
-    for (const unsigned int node : facets_[f].nodes)
-      add_vector(sums.data(), local_nodes_[node], Tensor<1, 3>({areas_[f], 1., 0.}));
   }
-  nodes_.sum_shared(sums);
   MPI_Allreduce(MPI_IN_PLACE, totals.data(), 4, MPI_DOUBLE, MPI_SUM, communicator);
   const auto young = [&](const unsigned int surface) {
     return scene.bodies()[pair_.bodies[surface]].young_modulus;
   };
   std::vector<ContactStiffness> stiffness;
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
-    const double *sum = &sums[std::size_t{nodal_stride} * local_nodes_[i]];
     const unsigned int other = pair_.is_self_contact ? 0 : 1 - surface_of_[i];
-    const double own_side = young(surface_of_[i]) / std::sqrt(sum[0] / sum[1]);
+    const double own_side = young(surface_of_[i]) / sizes_[i];
     const double other_side = young(other) / std::sqrt(totals[other] / totals[2 + other]);
     double unit = 1.;
     if (pair_.penalty_is_factor)

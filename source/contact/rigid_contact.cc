@@ -26,8 +26,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
                            const ContactTangent tangent)
     : pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
       communicator_(discretization.communicator()), tangent_(tangent) {
-  collect_facets(discretization);
-  set_penalties(scene, discretization);
+  collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
   placement_n_ = placement_ = tool_.placement(0.);
   states_.resize(nodes_.size());
   if (pair_.has_friction())
@@ -44,9 +43,11 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
   friction_ = friction_n_;
 }
 
-void RigidContact::collect_facets(const Discretization &discretization) {
+void RigidContact::collect_facets(const Discretization &discretization, const double young_modulus) {
   std::map<DofIndex, unsigned int> index;
-  for (const auto &boundary : collect_boundary_facets(discretization, pair_.body, pair_.boundary_ids)) {
+  const auto boundary_facets = collect_boundary_facets(discretization, pair_.body, pair_.boundary_ids);
+  const auto sizes = compute_facet_sizes(discretization, boundary_facets);
+  for (const auto &boundary : boundary_facets) {
     Facet facet{};
     for (unsigned int a = 0; a < 4; ++a) {
       const auto found = index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(nodes_.size()));
@@ -54,36 +55,14 @@ void RigidContact::collect_facets(const Discretization &discretization) {
         Node node;
         node.dofs = boundary.dofs[a];
         node.reference = boundary.corners[a];
+        node.size = sizes.at(node.dofs[0]);
+        node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, node.size),
+                          pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
         nodes_.push_back(node);
       }
       facet.nodes[a] = found.first->second;
     }
     facets_.push_back(facet);
-  }
-}
-
-void RigidContact::set_penalties(const Scene &scene, const Discretization &discretization) {
-  // Facet size at a node: root of the mean area of the facets around it, on all ranks.
-  Vector sums = discretization.make_additive_vector();
-  for (const auto &facet : facets_) {
-    std::array<Tensor<1, 3>, 4> x;
-    for (unsigned int a = 0; a < 4; ++a)
-      x[a] = nodes_[facet.nodes[a]].reference;
-    const double area = 0.5 * dealii::cross_product_3d(x[3] - x[0], x[2] - x[1]).norm();
-    for (const unsigned int node : facet.nodes) {
-      const std::array<double, 2> values{area, 1.};
-      sums.add(2, nodes_[node].dofs.data(), values.data());
-    }
-  }
-  sums.compress(dealii::VectorOperation::add);
-  Vector ghosted = discretization.make_ghosted_vector();
-  ghosted = sums;
-  const double young_modulus = scene.bodies()[pair_.body].young_modulus;
-  for (auto &node : nodes_) {
-    const double h = std::sqrt(ghosted(node.dofs[0]) / ghosted(node.dofs[1]));
-    node.size = h;
-    node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, h),
-                      pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, h)};
   }
 }
 
@@ -250,12 +229,9 @@ RigidContact::FacetStates RigidContact::states_of(const Facet &facet) const {
 
 RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, const bool with_derivatives) {
   FacetAreas result{};
-  for (const auto &[N, N_xi, N_eta] : facet_points()) {
-    Tensor<1, 3> g_1, g_2;
-    for (unsigned int a = 0; a < 4; ++a) {
-      g_1 += N_xi[a] * states[a]->position;
-      g_2 += N_eta[a] * states[a]->position;
-    }
+  for (const auto &point : facet_points()) {
+    const auto &[N, N_xi, N_eta] = point;
+    const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return states[a]->position; });
     const Tensor<1, 3> area_vector = dealii::cross_product_3d(g_1, g_2);
     for (unsigned int a = 0; a < 4; ++a) {
       const NodeState &node = *states[a];
@@ -298,12 +274,14 @@ void RigidContact::add_forces(Vector &residual) const {
   });
 }
 
-void RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const {
+ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const {
+  ContactLoad load;
   for_each_area([&](const unsigned int i, const double area) {
     const unsigned int node = local_nodes_[i];
     add_vector(forces.data(), node, area * states_[i].traction);
     bounds[std::size_t{nodal_stride} * node] +=
         area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
+    add_to_load(load, i, area);
   });
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
@@ -314,6 +292,7 @@ void RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const 
       bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
           node.size * node.size * std::max(node.stiffness.normal, node.stiffness.tangential);
   }
+  return load;
 }
 
 void RigidContact::add_tangent(const TangentSystem &system) const {
@@ -453,19 +432,21 @@ void RigidContact::commit() {
   friction_n_ = friction_;
 }
 
+void RigidContact::add_to_load(ContactLoad &load, const std::size_t i, const double area) const {
+  const NodeState &state = states_[i];
+  const Tensor<1, 3> force = area * state.traction;
+  load.force += force;
+  load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
+  load.area += area;
+  load.stored_energy +=
+      area * (0.5 * nodes_[i].stiffness.normal * state.gap * state.gap + state.tangential_energy);
+  load.dissipation += area * state.dissipation;
+  load.deepest = std::max(load.deepest, -state.gap);
+}
+
 ContactLoad RigidContact::local_load() const {
   ContactLoad load;
-  for_each_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
-    const Tensor<1, 3> force = area * state.traction;
-    load.force += force;
-    load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
-    load.area += area;
-    load.stored_energy +=
-        area * (0.5 * nodes_[i].stiffness.normal * state.gap * state.gap + state.tangential_energy);
-    load.dissipation += area * state.dissipation;
-    load.deepest = std::max(load.deepest, -state.gap);
-  });
+  for_each_area([&](const unsigned int i, const double area) { add_to_load(load, i, area); });
   return load;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/boundary_facets.h"
 
+#include "billet/geometry/facet_projection.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,21 +34,37 @@ std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discret
   return facets;
 }
 
+std::map<DofIndex, double> compute_facet_sizes(const Discretization &discretization,
+                                               const std::vector<BoundaryFacet> &facets) {
+  Vector sums = discretization.make_additive_vector(); // area and number
+  for (const auto &facet : facets) {
+    const std::array<double, 2> values{facet.area_vector().norm(), 1.};
+    for (const auto &dofs : facet.dofs)
+      sums.add(2, dofs.data(), values.data());
+  }
+  sums.compress(dealii::VectorOperation::add);
+  Vector ghosted = discretization.make_ghosted_vector();
+  ghosted = sums;
+  std::map<DofIndex, double> sizes;
+  for (const auto &facet : facets)
+    for (const auto &dofs : facet.dofs)
+      sizes[dofs[0]] = std::sqrt(ghosted(dofs[0]) / ghosted(dofs[1]));
+  return sizes;
+}
+
 const std::array<FacetPoint, 4> &facet_points() {
   static const std::array<FacetPoint, 4> points = [] {
     std::array<FacetPoint, 4> result{};
-    const auto sign = [](const unsigned int corner, const unsigned int axis) {
-      return ((corner >> axis) & 1U) != 0U ? 1. : -1.;
-    };
     const double g = 1. / std::sqrt(3.);
-    for (unsigned int q = 0; q < 4; ++q)
+    for (unsigned int q = 0; q < 4; ++q) {
+      const auto &[xi, eta] = facet::signs[q];
+      result[q].N = facet::weights({g * xi, g * eta});
       for (unsigned int a = 0; a < 4; ++a) {
-        const double along_xi = 1. + sign(a, 0) * sign(q, 0) * g,
-                     along_eta = 1. + sign(a, 1) * sign(q, 1) * g;
-        result[q].N[a] = 0.25 * along_xi * along_eta;
-        result[q].N_xi[a] = 0.25 * sign(a, 0) * along_eta;
-        result[q].N_eta[a] = 0.25 * sign(a, 1) * along_xi;
+        const auto &[xi_a, eta_a] = facet::signs[a];
+        result[q].N_xi[a] = 0.25 * xi_a * (1. + eta_a * g * eta);
+        result[q].N_eta[a] = 0.25 * eta_a * (1. + xi_a * g * xi);
       }
+    }
     return result;
   }();
   return points;

@@ -19,16 +19,6 @@ std::array<unsigned int, 4> local_corners(const BoundaryFacet &facet, const Loca
   return corners;
 }
 
-/// ∂x/∂ξ × ∂x/∂η at a Gauss point.
-template <class Position> Tensor<1, 3> area_vector_at(const FacetPoint &point, const Position &position) {
-  Tensor<1, 3> g_1, g_2;
-  for (unsigned int a = 0; a < 4; ++a) {
-    g_1 += point.N_xi[a] * position(a);
-    g_2 += point.N_eta[a] * position(a);
-  }
-  return dealii::cross_product_3d(g_1, g_2);
-}
-
 } // namespace
 
 ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses)
@@ -77,7 +67,7 @@ void ExternalLoads::add_resistances(const Load &load, const std::size_t body) {
     std::array<double, 4> areas{};
     for (const auto &point : facet_points()) {
       const Tensor<1, 3> area =
-          area_vector_at(point, [&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); });
+          point.area_vector([&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); });
       for (unsigned int a = 0; a < 4; ++a)
         areas[a] += point.N[a] * area.norm();
     }
@@ -110,7 +100,7 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
         positions[a] = get_vector(nodes_.positions().data(), facet.nodes[a]) +
                        get_vector(displacements.data(), facet.nodes[a]);
       for (const auto &point : facet_points()) {
-        const Tensor<1, 3> area = area_vector_at(point, [&](const unsigned int a) { return positions[a]; });
+        const Tensor<1, 3> area = point.area_vector([&](const unsigned int a) { return positions[a]; });
         for (unsigned int a = 0; a < 4; ++a)
           add_vector(forces.data(), facet.nodes[a], -p * point.N[a] * area);
       }

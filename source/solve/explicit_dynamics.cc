@@ -235,8 +235,7 @@ void ExplicitDynamics::compute_contact_forces() {
     const FreeTool &tool = tools_[contact.tool()];
     contact.start_step(tool.before(), tool.now(), n_steps_ == 0 ? 0. : step_);
     contact.update(u_);
-    contact.add_forces(forces_, bounds_);
-    const ContactLoad load = contact.local_load();
+    const ContactLoad load = contact.add_forces(forces_, bounds_);
     tool_loads_[contact.tool()] += load;
     works_.friction += load.dissipation;
     contact.commit();

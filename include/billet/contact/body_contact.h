@@ -46,6 +46,7 @@ private:
   const LocalNodes &nodes_;
   std::vector<unsigned int> local_nodes_; ///< of each surface node
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
+  std::vector<double> sizes_;             ///< of the undeformed facets around it
   std::vector<SurfaceFacet> facets_;
   std::vector<double> areas_; ///< of the undeformed facets
   std::unique_ptr<FacetContact> contact_;

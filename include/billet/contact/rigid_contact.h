@@ -86,9 +86,9 @@ public:
   /// Finds its nodes among those of the rank.
   void bind(const LocalNodes &nodes);
   void update(const NodalVectors &displacements);
-  /// Adds F_c [force], and to component 0 of `bounds` what the penalties of this rank's facets add to a bound
-  /// on the stiffness at a node [force/length].
-  void add_forces(NodalVectors &forces, NodalVectors &bounds) const;
+  /// Returns local_load(). Adds F_c [force], and to component 0 of `bounds` what the penalties of this rank's
+  /// facets add to a bound on the stiffness at a node [force/length].
+  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) const;
 
   /// Of every node at a facet of this rank; `area` is this rank's share.
   std::vector<ContactNodeReport> report() const;
@@ -142,8 +142,8 @@ private:
     std::array<dealii::Tensor<1, 3>, 4> normal_derivatives;
   };
 
-  void collect_facets(const Discretization &discretization);
-  void set_penalties(const Scene &scene, const Discretization &discretization);
+  /// Slave nodes, with their penalties, and facets.
+  void collect_facets(const Discretization &discretization, double young_modulus);
   /// The state of node i at `position`; with friction, the history that goes with it.
   template <class Law>
   NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
@@ -155,6 +155,7 @@ private:
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   /// Calls add(index of the slave node, its area at one facet).
   template <class Add> void for_each_area(const Add &add) const;
+  void add_to_load(ContactLoad &load, std::size_t i, double area) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
   /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.

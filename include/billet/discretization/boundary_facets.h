@@ -5,6 +5,7 @@
 #include "billet/discretization/discretization.h"
 
 #include <array>
+#include <map>
 #include <vector>
 
 namespace billet {
@@ -26,10 +27,30 @@ struct BoundaryFacet {
 std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization, std::size_t body,
                                                    const std::vector<unsigned int> &boundary_ids);
 
+/// Facet size h at each node of these facets, by its first dof: the root of the mean area of the undeformed
+/// facets around it, those of other ranks among them [length]. Collective.
+std::map<DofIndex, double> compute_facet_sizes(const Discretization &discretization,
+                                               const std::vector<BoundaryFacet> &facets);
+
 /// Shape functions and their derivatives at one of the four Gauss points (±1/√3, ±1/√3), weights 1, of a
 /// facet.
 struct FacetPoint {
   std::array<double, 4> N, N_xi, N_eta;
+
+  /// ∂x/∂ξ and ∂x/∂η; position(a) is that of corner a.
+  template <class Position> std::array<dealii::Tensor<1, 3>, 2> tangents(const Position &position) const {
+    std::array<dealii::Tensor<1, 3>, 2> g;
+    for (unsigned int a = 0; a < 4; ++a) {
+      g[0] += N_xi[a] * position(a);
+      g[1] += N_eta[a] * position(a);
+    }
+    return g;
+  }
+  /// Their cross product.
+  template <class Position> dealii::Tensor<1, 3> area_vector(const Position &position) const {
+    const auto g = tangents(position);
+    return dealii::cross_product_3d(g[0], g[1]);
+  }
 };
 const std::array<FacetPoint, 4> &facet_points();
 

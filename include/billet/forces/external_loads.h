@@ -14,8 +14,6 @@ public:
   /// `masses` of the nodes, this rank's share, as accelerations act on them.
   ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses);
 
-  bool is_empty() const { return accelerations_.empty() && pressures_.empty() && resistances_.empty(); }
-
   /// Adds the forces [force] at time t. Pressures act on the faces where they are, F_a = −∫ p N_a n dA;
   /// springs and dashpots on their undeformed area A_a at a node, F_a = −A_a (k P u + c P v), P = I, or d ⊗ d
   /// along a direction d.
