@@ -8,19 +8,20 @@ namespace billet {
 
 using dealii::Tensor;
 
-double compute_area_share(const FacetCorners &x, const unsigned int corner, const Tensor<1, 3> &normal) {
-  // ν = (e_1 + η e_3) × (e_2 + ξ e_3), in which e_3 × e_3 vanishes: three triple products for all points.
-  const Tensor<1, 3> e_1 = 0.25 * (x[1] + x[3] - x[0] - x[2]), e_2 = 0.25 * (x[2] + x[3] - x[0] - x[1]),
-                     e_3 = 0.25 * (x[0] + x[3] - x[1] - x[2]);
-  const double constant = dealii::cross_product_3d(e_1, e_2) * normal,
-               along_xi = dealii::cross_product_3d(e_1, e_3) * normal,
-               along_eta = dealii::cross_product_3d(e_3, e_2) * normal;
+FacetAreas::FacetAreas(const facet::Expansion &surface)
+    // ν = (e_1 + η e_3) × (e_2 + ξ e_3), in which e_3 × e_3 vanishes.
+    : constant_(surface.mean_area_vector()), along_xi_(dealii::cross_product_3d(surface.e_1, surface.e_3)),
+      along_eta_(dealii::cross_product_3d(surface.e_3, surface.e_2)) {}
+
+double FacetAreas::share(const unsigned int corner, const Tensor<1, 3> &normal) const {
   static const double gauss = 1. / std::sqrt(3.);
+  const double middle = constant_ * normal, along_xi = gauss * (along_xi_ * normal),
+               along_eta = gauss * (along_eta_ * normal);
+  const auto &[xi, eta] = facet::signs[corner];
   double share = 0.;
-  for (const auto &sign : facet::signs) {
-    const std::array<double, 2> at{gauss * sign[0], gauss * sign[1]};
-    share += facet::weights(at)[corner] * std::max(0., -(constant + at[0] * along_xi + at[1] * along_eta));
-  }
+  for (const auto &sign : facet::signs)
+    share += 0.25 * (1. + gauss * xi * sign[0]) * (1. + gauss * eta * sign[1]) *
+             std::max(0., -(middle + sign[0] * along_xi + sign[1] * along_eta));
   return share;
 }
 

@@ -23,48 +23,17 @@ constexpr double far_better = 0.5;
 /// one plane: round-off must not tell whether it is beside the body.
 constexpr double in_line = 1e-3;
 
-Tensor<1, 3> middle_of(const FacetCorners &corners) {
-  return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-}
-
-/// A point and the mean plane of a facet: what is quicker to tell than a projection.
-class MeanPlane {
-public:
-  MeanPlane(const FacetCorners &x, const Tensor<1, 3> &point)
-      : corners_(x), middle_(middle_of(x)), arm_(point - middle_),
-        normal_(dealii::cross_product_3d(x[3] - x[0], x[2] - x[1])), height_(arm_ * normal_) {}
-
-  /// The whole facet, and its surface continued by `tolerance` beyond the border, is behind the point.
-  bool is_before(const double tolerance) const {
-    const double warp = 0.25 * std::abs((corners_[0] + corners_[3] - corners_[1] - corners_[2]) * normal_);
-    return height_ > warp * (1. + 2. * tolerance) * (1. + 2. * tolerance);
-  }
-  /// Neither above nor below the facet nor within `tolerance` of its border, wherever its normals point.
-  bool is_aside(const double tolerance) const {
-    const double square = normal_.norm_square();
-    if (!(square > 0.))
-      return true;
-    double farthest = 0.; // corner, from the middle, squared
-    for (const auto &corner : corners_)
-      farthest = std::max(farthest, (corner - middle_).norm_square());
-    const double largest =
-        (1. + 4. * tolerance) * std::sqrt(farthest) + std::abs(height_) / std::sqrt(square);
-    return arm_.norm_square() - height_ * height_ / square > largest * largest;
-  }
-
-private:
-  const FacetCorners &corners_;
-  Tensor<1, 3> middle_, arm_, normal_; ///< arm from the middle; the normal of any length, 0 without area
-  double height_;                      ///< of the point, times the length of the normal
-};
+/// Facets whose normals have a scalar product greater than this one lie in one plane or above each other: to
+/// a node that touches the one, the other is not a concave edge's other side.
+constexpr double one_plane = 0.99;
 
 /// The choice for one node. Each consider_ adds a facet to what is chosen from.
 template <class Facet> class Choice {
 public:
-  Choice(const FacetSearch &search, const unsigned int node, const FacetSearch::Positions &positions_n,
-         const FacetSearch::Positions &positions, const ContactLimits &limits)
-      : search_(search), positions_n_(positions_n), positions_(positions), limits_(limits), node_(node),
-        x_n_(positions_n[node]), x_(positions[node]) {}
+  Choice(const MovedFacets &facets, const unsigned int node, const FacetSearch::Positions &positions_n,
+         const ContactLimits &limits)
+      : facets_(facets), search_(facets.search()), positions_n_(positions_n), limits_(limits), node_(node),
+        x_n_(positions_n[node]), x_(facets.position(node)) {}
 
   const TouchedFacet &best() const { return best_; }
 
@@ -94,7 +63,8 @@ public:
 
   /// Only where it meets the one that is held in a concave edge, or faces the node far better.
   void consider_beside_held(const unsigned int facet) {
-    if (facet == best_.facet)
+    if (facet == best_.facet ||
+        facets_.plane(facet).normal() * facets_.plane(best_.facet).normal() > one_plane)
       return;
     TouchedFacet held;
     std::swap(held, best_);
@@ -128,16 +98,14 @@ public:
 private:
   FacetProjection project(const unsigned int facet, const double tolerance,
                           const std::array<double, 2> &start) const {
-    return Facet(corners_of(search_.facets()[facet], positions_))
-        .project(x_, make_limits(tolerance, limits_), start);
+    return facets_.project<Facet>(facet, x_, make_limits(tolerance, limits_), start);
   }
 
   /// The facet, if the node is behind it, and not farther beyond its border than where it may be shared.
   TouchedFacet look_at(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
-    const FacetCorners corners = corners_of(search_.facets()[facet], positions_);
-    const MeanPlane plane(corners, x_);
-    if (plane.is_before(tolerance) || plane.is_aside(tolerance))
+    const PlanedFacet &plane = facets_.plane(facet);
+    if (plane.is_before(x_, tolerance) || plane.is_aside(x_, tolerance))
       return {};
     const TouchedFacet touched{facet, project(facet, tolerance, start)};
     return touched.projection.exists && touched.projection.gap < 0. ? touched : TouchedFacet();
@@ -145,7 +113,7 @@ private:
 
   const Tensor<1, 3> &normal() {
     if (!normal_)
-      normal_ = compute_node_normal(search_, node_, positions_);
+      normal_ = compute_node_normal(facets_, node_);
     return *normal_;
   }
 
@@ -168,7 +136,7 @@ private:
   /// this one, as beside a block. Farther out it must be one that a smooth neighbour shares.
   bool is_on_its_own_side(const TouchedFacet &touched) const {
     const FacetProjection &own = touched.projection;
-    if (!(own.excess > 0.))
+    if (own.excess <= std::min(in_line, limits_.tolerance))
       return true;
     bool is_near = own.excess <= limits_.tolerance, is_out = false;
     search_.visit_around(
@@ -180,15 +148,14 @@ private:
           if (meet_smoothly(own.normal, p.normal))
             is_near = true;
           else
-            is_out = is_out || (p.gap >= 0. && own.excess > in_line);
+            is_out = is_out || p.gap >= 0.;
         });
     return is_near && !is_out;
   }
 
   /// The middle of neither lies behind the other.
   bool is_concave(const TouchedFacet &a, const TouchedFacet &b) const {
-    const Tensor<1, 3> from_a_to_b = middle_of(corners_of(search_.facets()[b.facet], positions_)) -
-                                     middle_of(corners_of(search_.facets()[a.facet], positions_));
+    const Tensor<1, 3> from_a_to_b = facets_.plane(b.facet).centre() - facets_.plane(a.facet).centre();
     return from_a_to_b * a.projection.normal >= 0. && from_a_to_b * b.projection.normal <= 0.;
   }
 
@@ -202,8 +169,9 @@ private:
       best_ = other;
   }
 
+  const MovedFacets &facets_;
   const FacetSearch &search_;
-  const FacetSearch::Positions &positions_n_, &positions_;
+  const FacetSearch::Positions &positions_n_;
   const ContactLimits &limits_;
   const unsigned int node_;
   const Tensor<1, 3> x_n_, x_;
@@ -214,10 +182,11 @@ private:
 } // namespace
 
 template <class Facet>
-TouchedFacet choose_facet(const FacetSearch &search, const std::size_t slave,
-                          const FacetSearch::Positions &positions_n, const FacetSearch::Positions &positions,
-                          const TouchedFacet &last, const ContactLimits &limits) {
-  Choice<Facet> choice(search, search.slaves()[slave].node, positions_n, positions, limits);
+TouchedFacet choose_facet(const MovedFacets &facets, const std::size_t slave,
+                          const FacetSearch::Positions &positions_n, const TouchedFacet &last,
+                          const ContactLimits &limits) {
+  const FacetSearch &search = facets.search();
+  Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits);
   if (last.exists()) {
     choice.consider_held(last.facet, last.projection.parameters);
     if (!choice.best().exists())
@@ -232,34 +201,24 @@ TouchedFacet choose_facet(const FacetSearch &search, const std::size_t slave,
   return choice.best();
 }
 
-TouchedFacet find_facet_below(const FacetSearch &search, const std::size_t slave,
-                              const FacetSearch::Positions &positions, const ContactLimits &limits) {
-  const unsigned int node = search.slaves()[slave].node;
+TouchedFacet find_facet_below(const MovedFacets &facets, const std::size_t slave,
+                              const ContactLimits &limits) {
+  const Tensor<1, 3> &x = facets.position(facets.search().slaves()[slave].node);
   TouchedFacet nearest;
-  search.visit_candidates(slave, [&](const unsigned int facet) {
-    const FacetCorners corners = corners_of(search.facets()[facet], positions);
-    if (MeanPlane(corners, positions[node]).is_aside(limits.tolerance))
-      return;
-    const FacetProjection p =
-        PlanedFacet(corners).project(positions[node], make_limits(limits.tolerance, limits));
+  facets.search().visit_candidates(slave, [&](const unsigned int facet) {
+    const FacetProjection p = facets.plane(facet).project(x, make_limits(limits.tolerance, limits));
     if (p.exists && p.gap >= 0. && (!nearest.exists() || p.gap < nearest.projection.gap))
       nearest = {facet, p};
   });
   return nearest;
 }
 
-Tensor<1, 3> compute_node_normal(const FacetSearch &search, const unsigned int node,
-                                 const FacetSearch::Positions &positions) {
+Tensor<1, 3> compute_node_normal(const MovedFacets &facets, const unsigned int node) {
   Tensor<1, 3> sum;
   double n_facets = 0.;
-  search.visit_around(node, [&](const unsigned int facet) {
-    const FacetCorners x = corners_of(search.facets()[facet], positions);
-    const Tensor<1, 3> area_vector = dealii::cross_product_3d(x[3] - x[0], x[2] - x[1]);
-    const double area = area_vector.norm();
-    if (area > 0.) {
-      sum += area_vector / area;
-      n_facets += 1.;
-    }
+  facets.search().visit_around(node, [&](const unsigned int facet) {
+    sum += facets.plane(facet).normal();
+    n_facets += 1.;
   });
   constexpr double rounding = 1e-10; // of normals that cancel
   const double length = sum.norm();
@@ -267,9 +226,9 @@ Tensor<1, 3> compute_node_normal(const FacetSearch &search, const unsigned int n
 }
 
 #define BILLET_INSTANTIATE(Facet)                                                                            \
-  template TouchedFacet choose_facet<Facet>(const FacetSearch &, std::size_t,                                \
-                                            const FacetSearch::Positions &, const FacetSearch::Positions &,  \
-                                            const TouchedFacet &, const ContactLimits &);
+  template TouchedFacet choose_facet<Facet>(const MovedFacets &, std::size_t,                                \
+                                            const FacetSearch::Positions &, const TouchedFacet &,            \
+                                            const ContactLimits &);
 BILLET_INSTANTIATE(PlanedFacet)
 BILLET_INSTANTIATE(BilinearFacet)
 #undef BILLET_INSTANTIATE

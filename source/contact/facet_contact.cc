@@ -101,6 +101,7 @@ void FacetContact::update_search(const Positions &positions_n, const Positions &
   }
   if (is_outdated)
     rebuild();
+  moved_.reset();
 }
 
 void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) const {
@@ -108,7 +109,7 @@ void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) cons
     const SurfaceFacet &facet = search_.facets()[f];
     const auto corner = static_cast<unsigned int>(
         std::find(facet.nodes.begin(), facet.nodes.end(), slave.node) - facet.nodes.begin());
-    const double share = compute_area_share(corners_of(facet, positions_), corner, state.contact.normal);
+    const double share = moved_.areas(f).share(corner, state.contact.normal);
     state.area += share;
     if (f < exchange_.n_own_facets())
       state.own_area += share;
@@ -120,18 +121,17 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s) {
   state = SlaveState();
   state.first_share = shares_.size();
   if (search_.has_candidates(s) || touched_n_[s].exists())
-    state.touched =
-        choose_facet<Facet>(search_, s, positions_n_, positions_, touched_n_[s], settings_.limits);
+    state.touched = choose_facet<Facet>(moved_, s, positions_n_, touched_n_[s], settings_.limits);
   if (state.touched.exists()) {
-    state.contact = share_facets<Facet>(search_, state.touched, positions_[slaves_[s].node], positions_,
-                                        settings_.limits, shares_);
+    state.contact =
+        share_facets<Facet>(moved_, state.touched, positions_[slaves_[s].node], settings_.limits, shares_);
     if (!(state.contact.gap < 0.)) {
       state.touched = TouchedFacet();
       shares_.resize(state.first_share);
     }
   }
   if (!state.touched.exists() && search_.has_candidates(s)) {
-    const TouchedFacet below = find_facet_below(search_, s, positions_, settings_.limits);
+    const TouchedFacet below = find_facet_below(moved_, s, settings_.limits);
     state.is_near = below.exists();
     if (state.is_near) {
       state.contact = {below.projection.normal, below.projection.gap};
@@ -149,13 +149,26 @@ SlaveMotion FacetContact::compute_motion(const std::size_t s, const double durat
   for (std::size_t i = states_[s].first_share; i < states_[s].end_of_shares; ++i) {
     const FacetShare &share = shares_[i];
     const SlaveMotion motion = compute_slave_motion(corners_of(search_.facets()[share.facet], positions_n_),
-                                                    target_corners(share.facet), share.projection.weights,
+                                                    moved_.corners(share.facet), share.projection.weights,
                                                     positions_n_[node], positions_[node], duration);
     mean.displacement += share.share * motion.displacement;
     // Nearly a rotation; what it carries along is made a unit vector again.
     mean.rotation += share.share * motion.rotation;
   }
   return mean;
+}
+
+template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
+  const SlaveState &state = states_[s];
+  if (!state.touched.exists() || !(state.own_area > 0.))
+    return;
+  const Tensor<1, 3> force = state.own_area * state.traction.traction;
+  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
+    const FacetShare &share = shares_[i];
+    const Tensor<1, 3> part = share.share * force;
+    visit(share, part,
+          moved_.reaction(share.facet)(share.projection.weights, positions_[slaves_[s].node], part));
+  }
 }
 
 template <class Facet, class Law> void FacetContact::evaluate(const Law &law, const double duration) {
@@ -174,26 +187,18 @@ template <class Facet, class Law> void FacetContact::evaluate(const Law &law, co
       history_[s] = SlaveHistory();
       history_[s].slip = history_n_[s].slip;
     }
-  }
-}
-
-template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
-  const SlaveState &state = states_[s];
-  if (!state.touched.exists() || !(state.own_area > 0.))
-    return;
-  const Tensor<1, 3> force = state.own_area * state.traction.traction;
-  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
-    const FacetShare &share = shares_[i];
-    const Tensor<1, 3> part = share.share * force;
-    visit(share, part,
-          compute_facet_reaction(target_corners(share.facet), share.projection.weights,
-                                 positions_[slaves_[s].node], part));
+    visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
+      nodal_forces_[slaves_[s].node] += force;
+      for (unsigned int a = 0; a < 4; ++a)
+        nodal_forces_[search_.facets()[share.facet].nodes[a]] += reaction[a];
+    });
   }
 }
 
 void FacetContact::add_forces(const Positions &positions_n, const Positions &positions, const double duration,
                               Positions &forces) {
   update_search(positions_n, positions);
+  nodal_forces_.assign(exchange_.n_nodes(), Tensor<1, 3>());
   std::visit(
       [&](const auto &law) {
         if (settings_.method == FacetMethod::planed)
@@ -203,27 +208,21 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
       },
       settings_.friction);
 
-  Positions all(exchange_.n_nodes());
-  for (std::size_t s = 0; s < slaves_.size(); ++s)
-    visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
-      all[slaves_[s].node] += force;
-      for (unsigned int a = 0; a < 4; ++a)
-        all[search_.facets()[share.facet].nodes[a]] += reaction[a];
-    });
   if (edges_)
     crossings_ = edges_->find_crossings(positions_);
   for (const auto &crossing : crossings_) {
     const Tensor<1, 3> force = -edge_spring(crossing) * crossing.gap * crossing.normal;
     for (unsigned int i = 0; i < 4; ++i)
-      all[crossing.nodes[i]] += (i < 2 ? crossing.weights[i] : -crossing.weights[i]) * force;
+      nodal_forces_[crossing.nodes[i]] += (i < 2 ? crossing.weights[i] : -crossing.weights[i]) * force;
   }
-  exchange_.collect(all);
+  exchange_.collect(nodal_forces_);
   for (std::size_t i = 0; i < exchange_.n_own_nodes(); ++i)
-    forces[i] += all[i];
+    forces[i] += nodal_forces_[i];
 }
 
-void FacetContact::add_row_sums(std::vector<double> &row_sums) const {
-  std::vector<double> all(exchange_.n_nodes());
+void FacetContact::add_row_sums(std::vector<double> &row_sums) {
+  std::vector<double> &all = nodal_sums_;
+  all.assign(exchange_.n_nodes(), 0.);
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
     if (!(state.own_area > 0.))
@@ -273,7 +272,7 @@ FacetContactLoad FacetContact::compute_load() const {
     if (!state.touched.exists())
       continue;
     visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
-      const FacetCorners corners = target_corners(share.facet);
+      const FacetCorners corners = moved_.corners(share.facet);
       load.residual_force += force;
       for (unsigned int a = 0; a < 4; ++a) {
         load.residual_force += reaction[a];
@@ -290,7 +289,7 @@ FacetContactLoad FacetContact::compute_load() const {
     load.dissipation += state.own_area * state.traction.dissipation;
     load.area += state.own_area;
     load.n_touching += 1.;
-    const FacetCorners corners = target_corners(state.touched.facet);
+    const FacetCorners corners = moved_.corners(state.touched.facet);
     const double size =
         std::sqrt(0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]).norm());
     load.deepest = std::max(load.deepest, -state.contact.gap);

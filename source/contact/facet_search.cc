@@ -37,6 +37,14 @@ void FacetSearch::set_surface(std::vector<SurfaceFacet> facets, std::vector<Slav
   for (std::size_t f = facets_.size(); f-- > 0;)
     for (const unsigned int node : facets_[f].nodes)
       around_[--first_around_[node]] = static_cast<unsigned int>(f);
+  const auto by_key = [&](const unsigned int a, const unsigned int b) {
+    return facets_[a].key < facets_[b].key;
+  };
+  const auto begin = [&](const std::size_t i) {
+    return around_.begin() + static_cast<std::ptrdiff_t>(first_around_[i]);
+  };
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    std::sort(begin(i), begin(i + 1), by_key);
   built_at_.clear();
   candidates_.clear();
   first_candidate_.assign(slaves_.size() + 1, 0);

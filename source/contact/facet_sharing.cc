@@ -13,34 +13,28 @@ using dealii::Tensor;
 bool meet_smoothly(const Tensor<1, 3> &normal, const Tensor<1, 3> &other) { return normal * other > 0.5; }
 
 template <class Facet>
-SharedGap share_facets(const FacetSearch &search, const TouchedFacet &touched, const Tensor<1, 3> &x,
-                       const FacetSearch::Positions &positions, const ContactLimits &limits,
-                       std::vector<FacetShare> &shares) {
+SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, const Tensor<1, 3> &x,
+                       const ContactLimits &limits, std::vector<FacetShare> &shares) {
+  const FacetSearch &search = facets.search();
   const FacetProjection &own = touched.projection;
   const std::size_t first = shares.size();
-  shares.push_back({touched.facet, 1., own});
   // Twice the zone, since a larger neighbour's is wider: (1 − |ξ|)/2 is the distance from the border.
   const double inner = 1. - 4. * limits.zone;
-  if (std::max(std::abs(own.parameters[0]), std::abs(own.parameters[1])) <= inner)
-    return {own.normal, own.gap};
-  shares[first].share = own.share;
-  search.visit_around(search.nearest_corner(touched.facet, own.parameters), [&](const unsigned int f) {
-    if (f == touched.facet)
-      return;
-    const FacetProjection p =
-        Facet(corners_of(search.facets()[f], positions)).project(x, make_limits(limits.zone, limits));
-    if (p.exists && p.share > 0. && meet_smoothly(own.normal, p.normal))
-      shares.push_back({f, p.share, p});
-  });
-  if (shares.size() == first + 1) {
-    shares[first].share = 1.;
+  if (std::max(std::abs(own.parameters[0]), std::abs(own.parameters[1])) > inner)
+    search.visit_around(search.nearest_corner(touched.facet, own.parameters), [&](const unsigned int f) {
+      if (f == touched.facet) {
+        shares.push_back({f, own.share, own});
+        return;
+      }
+      const FacetProjection p = facets.project<Facet>(f, x, make_limits(limits.zone, limits));
+      if (p.exists && p.share > 0. && meet_smoothly(own.normal, p.normal))
+        shares.push_back({f, p.share, p});
+    });
+  if (shares.size() <= first + 1) { // its own share may be 0
+    shares.resize(first);
+    shares.push_back({touched.facet, 1., own});
     return {own.normal, own.gap};
   }
-  // Round-off does not depend on the choice.
-  std::sort(shares.begin() + static_cast<std::ptrdiff_t>(first), shares.end(),
-            [&](const FacetShare &a, const FacetShare &b) {
-              return search.facets()[a.facet].key < search.facets()[b.facet].key;
-            });
   double sum = 0.;
   for (std::size_t i = first; i < shares.size(); ++i)
     sum += shares[i].share;
@@ -57,9 +51,8 @@ SharedGap share_facets(const FacetSearch &search, const TouchedFacet &touched, c
 }
 
 #define BILLET_INSTANTIATE(Facet)                                                                            \
-  template SharedGap share_facets<Facet>(const FacetSearch &, const TouchedFacet &, const Tensor<1, 3> &,    \
-                                         const FacetSearch::Positions &, const ContactLimits &,              \
-                                         std::vector<FacetShare> &);
+  template SharedGap share_facets<Facet>(const MovedFacets &, const TouchedFacet &, const Tensor<1, 3> &,    \
+                                         const ContactLimits &, std::vector<FacetShare> &);
 BILLET_INSTANTIATE(PlanedFacet)
 BILLET_INSTANTIATE(BilinearFacet)
 #undef BILLET_INSTANTIATE

@@ -16,18 +16,12 @@ double into_range(const double value, const double range) { return std::min(std:
 
 } // namespace
 
-BilinearFacet::BilinearFacet(const FacetCorners &x)
-    : e_0_(0.25 * (x[0] + x[1] + x[2] + x[3])), e_1_(0.25 * (x[1] + x[3] - x[0] - x[2])),
-      e_2_(0.25 * (x[2] + x[3] - x[0] - x[1])), e_3_(0.25 * (x[0] + x[3] - x[1] - x[2])) {
-  const Tensor<1, 3> diagonal_0 = x[3] - x[0], diagonal_1 = x[2] - x[1];
-  has_area_ = facet::has_area(diagonal_0, diagonal_1, dealii::cross_product_3d(diagonal_0, diagonal_1));
-}
-
 std::array<double, 2> BilinearFacet::compute_step(const Tensor<1, 3> &arm, const double range,
                                                   const std::array<double, 2> &at) const {
   // Derivatives of ½|X − x|². A parameter at the end of its range that wants to go on stays.
   const Tensor<1, 3> away = difference(at, arm);
-  const std::array<Tensor<1, 3>, 2> tangents{e_1_ + at[1] * e_3_, e_2_ + at[0] * e_3_};
+  const std::array<Tensor<1, 3>, 2> tangents{surface_.e_1 + at[1] * surface_.e_3,
+                                             surface_.e_2 + at[0] * surface_.e_3};
   const std::array<double, 2> gradient{away * tangents[0], away * tangents[1]};
   std::array<bool, 2> is_free{};
   for (unsigned int i = 0; i < 2; ++i)
@@ -36,7 +30,7 @@ std::array<double, 2> BilinearFacet::compute_step(const Tensor<1, 3> &arm, const
   std::array<double, 2> step{};
   if (is_free[0] && is_free[1]) {
     // Where the surface bends away so much that there is no minimum near, without its curvature.
-    for (const double mixed : {tangents[0] * tangents[1] + away * e_3_, tangents[0] * tangents[1]}) {
+    for (const double mixed : {tangents[0] * tangents[1] + away * surface_.e_3, tangents[0] * tangents[1]}) {
       const double determinant = diagonal[0] * diagonal[1] - mixed * mixed;
       if (determinant > 1e-8 * diagonal[0] * diagonal[1]) {
         step[0] = (mixed * gradient[1] - diagonal[1] * gradient[0]) / determinant;
@@ -53,7 +47,7 @@ std::array<double, 2> BilinearFacet::compute_step(const Tensor<1, 3> &arm, const
 
 std::array<double, 2> BilinearFacet::minimise(const Tensor<1, 3> &arm, const double range,
                                               std::array<double, 2> at) const {
-  const double rounding = 1e-14 * (arm.norm() + e_1_.norm() + e_2_.norm());
+  const double rounding = 1e-14 * (arm.norm() + surface_.e_1.norm() + surface_.e_2.norm());
   double distance = difference(at, arm).norm();
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
     const std::array<double, 2> step = compute_step(arm, range, at);
@@ -83,7 +77,8 @@ std::array<double, 2> BilinearFacet::nearest_on_border(const Tensor<1, 3> &arm) 
     for (const double end : {-1., 1.}) { // a straight line
       std::array<double, 2> at{};
       at[fixed] = end;
-      const Tensor<1, 3> along = fixed == 0 ? e_2_ + end * e_3_ : e_1_ + end * e_3_;
+      const Tensor<1, 3> along =
+          fixed == 0 ? surface_.e_2 + end * surface_.e_3 : surface_.e_1 + end * surface_.e_3;
       const double square = along.norm_square();
       if (square > 0.)
         at[1 - fixed] = into_range(-(difference(at, arm) * along) / square, 1.);
@@ -104,7 +99,7 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
   const auto excess_of = [](const std::array<double, 2> &at) {
     return 0.5 * std::max({std::abs(at[0]) - 1., std::abs(at[1]) - 1., 0.});
   };
-  const Tensor<1, 3> arm = e_0_ - x;
+  const Tensor<1, 3> arm = surface_.e_0 - x;
   const double range =
       1.1 + 2. * limits.tolerance; // so that the end of the range is not within the tolerance
   std::array<double, 2> at = minimise(arm, range, {into_range(start[0], range), into_range(start[1], range)});
@@ -120,7 +115,8 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
     if (is_straight)
       projection.excess = 0.;
   }
-  const Tensor<1, 3> area_vector = dealii::cross_product_3d(e_1_ + at[1] * e_3_, e_2_ + at[0] * e_3_);
+  const Tensor<1, 3> area_vector =
+      dealii::cross_product_3d(surface_.e_1 + at[1] * surface_.e_3, surface_.e_2 + at[0] * surface_.e_3);
   const double size = area_vector.norm();
   if (!(size > 0.)) // the tip of a triangle
     return projection;

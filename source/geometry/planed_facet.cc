@@ -8,41 +8,57 @@ namespace billet {
 
 using dealii::Tensor;
 
-PlanedFacet::PlanedFacet(const FacetCorners &corners)
-    : centre_(0.25 * (corners[0] + corners[1] + corners[2] + corners[3])), diagonals_{corners[3] - corners[0],
-                                                                                      corners[2] -
-                                                                                          corners[1]} {
-  const Tensor<1, 3> area_vector = dealii::cross_product_3d(diagonals_[0], diagonals_[1]);
-  if (!facet::has_area(diagonals_[0], diagonals_[1], area_vector))
+PlanedFacet::PlanedFacet(const facet::Expansion &surface) : centre_(surface.e_0) {
+  if (!surface.has_area())
     return;
-  double_area_ = area_vector.norm();
-  normal_ = area_vector / double_area_;
+  const Tensor<1, 3> area_vector = surface.mean_area_vector();
+  const double area = area_vector.norm(), length = surface.e_1.norm();
+  double_area_ = 8. * area;
+  normal_ = area_vector / area;
+  directions_[0] = surface.e_1 / length;
+  directions_[1] = dealii::cross_product_3d(normal_, directions_[0]);
+  e_1_ = {length, 0.};
+  e_2_ = {surface.e_2 * directions_[0], area / length};
+  e_3_ = {surface.e_3 * directions_[0], surface.e_3 * directions_[1]};
+  warp_ = std::abs(surface.e_3 * normal_); // corners are as far above the plane as below
+  std::array<InPlane, 4> x;
   for (unsigned int a = 0; a < 4; ++a) {
-    const Tensor<1, 3> arm = corners[a] - centre_;
-    corners_[a] = arm - (arm * normal_) * normal_;
+    x[a] = at(facet::signs[a][0], facet::signs[a][1]);
+    square_of_radius_ = std::max(square_of_radius_, x[a][0] * x[a][0] + x[a][1] * x[a][1] + warp_ * warp_);
+  }
+  for (unsigned int i = 0; i < 4; ++i) {
+    const InPlane &from = x[facet::around[i]], &to = x[facet::around[(i + 1) % 4]];
+    const InPlane edge{to[0] - from[0], to[1] - from[1]};
+    const double factor = 2. / double_area_;
+    borders_[i] = {{-factor * edge[1], factor * edge[0]}, factor * cross(from, edge)};
+    if (!(edge[0] * edge[0] + edge[1] * edge[1] > 0.)) // the tip of a triangle is no border
+      borders_[i].offset = std::numeric_limits<double>::infinity();
   }
 }
 
-void PlanedFacet::locate(const Tensor<1, 3> &in_plane, const double zone, FacetProjection &projection) const {
+bool PlanedFacet::is_aside(const Tensor<1, 3> &x, const double tolerance) const {
+  if (!(double_area_ > 0.))
+    return true;
+  const Tensor<1, 3> arm = x - centre_;
+  const double height = arm * normal_,
+               largest = (1. + 4. * tolerance) * std::sqrt(square_of_radius_) + std::abs(height);
+  return arm.norm_square() - height * height > largest * largest;
+}
+
+void PlanedFacet::locate(const InPlane &x, const double zone, FacetProjection &projection) const {
   projection.excess = 0.;
   projection.share = 1.;
-  for (unsigned int i = 0; i < 4; ++i) {
-    const Tensor<1, 3> &from = corners_[facet::around[i]], &to = corners_[facet::around[(i + 1) % 4]];
-    if (!((to - from).norm_square() > 0.)) // the tip of a triangle is no border
-      continue;
-    const double distance = 2. * cross(to - from, in_plane - from) / double_area_;
+  for (const auto &[along, offset] : borders_) {
+    const double distance = along[0] * x[0] + along[1] * x[1] + offset;
     projection.excess = std::max(projection.excess, -distance);
     projection.share *= facet::share_at(distance, zone);
   }
 }
 
-std::array<double, 2> PlanedFacet::compute_parameters(const Tensor<1, 3> &in_plane) const {
-  // in_plane = ξ e_1 + η e_2 + ξη e_3. The cross product with e_1 + η e_3 leaves A η² + B η + C = 0, whose
-  // slope at the root is the Jacobian: the root where that is positive.
-  const auto &x = corners_;
-  const Tensor<1, 3> e_1 = 0.25 * (x[1] + x[3] - x[0] - x[2]), e_2 = 0.25 * (x[2] + x[3] - x[0] - x[1]),
-                     e_3 = 0.25 * (x[0] + x[3] - x[1] - x[2]);
-  const double A = cross(e_3, e_2), B = cross(in_plane, e_3) + cross(e_1, e_2), C = cross(in_plane, e_1);
+std::array<double, 2> PlanedFacet::compute_parameters(const InPlane &x) const {
+  // x = ξ e_1 + η e_2 + ξη e_3. The cross product with e_1 + η e_3 leaves A η² + B η + C = 0, whose slope at
+  // the root is the Jacobian: the root where that is positive.
+  const double A = cross(e_3_, e_2_), B = cross(x, e_3_) + cross(e_1_, e_2_), C = cross(x, e_1_);
   const double root = std::sqrt(std::max(0., B * B - 4. * A * C));
   const auto into_range = [](const double value) { return std::min(std::max(value, -1.), 1.); };
   double eta = 0.;
@@ -51,10 +67,13 @@ std::array<double, 2> PlanedFacet::compute_parameters(const Tensor<1, 3> &in_pla
   else if (A != 0.)
     eta = (root - B) / (2. * A);
   eta = into_range(eta);
-  const Tensor<1, 3> along = e_1 + eta * e_3;
-  const double square = along.norm_square();
+  const InPlane along{e_1_[0] + eta * e_3_[0], e_1_[1] + eta * e_3_[1]};
+  const double square = along[0] * along[0] + along[1] * along[1];
   // At the tip of a triangle ξ means nothing.
-  const double xi = square > 0. ? into_range((in_plane - eta * e_2) * along / square) : 0.;
+  const double xi =
+      square > 0.
+          ? into_range(((x[0] - eta * e_2_[0]) * along[0] + (x[1] - eta * e_2_[1]) * along[1]) / square)
+          : 0.;
   return {xi, eta};
 }
 
@@ -66,16 +85,18 @@ FacetProjection PlanedFacet::project(const Tensor<1, 3> &x, const FacetLimits &l
   projection.normal = normal_;
   const Tensor<1, 3> arm = x - centre_;
   projection.gap = arm * normal_;
-  const Tensor<1, 3> in_plane = arm - projection.gap * normal_;
+  const InPlane in_plane{arm * directions_[0], arm * directions_[1]};
   locate(in_plane, limits.zone, projection);
   projection.exists = projection.excess <= limits.tolerance && projection.gap >= -limits.reach;
   if (!projection.exists)
     return projection;
   projection.parameters = compute_parameters(in_plane);
   projection.weights = facet::weights(projection.parameters);
-  const Tensor<1, 3> missing = in_plane - facet::interpolate(projection.weights, corners_);
-  const double alpha = cross(missing, diagonals_[1]) / double_area_,
-               beta = cross(diagonals_[0], missing) / double_area_;
+  const InPlane reached = at(projection.parameters[0], projection.parameters[1]);
+  const InPlane missing{in_plane[0] - reached[0], in_plane[1] - reached[1]};
+  // The diagonals are 2 (e_1 + e_2) and 2 (e_2 − e_1).
+  const double with_1 = cross(missing, e_1_), with_2 = cross(missing, e_2_),
+               alpha = 2. * (with_2 - with_1) / double_area_, beta = -2. * (with_1 + with_2) / double_area_;
   projection.weights[3] += alpha;
   projection.weights[0] -= alpha;
   projection.weights[2] += beta;

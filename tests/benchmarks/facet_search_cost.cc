@@ -29,11 +29,12 @@ double seconds(const std::function<void()> &action) {
 }
 
 template <class Facet>
-std::size_t choose_all(const FacetSearch &search, const Positions &positions_n, const Positions &positions,
+std::size_t choose_all(MovedFacets &facets, const Positions &positions_n,
                        std::vector<TouchedFacet> &touched) {
+  facets.reset();
   std::size_t n = 0;
-  for (std::size_t s = 0; s < search.slaves().size(); ++s) {
-    touched[s] = choose_facet<Facet>(search, s, positions_n, positions, touched[s], ContactLimits());
+  for (std::size_t s = 0; s < touched.size(); ++s) {
+    touched[s] = choose_facet<Facet>(facets, s, positions_n, touched[s], ContactLimits());
     n += touched[s].exists() ? 1 : 0;
   }
   return n;
@@ -57,6 +58,7 @@ void measure(const unsigned int n) { // facets along one side
   Positions positions = surface.positions;
   const double making = seconds([&] { search.rebuild(positions, positions); });
 
+  MovedFacets facets(search, positions);
   constexpr unsigned int n_steps = 10;
   std::array<double, 2> looking{};
   std::size_t n_touching = 0;
@@ -67,11 +69,11 @@ void measure(const unsigned int n) { // facets along one side
       positions[slave.node][0] += slave.surface == 0 ? 0.01 * h : 0.;
     looking[0] += seconds([&] {
       search.update(positions_n, positions);
-      n_touching = choose_all<PlanedFacet>(search, positions_n, positions, planed);
+      n_touching = choose_all<PlanedFacet>(facets, positions_n, planed);
     });
     looking[1] += seconds([&] {
       search.update(positions_n, positions);
-      choose_all<BilinearFacet>(search, positions_n, positions, bilinear);
+      choose_all<BilinearFacet>(facets, positions_n, bilinear);
     });
   }
   const auto n_facets = static_cast<double>(surface.facets.size());

@@ -348,7 +348,8 @@ template <class Facet> void check_sharing(const std::string &name) {
         if (!touched.projection.exists || !(touched.projection.share > 0.))
           continue;
         std::vector<FacetShare> shares;
-        const SharedGap result = share_facets<Facet>(*at, touched, x, surface.positions, limits, shares);
+        const SharedGap result =
+            share_facets<Facet>(MovedFacets(*at, surface.positions), touched, x, limits, shares);
         double sum = 0.;
         for (const auto &share : shares)
           sum += share.share;

@@ -135,7 +135,7 @@ struct Probe {
     positions_n.back() = from;
     positions.back() = to;
     search.update(positions_n, positions);
-    return choose_facet<Facet>(search, 0, positions_n, positions, last, limits);
+    return choose_facet<Facet>(MovedFacets(search, positions), 0, positions_n, last, limits);
   }
 };
 
@@ -234,9 +234,9 @@ void check_self_contact() {
   search.set_surface(surface.facets, slaves);
   search.update(surface.positions, surface.positions);
   unsigned int n_front = 0;
+  const MovedFacets facets(search, surface.positions);
   for (std::size_t s = 0; s < slaves.size(); ++s) {
-    const auto touched =
-        choose_facet<PlanedFacet>(search, s, surface.positions, surface.positions, {}, ContactLimits());
+    const auto touched = choose_facet<PlanedFacet>(facets, s, surface.positions, {}, ContactLimits());
     if (touched.exists() && surface.positions[slaves[s].node][0] > 0.3)
       ++n_front;
   }
@@ -254,13 +254,11 @@ void check_alignment() {
     FacetSearch search(FacetSearch::Partners::other_surfaces, 0.02);
     search.set_surface(surface.facets, surface.slaves());
     search.update(surface.positions, surface.positions);
+    const MovedFacets facets(search, surface.positions);
     unsigned int n_touching = 0;
     for (std::size_t s = 0; s < search.slaves().size(); ++s)
       n_touching +=
-          choose_facet<PlanedFacet>(search, s, surface.positions, surface.positions, {}, ContactLimits())
-                  .exists()
-              ? 1
-              : 0;
+          choose_facet<PlanedFacet>(facets, s, surface.positions, {}, ContactLimits()).exists() ? 1 : 0;
     check(is_opposed ? "sheets that face each other touch" : "sheets that face the same way do not",
           n_touching == (is_opposed ? search.slaves().size() : 0));
   }

@@ -41,7 +41,7 @@ template <class Facet> void check_balance(const std::string &name) {
       continue;
     const Tensor<1, 3> force = random_vector(random, std::pow(10., random(-6., 6.)));
     const auto balance = [&](const Tensor<1, 3> &F, WorstError &forces, WorstError &moments) {
-      const FacetCorners reaction = compute_facet_reaction(corners, p.weights, x, F);
+      const FacetCorners reaction = FacetReaction(corners)(p.weights, x, F);
       Tensor<1, 3> sum = F, moment = dealii::cross_product_3d(x - corners[0], F);
       double couple = 0.;
       for (unsigned int a = 0; a < 4; ++a) {

@@ -8,9 +8,17 @@ namespace billet {
 
 /// A slave node's share of one of its own facets, ∫ N_a <−ν·n> dξdη: the facet's area seen along the normal n
 /// of what the node touches, weighted by the shape function of its corner a; ν = x,ξ × x,η, by 2 × 2 Gauss
-/// points. A facet that does not face what the node touches has no share. [length²]
-double compute_area_share(const FacetCorners &corners, unsigned int corner,
-                          const dealii::Tensor<1, 3> &normal);
+/// points. A facet that does not face what the node touches has no share.
+class FacetAreas {
+public:
+  explicit FacetAreas(const facet::Expansion &surface);
+
+  /// [length²]; `normal` is a unit vector.
+  double share(unsigned int corner, const dealii::Tensor<1, 3> &normal) const;
+
+private:
+  dealii::Tensor<1, 3> constant_, along_xi_, along_eta_; ///< ν = constant + ξ along_xi + η along_eta
+};
 
 } // namespace billet
 

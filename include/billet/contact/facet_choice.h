@@ -2,7 +2,7 @@
 #ifndef BILLET_CONTACT_FACET_CHOICE_H
 #define BILLET_CONTACT_FACET_CHOICE_H
 
-#include "billet/contact/facet_search.h"
+#include "billet/contact/moved_facets.h"
 
 namespace billet {
 
@@ -51,29 +51,21 @@ struct TouchedFacet {
 /// in a concave edge, where the node must get out of both, the one in which it is deeper. Unlike in the
 /// paper, this may also replace the last facet, in concave edges: else a node that slides along one flank
 /// would go through the other; and so may a facet that the node has come through and that faces it far
-/// better.
+/// better. Facets that lie nearly in one plane with it need not be looked at.
 ///
 /// Where facets meet smoothly, one is as good as the other: share_facets() makes the contact of both.
 template <class Facet>
-TouchedFacet choose_facet(const FacetSearch &search, std::size_t slave,
-                          const FacetSearch::Positions &positions_n, const FacetSearch::Positions &positions,
-                          const TouchedFacet &last, const ContactLimits &limits);
+TouchedFacet choose_facet(const MovedFacets &facets, std::size_t slave,
+                          const FacetSearch::Positions &positions_n, const TouchedFacet &last,
+                          const ContactLimits &limits);
 
 /// The candidate that a node which touches none is straight above and before; the nearest, as a plane. Its
 /// gap is >= 0.
-TouchedFacet find_facet_below(const FacetSearch &search, std::size_t slave,
-                              const FacetSearch::Positions &positions, const ContactLimits &limits);
-
-/// Corners of a facet.
-inline FacetCorners corners_of(const SurfaceFacet &facet, const FacetSearch::Positions &positions) {
-  return {positions[facet.nodes[0]], positions[facet.nodes[1]], positions[facet.nodes[2]],
-          positions[facet.nodes[3]]};
-}
+TouchedFacet find_facet_below(const MovedFacets &facets, std::size_t slave, const ContactLimits &limits);
 
 /// Unit normal of a node: the mean of those of the facets around it, whatever their areas, so that a rim of
 /// narrow facets counts; 0 where they cancel, but for round-off, and where there are none.
-dealii::Tensor<1, 3> compute_node_normal(const FacetSearch &search, unsigned int node,
-                                         const FacetSearch::Positions &positions);
+dealii::Tensor<1, 3> compute_node_normal(const MovedFacets &facets, unsigned int node);
 
 } // namespace billet
 

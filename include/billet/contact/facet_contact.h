@@ -77,7 +77,7 @@ public:
   /// With the same sum of the elements, ω² <= max_i Σ_j |K_ij|/m_i. A slave straight before one of its
   /// candidates counts as if it touched it: a step that were shortened only when a node has entered would be
   /// too long for that entry.
-  void add_row_sums(std::vector<double> &row_sums) const;
+  void add_row_sums(std::vector<double> &row_sums);
 
   /// After add_forces().
   FacetContactLoad compute_load() const;
@@ -120,6 +120,7 @@ private:
 
   void update_search(const Positions &positions_n, const Positions &positions);
   void rebuild();
+  /// States of the slaves, and their forces in nodal_forces_.
   template <class Facet, class Law> void evaluate(const Law &law, double duration);
   /// What slave s touches, or is near, and with which areas.
   template <class Facet> void find_contact(std::size_t s);
@@ -132,9 +133,6 @@ private:
     return 0.5 * crossing.area * (edge_stiffness_[crossing.nodes[0]] + edge_stiffness_[crossing.nodes[1]]);
   }
   void add_edges(FacetContactLoad &load) const;
-  FacetCorners target_corners(const unsigned int facet) const {
-    return corners_of(search_.facets()[facet], positions_);
-  }
 
   MPI_Comm communicator_;
   FacetContactSettings settings_;
@@ -144,6 +142,7 @@ private:
   std::vector<SlaveNode> slaves_;
   std::vector<ContactStiffness> stiffness_; ///< of slaves, in one of the passes
   Positions positions_n_, positions_;       ///< with ghosts
+  MovedFacets moved_{search_, positions_};
   std::vector<TouchedFacet> touched_n_;
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave
@@ -151,6 +150,8 @@ private:
   std::optional<EdgeContact> edges_;
   std::vector<double> edge_stiffness_; ///< full normal penalties of own nodes, if there are edges
   std::vector<EdgeContact::Crossing> crossings_;
+  Positions nodal_forces_; ///< with ghosts, of one step
+  std::vector<double> nodal_sums_;
 };
 
 } // namespace billet

@@ -11,8 +11,17 @@ namespace billet {
 /// with r_I = x_I − ¼ Σ x_J. The weights alone balance a force along x − Σ w_I x_I, such as a pressure; the
 /// second term, of no resultant and the least there is, is the moment of friction across the gap. The facet
 /// must have an area, and the weights the sum 1.
-FacetCorners compute_facet_reaction(const FacetCorners &corners, const std::array<double, 4> &weights,
-                                    const dealii::Tensor<1, 3> &x, const dealii::Tensor<1, 3> &force);
+class FacetReaction {
+public:
+  explicit FacetReaction(const facet::Expansion &surface);
+
+  FacetCorners operator()(const std::array<double, 4> &weights, const dealii::Tensor<1, 3> &x,
+                          const dealii::Tensor<1, 3> &force) const;
+
+private:
+  facet::Expansion surface_;
+  dealii::Tensor<2, 3> inverse_second_moment_;
+};
 
 } // namespace billet
 

@@ -76,7 +76,7 @@ public:
     return first_candidate_[slave] < first_candidate_[slave + 1];
   }
 
-  /// Calls visit(facet) for each facet that has this node.
+  /// Calls visit(facet) for each facet that has this node, by rising keys.
   template <class Visit> void visit_around(const unsigned int node, const Visit &visit) const {
     for (std::size_t i = first_around_[node]; i < first_around_[node + 1]; ++i)
       visit(around_[i]);

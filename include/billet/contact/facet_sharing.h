@@ -33,9 +33,8 @@ bool meet_smoothly(const dealii::Tensor<1, 3> &normal, const dealii::Tensor<1, 3
 ///
 /// Corners and sharp edges are not shared: there the choice decides.
 template <class Facet>
-SharedGap share_facets(const FacetSearch &search, const TouchedFacet &touched, const dealii::Tensor<1, 3> &x,
-                       const FacetSearch::Positions &positions, const ContactLimits &limits,
-                       std::vector<FacetShare> &shares);
+SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, const dealii::Tensor<1, 3> &x,
+                       const ContactLimits &limits, std::vector<FacetShare> &shares);
 
 } // namespace billet
 

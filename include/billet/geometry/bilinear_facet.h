@@ -15,7 +15,8 @@ namespace billet {
 /// result is the closest point of the facet itself, on its border, and no projection.
 class BilinearFacet {
 public:
-  explicit BilinearFacet(const FacetCorners &x);
+  explicit BilinearFacet(const facet::Expansion &surface)
+      : surface_(surface), has_area_(surface.has_area()) {}
 
   /// By Newton's method from `start`, the last projection's parameters, or the middle.
   FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
@@ -24,7 +25,7 @@ public:
 private:
   /// From the point x = e_0 − arm to that of the surface.
   dealii::Tensor<1, 3> difference(const std::array<double, 2> &at, const dealii::Tensor<1, 3> &arm) const {
-    return arm + (at[0] * e_1_ + at[1] * e_2_ + (at[0] * at[1]) * e_3_);
+    return arm + (at[0] * surface_.e_1 + at[1] * surface_.e_2 + (at[0] * at[1]) * surface_.e_3);
   }
   /// A local minimum of the distance in −range <= ξ, η <= range.
   std::array<double, 2> minimise(const dealii::Tensor<1, 3> &arm, double range,
@@ -33,7 +34,7 @@ private:
                                      const std::array<double, 2> &at) const;
   std::array<double, 2> nearest_on_border(const dealii::Tensor<1, 3> &arm) const;
 
-  dealii::Tensor<1, 3> e_0_, e_1_, e_2_, e_3_; ///< X = e_0 + ξ e_1 + η e_2 + ξη e_3
+  facet::Expansion surface_;
   bool has_area_;
 };
 

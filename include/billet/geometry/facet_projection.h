@@ -36,17 +36,29 @@ inline dealii::Tensor<1, 3> interpolate(const std::array<double, 4> &weights,
   return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2] + weights[3] * values[3];
 }
 
-/// Whether diagonals with this cross product span an area: else the facet has no normal.
-inline bool has_area(const dealii::Tensor<1, 3> &diagonal_0, const dealii::Tensor<1, 3> &diagonal_1,
-                     const dealii::Tensor<1, 3> &cross_product) {
-  // What rounding of the corners' coordinates may leave of a facet that is a line.
-  constexpr double least = 1e-12;
-  return cross_product.norm() > least * std::max(diagonal_0.norm_square(), diagonal_1.norm_square());
-}
+/// The bilinear surface through the corners, X(ξ, η) = e_0 + ξ e_1 + η e_2 + ξη e_3.
+struct Expansion {
+  Expansion(const FacetCorners &x) // NOLINT(google-explicit-constructor): the same surface
+      : e_0(0.25 * (x[0] + x[1] + x[2] + x[3])), e_1(0.25 * ((x[3] - x[0]) - (x[2] - x[1]))),
+        e_2(0.25 * ((x[3] - x[0]) + (x[2] - x[1]))), e_3(0.25 * ((x[0] - x[1]) + (x[3] - x[2]))) {}
+
+  /// The mean of the area vectors ∂X/∂ξ × ∂X/∂η, an eighth of the cross product of the diagonals.
+  dealii::Tensor<1, 3> mean_area_vector() const { return dealii::cross_product_3d(e_1, e_2); }
+  /// Else the facet has no normal.
+  bool has_area() const {
+    // What rounding of the corners' coordinates may leave of a facet that is a line.
+    constexpr double least = 1e-12;
+    return 2. * mean_area_vector().norm() >
+           least * std::max((e_1 + e_2).norm_square(), (e_1 - e_2).norm_square());
+  }
+
+  dealii::Tensor<1, 3> e_0, e_1, e_2, e_3;
+};
 
 /// One edge's factor of FacetProjection::share; `distance` from it is positive inside.
 inline double share_at(const double distance, const double zone) {
-  return std::min(std::max(0.5 * (distance / zone + 1.), 0.), 1.);
+  const double share = 0.5 * (distance / zone + 1.), positive = share > 0. ? share : 0.;
+  return positive < 1. ? positive : 1.; // so written there is no jump, which nodes on a seam would mislead
 }
 
 } // namespace facet

@@ -23,25 +23,52 @@ namespace billet {
 /// A facet with two coincident corners is a triangle; one without area has no projection.
 class PlanedFacet {
 public:
-  explicit PlanedFacet(const FacetCorners &corners);
+  explicit PlanedFacet(const facet::Expansion &surface);
+
+  /// Mean of the corners.
+  const dealii::Tensor<1, 3> &centre() const { return centre_; }
+  /// Unit, out of the body; 0 if the facet has no area.
+  const dealii::Tensor<1, 3> &normal() const { return normal_; }
+
+  /// The whole surface between the corners, however warped, and continued by `tolerance` beyond its border,
+  /// is behind the point. Quicker to tell than a projection, as is_aside().
+  bool is_before(const dealii::Tensor<1, 3> &x, const double tolerance) const {
+    return (x - centre_) * normal_ > warp_ * (1. + 2. * tolerance) * (1. + 2. * tolerance);
+  }
+  /// The point is neither above nor below that surface nor within `tolerance` of its border, wherever its
+  /// normals point.
+  bool is_aside(const dealii::Tensor<1, 3> &x, double tolerance) const;
 
   /// Nothing is searched for, so that a start is of no use.
   FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
                           const std::array<double, 2> & /*start*/ = {}) const;
 
 private:
-  /// Component along the normal of a × b.
-  double cross(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b) const {
-    return dealii::cross_product_3d(a, b) * normal_;
+  /// Components along two unit vectors of the plane, from the centre.
+  using InPlane = std::array<double, 2>;
+
+  static double cross(const InPlane &a, const InPlane &b) { return a[0] * b[1] - a[1] * b[0]; }
+  /// ξ e_1 + η e_2 + ξη e_3
+  InPlane at(const double xi, const double eta) const {
+    return {xi * e_1_[0] + eta * e_2_[0] + xi * eta * e_3_[0],
+            xi * e_1_[1] + eta * e_2_[1] + xi * eta * e_3_[1]};
   }
   /// Excess and share.
-  void locate(const dealii::Tensor<1, 3> &in_plane, double zone, FacetProjection &projection) const;
-  std::array<double, 2> compute_parameters(const dealii::Tensor<1, 3> &in_plane) const;
+  void locate(const InPlane &x, double zone, FacetProjection &projection) const;
+  std::array<double, 2> compute_parameters(const InPlane &x) const;
 
-  std::array<dealii::Tensor<1, 3>, 4> corners_; ///< in the plane, from the centre
+  /// Distance from a border, relative to the facet's extent across it, is along·x + offset; positive inside.
+  struct Border {
+    InPlane along;
+    double offset;
+  };
+
   dealii::Tensor<1, 3> centre_, normal_;
-  std::array<dealii::Tensor<1, 3>, 2> diagonals_;
-  double double_area_ = 0.; ///< of the facet as it projects onto the plane; 0 if it has no normal
+  std::array<dealii::Tensor<1, 3>, 2> directions_; ///< normal to each other and to the normal
+  InPlane e_1_{}, e_2_{}, e_3_{};                  ///< of the corners as they project onto the plane
+  double double_area_ = 0.;                        ///< of these; 0 if the facet has no normal
+  double warp_ = 0., square_of_radius_ = 0.;
+  std::array<Border, 4> borders_{};
 };
 
 } // namespace billet

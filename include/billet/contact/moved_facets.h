@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_MOVED_FACETS_H
+#define BILLET_CONTACT_MOVED_FACETS_H
+
+#include "billet/contact/facet_areas.h"
+#include "billet/contact/facet_reaction.h"
+#include "billet/contact/facet_search.h"
+#include "billet/geometry/planed_facet.h"
+
+#include <deque>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+namespace billet {
+
+/// Corners of a facet.
+inline FacetCorners corners_of(const SurfaceFacet &facet, const FacetSearch::Positions &positions) {
+  return {positions[facet.nodes[0]], positions[facet.nodes[1]], positions[facet.nodes[2]],
+          positions[facet.nodes[3]]};
+}
+
+/// The facets of a search where their nodes are now. What contact needs of one is made when it is first asked
+/// for, and kept: several nodes ask for the same facet, and of a large surface few facets are asked for.
+class MovedFacets {
+public:
+  using Positions = FacetSearch::Positions;
+
+  /// Both have to outlive this, at the same address.
+  MovedFacets(const FacetSearch &search, const Positions &positions)
+      : search_(search), positions_(positions) {
+    reset();
+  }
+
+  /// To be called when nodes have moved or facets have changed.
+  void reset() {
+    index_.assign(search_.facets().size(), none);
+    n_kept_ = 0;
+  }
+
+  const FacetSearch &search() const { return search_; }
+  const dealii::Tensor<1, 3> &position(const unsigned int node) const { return positions_[node]; }
+  FacetCorners corners(const unsigned int facet) const {
+    return corners_of(search_.facets()[facet], positions_);
+  }
+
+  const PlanedFacet &plane(const unsigned int facet) const { return get(facet).plane; }
+  const FacetAreas &areas(const unsigned int facet) const { return get(facet).areas; }
+  const FacetReaction &reaction(const unsigned int facet) const { return get(facet).reaction; }
+
+  /// The projection of x onto a facet as a Facet sees it, PlanedFacet or BilinearFacet.
+  template <class Facet>
+  FacetProjection project(const unsigned int facet, const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
+                          const std::array<double, 2> &start = {}) const {
+    if constexpr (std::is_same_v<Facet, PlanedFacet>)
+      return plane(facet).project(x, limits);
+    else
+      return Facet(corners(facet)).project(x, limits, start);
+  }
+
+private:
+  struct Kept {
+    explicit Kept(const facet::Expansion &surface) : plane(surface), areas(surface), reaction(surface) {}
+    PlanedFacet plane;
+    FacetAreas areas;
+    FacetReaction reaction;
+  };
+
+  const Kept &get(const unsigned int facet) const {
+    if (index_[facet] == none) {
+      if (n_kept_ == kept_.size())
+        kept_.emplace_back();
+      kept_[n_kept_].emplace(corners(facet));
+      index_[facet] = n_kept_++;
+    }
+    return *kept_[index_[facet]];
+  }
+
+  static constexpr unsigned int none = static_cast<unsigned int>(-1);
+
+  const FacetSearch &search_;
+  const Positions &positions_;
+  mutable std::vector<unsigned int> index_; ///< in kept_, by facet
+  mutable std::deque<std::optional<Kept>>
+      kept_; ///< references last while it grows; memory is kept from step to step
+  mutable unsigned int n_kept_ = 0;
+};
+
+} // namespace billet
+
+#endif
