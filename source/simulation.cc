@@ -297,6 +297,8 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
       throw SolutionFailure(std::string(failure.what()) + ". What was computed until then is in '" +
                             parameters.output.folder.value + "'.");
     }
+    if (problem.n_steps() == 0)
+      outputs.progress.show_number_of_steps(events.end() / problem.step_length(), problem.step_length());
     if (is_due) {
       put_out();
       stop_on_drift();

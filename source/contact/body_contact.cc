@@ -27,6 +27,19 @@ std::uint64_t make_key(const BoundaryFacet &facet) {
   return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
 }
 
+FacetMethod method_of(const parameters::ContactPair::Facets facets) {
+  using Facets = parameters::ContactPair::Facets;
+  switch (facets) {
+  case Facets::planed:
+    return FacetMethod::planed;
+  case Facets::mean_gap:
+    return FacetMethod::mean_gap;
+  case Facets::bilinear:
+    break;
+  }
+  return FacetMethod::bilinear;
+}
+
 } // namespace
 
 BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes)
@@ -34,8 +47,7 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   collect();
   const MPI_Comm communicator = nodes.discretization().communicator();
   FacetContactSettings settings;
-  settings.method =
-      pair_.facets == parameters::ContactPair::Facets::planed ? FacetMethod::planed : FacetMethod::bilinear;
+  settings.method = method_of(pair_.facets);
   settings.friction = pair_.friction;
   settings.two_pass = pair_.two_passes || pair_.is_self_contact;
   settings.edges = pair_.edges;

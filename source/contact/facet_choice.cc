@@ -230,6 +230,7 @@ Tensor<1, 3> compute_node_normal(const MovedFacets &facets, const unsigned int n
                                             const FacetSearch::Positions &, const TouchedFacet &,            \
                                             const ContactLimits &);
 BILLET_INSTANTIATE(PlanedFacet)
+BILLET_INSTANTIATE(MeanGapFacet)
 BILLET_INSTANTIATE(BilinearFacet)
 #undef BILLET_INSTANTIATE
 

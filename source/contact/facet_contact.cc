@@ -203,6 +203,8 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
       [&](const auto &law) {
         if (settings_.method == FacetMethod::planed)
           evaluate<PlanedFacet>(law, duration);
+        else if (settings_.method == FacetMethod::mean_gap)
+          evaluate<MeanGapFacet>(law, duration);
         else
           evaluate<BilinearFacet>(law, duration);
       },

@@ -54,6 +54,7 @@ SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, c
   template SharedGap share_facets<Facet>(const MovedFacets &, const TouchedFacet &, const Tensor<1, 3> &,    \
                                          const ContactLimits &, std::vector<FacetShare> &);
 BILLET_INSTANTIATE(PlanedFacet)
+BILLET_INSTANTIATE(MeanGapFacet)
 BILLET_INSTANTIATE(BilinearFacet)
 #undef BILLET_INSTANTIATE
 

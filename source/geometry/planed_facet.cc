@@ -20,7 +20,7 @@ PlanedFacet::PlanedFacet(const facet::Expansion &surface) : centre_(surface.e_0)
   e_1_ = {length, 0.};
   e_2_ = {surface.e_2 * directions_[0], area / length};
   e_3_ = {surface.e_3 * directions_[0], surface.e_3 * directions_[1]};
-  warp_ = std::abs(surface.e_3 * normal_); // corners are as far above the plane as below
+  warp_ = surface.e_3 * normal_;
   std::array<InPlane, 4> x;
   for (unsigned int a = 0; a < 4; ++a) {
     x[a] = at(facet::signs[a][0], facet::signs[a][1]);
@@ -78,7 +78,7 @@ std::array<double, 2> PlanedFacet::compute_parameters(const InPlane &x) const {
 }
 
 FacetProjection PlanedFacet::project(const Tensor<1, 3> &x, const FacetLimits &limits,
-                                     const std::array<double, 2> &) const {
+                                     const double warp) const {
   FacetProjection projection;
   if (!(double_area_ > 0.))
     return projection;
@@ -87,8 +87,7 @@ FacetProjection PlanedFacet::project(const Tensor<1, 3> &x, const FacetLimits &l
   projection.gap = arm * normal_;
   const InPlane in_plane{arm * directions_[0], arm * directions_[1]};
   locate(in_plane, limits.zone, projection);
-  projection.exists = projection.excess <= limits.tolerance && projection.gap >= -limits.reach;
-  if (!projection.exists)
+  if (!(projection.excess <= limits.tolerance))
     return projection;
   projection.parameters = compute_parameters(in_plane);
   projection.weights = facet::weights(projection.parameters);
@@ -101,6 +100,9 @@ FacetProjection PlanedFacet::project(const Tensor<1, 3> &x, const FacetLimits &l
   projection.weights[0] -= alpha;
   projection.weights[2] += beta;
   projection.weights[1] -= beta;
+  const auto &w = projection.weights;
+  projection.gap -= warp * (w[0] + w[3] - w[1] - w[2]);
+  projection.exists = projection.gap >= -limits.reach;
   return projection;
 }
 

@@ -53,6 +53,18 @@ void Progress::show_mass_scaling(const double added, const double mass) {
           << std::setprecision(6);
 }
 
+void Progress::show_number_of_steps(const double n_steps, const double step) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  constexpr double suspicious = 1e8;
+  stream_ << "About " << std::llround(n_steps) << " steps of " << std::setprecision(4) << step
+          << std::setprecision(6)
+          << (n_steps > suspicious
+                  ? ": is the end time, a density or a unit what it should be, and no element "
+                    "nearly flat? 'Mass scaling step' makes steps longer\n"
+                  : "\n");
+}
+
 void Progress::accept(const StepReport &report, const SolutionState &state) {
   if (verbosity_ == Verbosity::quiet)
     return;

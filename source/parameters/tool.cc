@@ -195,9 +195,11 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Second boundary ids", "", Patterns::Anything(),
                     "Boundary ids of the second body's faces. Empty, where it is the same body: the faces of "
                     "'Boundary ids' among themselves.");
-  prm.declare_entry("Facets", "planed", Patterns::Selection("planed|bilinear"),
-                    "Pairs of bodies: planed: the planed contact element, no iterations (Bittencourt & Creus "
-                    "1998); bilinear: the closest point on the bilinear face, iterated.");
+  prm.declare_entry(
+      "Facets", "planed", Patterns::Selection("planed|mean gap|bilinear"),
+      "Pairs of bodies: planed: the planed contact element, no iterations (Bittencourt & Creus "
+      "1998), with the gap to the warped face; mean gap: to its mean plane, as published, which "
+      "can create energy; bilinear: the closest point on the bilinear face, iterated.");
   prm.declare_entry("Passes", "two", Patterns::Selection("one|two"),
                     "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
                     "half the penalty; one: those of 'Body' alone.");
@@ -285,7 +287,10 @@ void ContactPair::parse_bodies(Reader &reader) {
         reader.reject(key, "no value: the pair is of a body and a tool");
   if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.value.empty())
     reader.reject("Second boundary ids", "at least one boundary id");
-  facets = reader.located("Facets", reader.text("Facets") == "planed" ? Facets::planed : Facets::bilinear);
+  const std::string kind = reader.text("Facets");
+  facets = reader.located("Facets", kind == "planed"     ? Facets::planed
+                                    : kind == "mean gap" ? Facets::mean_gap
+                                                         : Facets::bilinear);
   two_passes = reader.text("Passes") == "two";
   edges = reader.flag("Edges");
   search_margin = reader.positive("Search margin");

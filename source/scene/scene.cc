@@ -112,6 +112,19 @@ FrictionLaw make_friction(const parameters::ContactPair &pair) {
   return Coulomb{pair.friction_coefficient};
 }
 
+std::string describe_facets(const parameters::ContactPair::Facets facets) {
+  using Facets = parameters::ContactPair::Facets;
+  switch (facets) {
+  case Facets::planed:
+    return "planed";
+  case Facets::mean_gap:
+    return "mean gap";
+  case Facets::bilinear:
+    break;
+  }
+  return "bilinear";
+}
+
 std::string describe_friction(const parameters::ContactPair &pair) {
   using Law = parameters::ContactPair::FrictionLaw;
   std::ostringstream text;
@@ -288,9 +301,8 @@ void Scene::describe(std::ostream &stream) const {
   for (const auto &pair : body_pairs_)
     stream << "Contact pair   " << pair.name << ": " << bodies_[pair.bodies[0]].name << " on "
            << (pair.is_self_contact ? "itself" : bodies_[pair.bodies[1]].name) << ", "
-           << (pair.facets == parameters::ContactPair::Facets::planed ? "planed" : "bilinear") << " facets, "
-           << (pair.two_passes ? "two passes, " : "one pass, ") << (pair.edges ? "edges, " : "")
-           << describe_friction(*pair.input) << describe_penalties(pair);
+           << describe_facets(pair.facets) << " facets, " << (pair.two_passes ? "two passes, " : "one pass, ")
+           << (pair.edges ? "edges, " : "") << describe_friction(*pair.input) << describe_penalties(pair);
   const auto &stepping = parameters_.time_stepping;
   stream << "Time           0 to " << stepping.end_time;
   if (parameters_.is_explicit())

@@ -112,16 +112,16 @@ sub run
   if (!$pid)
   {
     open STDIN,  '<', '/dev/null';
-    open STDOUT, '>', '../stdout' or die;
-    open STDERR, '>', '../stderr' or die;
+    open STDOUT, '>', '../scene.stdout' or die;
+    open STDERR, '>', '../scene.stderr' or die;
     my $limited = "ulimit -v $memory_limit && exec timeout --kill-after=5 $time_limit \"\$@\"";
     exec 'bash', '-c', $limited, 'bash', @command or die "bash: $!\n";
   }
   waitpid $pid, 0;
   my $code = $? & 127 ? 128 + ($? & 127) : $? >> 8;
-  my $errors = read_text('../stderr');
+  my $errors = read_text('../scene.stderr');
   $errors =~ s/^-{40,}\n.*?^-{40,}\n//msg;
-  return ($code, read_text('../stdout'), $errors);
+  return ($code, read_text('../scene.stdout'), $errors);
 }
 
 # Every file below the current folder: its name, time and contents.

@@ -334,6 +334,8 @@ check "$_->[0], on $_->[1] ranks", sub {
 } for (map { my $ranks = $_;
   ['an element that is blown inside out', $ranks, 'push: Pressure = if(t > 1e-4, 1e6, 0)',
    qr/0\.0001\d* after \d+ steps an element of body 'block' at \([-\d.e]+ [-\d.e]+ [-\d.e]+\) is inside out/, 2],
+  ['a load without bounds', $ranks, 'gravity: Acceleration = 0 ; 0 ; if(t > 1e-4, 1e308, 0)',
+   qr/0\.0001\d* after \d+ steps an element of body 'block' at \(.*\) is inside out or not a number/, 2],
   ['a motion without bounds', $ranks, 'block: Initial velocity = 0 ; 0 ; 1e200',
    qr/0 after 0 steps the energies are not finite; /, 1],
   ['a pressure that is not a number', $ranks, 'push: Pressure = if(t > 1e-4, log(-t), 0)', qr/0\.0001/, 2],
@@ -342,6 +344,16 @@ check "$_->[0], on $_->[1] ranks", sub {
 } 1, 2),
   ['a step too short for the clock', 1, 'block / Material: Density = 1e-300',
    qr/0 after 0 steps the stable step, [\d.e-]+, is too short for the clock: .*'Mass scaling step' makes it longer/, 1];
+check 'explicit scenes say how many steps there will be', sub {
+  my $folder = billet('', base => $impact);
+  my ($steps) = (split /\n/, read_text("$folder/history.csv"))[-1] =~ /^(\d+)/;
+  return "says $said" unless $said =~ /^About (\d+) steps of [\d.e-]+$/m;
+  return abs($1 / $steps - 1) < 0.5 ? '' : "$1 steps, not $steps";
+};
+check 'and that they are absurdly many', sub {
+  billet('block / Material: Density = 1e-20 & block: Initial velocity = 0 ; 0 ; 1e200', base => $impact, code => 3);
+  return $said =~ /^About \d+ steps of [\d.e-]+: is .*'Mass scaling step' makes steps longer$/m ? '' : "says $said";
+};
 # Between bed and die, which both go; a third tool, which may come to touch, does not.
 sub tool
 {

@@ -166,7 +166,7 @@ void check_planed() {
       sum +=
           dealii::cross_product_3d(x[facet::around[(k + 1) % 4]] - x_I, x[facet::around[(k + 3) % 4]] - x_I);
     }
-    const FacetProjection p = PlanedFacet(x).project(at, {});
+    const FacetProjection p = MeanGapFacet(x).project(at, {});
     normal.add((p.normal - sum / sum.norm()).norm());
     double mean_gap = 0.;
     for (unsigned int a = 0; a < 4; ++a)
@@ -194,6 +194,32 @@ void check_planed() {
   }
   check("planed: eq. (20)", n_wrong == 0 && n_inside > 500 && n_inside < 2500);
 
+  // Of plane facets the gap's gradients are the reaction's weights, (X9); the mean gap's are not, by ±ξη/4.
+  WorstError gradient, mean_gradient;
+  for (unsigned int i = 0; i < 1000; ++i) {
+    FacetCorners x = unit_square();
+    for (auto &corner : x)
+      corner[2] = 0.;
+    const Tensor<1, 3> at = vector(random(0.05, 0.95), random(0.05, 0.95), random(-0.1, 0.1));
+    const FacetProjection p = PlanedFacet(x).project(at, {});
+    const double step = 1e-6, both = p.parameters[0] * p.parameters[1];
+    for (unsigned int a = 0; a < 4; ++a) {
+      std::array<double, 2> gaps{}, mean_gaps{};
+      for (unsigned int side = 0; side < 2; ++side) {
+        FacetCorners moved = x;
+        moved[a] += (side == 0 ? -step : step) * p.normal;
+        gaps[side] = PlanedFacet(moved).project(at, {}).gap;
+        mean_gaps[side] = MeanGapFacet(moved).project(at, {}).gap;
+      }
+      gradient.add(std::abs((gaps[1] - gaps[0]) / (2. * step) + p.weights[a]));
+      const double sign = facet::signs[a][0] * facet::signs[a][1];
+      mean_gradient.add(
+          std::abs((mean_gaps[1] - mean_gaps[0]) / (2. * step) + p.weights[a] - 0.25 * sign * both));
+    }
+  }
+  check("planed: the gap's gradients are the weights", gradient.value(), 1e-9);
+  check("planed: those of the mean gap lack the warping", mean_gradient.value(), 1e-9);
+
   // Outside of the facet, and where its corners make no convex quadrilateral, weights still balance moments.
   WorstError across;
   for (unsigned int i = 0; i < 3000; ++i) {
@@ -205,9 +231,9 @@ void check_planed() {
     const Tensor<1, 3> at = point_near(random, x, 2., 0.3);
     const FacetProjection p = PlanedFacet(x).project(at, {100.});
     const Tensor<1, 3> arm = at - facet::interpolate(p.weights, x);
-    across.add((arm - (arm * p.normal) * p.normal).norm());
+    across.add((arm - p.gap * p.normal).norm());
   }
-  check("planed: straight above the weights anywhere", across.value(), 1e-13);
+  check("planed: the gap is that to the weights' point, straight above it anywhere", across.value(), 1e-13);
 }
 
 void check_bilinear() {

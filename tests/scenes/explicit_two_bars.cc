@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Two equal elastic bars, one of which flies onto the other, exchange their velocities; with surfaces that
-// match and that do not, in one pass and in two, at soft and at stiff penalties.
+// match and that do not, in one pass and in two, at soft and at stiff penalties. Bars of different stiffness:
+// penalties by the stiffer and in series.
 #include "explicit_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -53,6 +54,32 @@ void test(const double penalty, const unsigned int across, const bool two_passes
   std::cout << "  " << left[0] << " and " << right[0] << std::endl;
 }
 
+/// The right bar is four times as stiff, so that c is twice as large there. While the fronts run, the force
+/// is v A Z_1 Z_2/(Z_1 + Z_2) with Z = ρ c, and the mean penetration that force over k A.
+void test_unequal(const std::string &name, const parameters::ContactPair::PenaltyOf penalty_of,
+                  const double unit) {
+  parameters::Scene scene = testing::read_test_scene("two_bars.prm");
+  const double young_modulus = scene.bodies[0].material.young_modulus;
+  scene.bodies[1].material.young_modulus = 4. * young_modulus;
+  scene.pairs[0].penalty_of = penalty_of;
+  scene.time_stepping.end_time = 40e-6; // the right front comes back 50 µs after the blow
+  testing::ExplicitRun bars(scene);
+  double force = 0., penetration = 0., n = 0.;
+  bars.finish(1e-6, [&] {
+    const ContactLoad &load = bars.state().body_pair_loads[0];
+    if (bars.state().time < 25e-6)
+      return;
+    force += load.force.norm();
+    penetration += 2. * load.stored_energy / load.force.norm();
+    n += 1.;
+  });
+  const double area = 0.02 * 0.02, z = std::sqrt(young_modulus * 8000.), expected = 100. * area * z * 2. / 3.,
+               size = 0.01;
+  check("unequal bars, " + name + ": force of the waves", force / n / expected - 1., 0.01);
+  check("unequal bars, " + name + ": penetration",
+        penetration / n / (expected / area / (unit * young_modulus / size)) - 1., 0.02);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -64,5 +91,8 @@ int main(int argc, char *argv[]) {
   test(1., 3, true, Facets::bilinear);
   test(1., 3, false, Facets::planed);
   test(1., 3, false, Facets::bilinear);
+  using PenaltyOf = parameters::ContactPair::PenaltyOf;
+  test_unequal("stiffer", PenaltyOf::stiffer, 4.);
+  test_unequal("series", PenaltyOf::series, 4. / (1. + 4.));
   return testing::exit_code();
 }

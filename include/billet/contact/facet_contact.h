@@ -14,8 +14,9 @@ namespace billet {
 
 /// How a facet is seen by the nodes that touch it.
 enum class FacetMethod {
-  planed,  ///< PlanedFacet: no iteration
-  bilinear ///< BilinearFacet: without friction, forces at a fixed area have a potential
+  planed,   ///< PlanedFacet: no iteration
+  mean_gap, ///< MeanGapFacet
+  bilinear  ///< BilinearFacet: without friction, forces at a fixed area have a potential
 };
 
 /// What contact between surfaces is made of.

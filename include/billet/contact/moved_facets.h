@@ -48,12 +48,14 @@ public:
   const FacetAreas &areas(const unsigned int facet) const { return get(facet).areas; }
   const FacetReaction &reaction(const unsigned int facet) const { return get(facet).reaction; }
 
-  /// The projection of x onto a facet as a Facet sees it, PlanedFacet or BilinearFacet.
+  /// The projection of x onto a facet as a Facet sees it: PlanedFacet, MeanGapFacet or BilinearFacet.
   template <class Facet>
   FacetProjection project(const unsigned int facet, const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
                           const std::array<double, 2> &start = {}) const {
     if constexpr (std::is_same_v<Facet, PlanedFacet>)
       return plane(facet).project(x, limits);
+    else if constexpr (std::is_same_v<Facet, MeanGapFacet>)
+      return plane(facet).project_to_mean_plane(x, limits);
     else
       return Facet(corners(facet)).project(x, limits, start);
   }

@@ -17,6 +17,9 @@ public:
   void start(const Discretization &discretization, const Solution &solution);
   /// Of an explicit scene whose mass was scaled: the mass added, and that which was there before.
   void show_mass_scaling(double added, double mass);
+  /// Of an explicit scene, once its first step is known: how many there will be, if they stay as long, and a
+  /// hint if they are absurdly many.
+  void show_number_of_steps(double n_steps, double step);
   /// Of an explicit scene, where a line of the history is due.
   void show(unsigned int step, double length, const SolutionState &state);
   void accept(const StepReport &report, const SolutionState &state);
