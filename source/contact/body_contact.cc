@@ -16,11 +16,6 @@ using dealii::Tensor;
 
 namespace {
 
-/// By how much contact counts for more in the bound of the step than stability asks for. Nodes that rattle on
-/// a penalty that the step just bears win energy at each blow, several percent of an impact at 10 E/h; with
-/// this, one blow takes at least four steps.
-constexpr double resolution = 4.;
-
 /// The same on all ranks, and no other facet's: those of two opposite corners.
 std::uint64_t make_key(const BoundaryFacet &facet) {
   const auto [low, high] = std::minmax(facet.dofs[0][0], facet.dofs[3][0]);
@@ -129,13 +124,13 @@ void BodyContact::add_forces(const NodalVectors &displacements, const double dur
                     get_vector(displacements.data(), local_nodes_[i]);
   if (positions_n_.size() != positions_.size())
     positions_n_ = positions_;
-  FacetContact::Positions added(local_nodes_.size());
-  std::vector<double> row_sums(local_nodes_.size());
-  contact_->add_forces(positions_n_, positions_, duration, added);
-  contact_->add_row_sums(row_sums);
+  forces_.assign(local_nodes_.size(), Tensor<1, 3>());
+  row_sums_.assign(local_nodes_.size(), 0.);
+  contact_->add_forces(positions_n_, positions_, duration, forces_);
+  contact_->add_row_sums(row_sums_);
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
-    add_vector(forces.data(), local_nodes_[i], added[i]);
-    bounds[std::size_t{nodal_stride} * local_nodes_[i]] += resolution * row_sums[i];
+    add_vector(forces.data(), local_nodes_[i], forces_[i]);
+    bounds[std::size_t{nodal_stride} * local_nodes_[i]] += row_sums_[i];
   }
 }
 

@@ -51,6 +51,8 @@ private:
   std::vector<double> areas_; ///< of the undeformed facets
   std::unique_ptr<FacetContact> contact_;
   FacetContact::Positions positions_n_, positions_;
+  FacetContact::Positions forces_; ///< of one step, as row_sums_
+  std::vector<double> row_sums_;
 };
 
 } // namespace billet
