@@ -28,7 +28,7 @@ Tensor<1, 3> middle(const FacetCorners &x) { return 0.25 * (x[0] + x[1] + x[2] +
 EdgeContact::EdgeContact(const FacetSearch::Partners partners, const double largest_alignment)
     : partners_(partners), largest_alignment_(largest_alignment) {}
 
-std::vector<EdgeContact::Edge> EdgeContact::find_sharp_edges(const Positions &positions) const {
+std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &positions) const {
   std::map<std::array<unsigned int, 2>, Edge> edges;
   for (unsigned int f = 0; f < facets_.size(); ++f)
     for (unsigned int i = 0; i < 4; ++i) {
@@ -46,7 +46,7 @@ std::vector<EdgeContact::Edge> EdgeContact::find_sharp_edges(const Positions &po
         std::swap(edge.facets[0], edge.facets[1]);
       edge.reach = std::min(edge.reach, facets_[f].reach);
     }
-  std::vector<Edge> sharp;
+  std::vector<Edge> outward_edges;
   for (const auto &entry : edges) {
     const Edge &edge = entry.second;
     if (edge.facets[1] != none) {
@@ -56,9 +56,9 @@ std::vector<EdgeContact::Edge> EdgeContact::find_sharp_edges(const Positions &po
           (middle(y) - middle(x)) * unit_normal(x) > 0.)
         continue;
     }
-    sharp.push_back(edge);
+    outward_edges.push_back(edge);
   }
-  return sharp;
+  return outward_edges;
 }
 
 Tensor<1, 3> EdgeContact::outward(const Edge &edge, const Positions &positions) const {
@@ -88,7 +88,7 @@ void EdgeContact::rebuild(const std::vector<SurfaceFacet> &facets, const std::si
                           const Positions &positions, const double margin, const double depth) {
   facets_ = facets;
   depth_ = depth;
-  edges_ = find_sharp_edges(positions);
+  edges_ = find_outward_edges(positions);
   std::vector<BoundingBox> boxes;
   for (const auto &edge : edges_) {
     boxes.push_back(BoundingBox::empty());

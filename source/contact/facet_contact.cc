@@ -39,7 +39,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
     history_n_.resize(slaves_.size());
   history_ = history_n_;
   if (settings.edges) {
-    edges_.emplace(settings.partners, settings.sharp_edge);
+    edges_.emplace(settings.partners, settings.flat_edge);
     for (const auto &of_node : stiffness)
       edge_stiffness_.push_back(of_node.normal);
   }
@@ -60,7 +60,7 @@ void FacetContact::rebuild() {
       for (unsigned int i = 0; i < 4; ++i)
         longest = std::max(longest, (x[facet::around[(i + 1) % 4]] - x[facet::around[i]]).norm());
     }
-    distance += settings_.limits.held_depth * largest_reach_ + longest;
+    distance += settings_.edge_depth * largest_reach_ + longest;
     MPI_Allreduce(MPI_IN_PLACE, &distance, 1, MPI_DOUBLE, MPI_MAX, communicator_);
   }
   exchange_.rebuild(positions_n_, positions_, distance);
@@ -70,7 +70,7 @@ void FacetContact::rebuild() {
   search_.rebuild(positions_n_, positions_);
   if (edges_)
     edges_->rebuild(search_.facets(), exchange_.n_own_facets(), positions_, settings_.search_margin,
-                    settings_.limits.held_depth);
+                    settings_.edge_depth);
   std::unordered_map<std::uint64_t, unsigned int> index;
   for (unsigned int f = 0; f < search_.facets().size(); ++f)
     index.emplace(search_.facets()[f].key, f);

@@ -61,6 +61,8 @@ end
 ONE = {"block": "47, 47, 46 : -0.235, -0.235, -0.23 : 0.235, 0.235, 0.23"}
 TWO = {"lower": "50, 50, 20 : -0.25, -0.25, -0.2 : 0.25, 0.25, 0",
        "upper": "50, 50, 20 : -0.25, -0.25, 0 : 0.25, 0.25, 0.2"}
+SHIFTED = dict(TWO, upper="50, 50, 20 : -0.247, -0.246, 0 : 0.253, 0.254, 0.2")
+BODIES = {"one": ONE, "apart": TWO, "fitting": TWO, "not fitting": SHIFTED}
 KERNELS = {"one point, hypoelastic": ("one point", "hypoelastic"),
            "8 points, hypoelastic": ("mean dilatation", "hypoelastic"),
            "8 points, neo-Hookean": ("mean dilatation", "neo-Hookean"),
@@ -98,7 +100,8 @@ SETS = ("AVX-512",) if options.quick else ("scalar", "SSE2", "AVX2", "AVX-512")
 SLOW = ("scalar", "SSE2")
 CONTACT_KERNELS = ("one point, hypoelastic", "8 points, Hencky")
 cases = {(kernel, instructions, name): [] for instructions in SETS for kernel in KERNELS for name in ("one",)}
-cases.update({(kernel, "automatic", name): [] for kernel in CONTACT_KERNELS for name in ("apart", "contact")})
+cases.update({(kernel, "automatic", name): [] for kernel in CONTACT_KERNELS
+              for name in ("apart", "not fitting", "fitting")})
 triads, peaks, loads = [], {}, []
 for repetition in range(REPEAT):  # alternately, so that what else the machine does hits all alike
     triad, peak = probe()
@@ -109,7 +112,7 @@ for repetition in range(REPEAT):  # alternately, so that what else the machine d
     for (kernel, instructions, name), times in cases.items():
         if repetition > 0 and instructions in SLOW:
             continue
-        got = measure(kernel, instructions, ONE if name == "one" else TWO, CONTACT if name == "contact" else "")
+        got = measure(kernel, instructions, BODIES[name], CONTACT if "fitting" in name else "")
         times += [got] if got else []
 
 
@@ -139,9 +142,11 @@ for instructions in SETS:
                                        f"{middle(cases[k, instructions, 'one']) * bandwidth:.0f}" for k in KERNELS])
 contact = []
 for kernel in CONTACT_KERNELS:
-    apart, touching = cases[kernel, "automatic", "apart"], cases[kernel, "automatic", "contact"]
-    contact.append([kernel, show(apart), show(touching), f"{middle(touching) / middle(apart):.2f}",
-                    f"{min(t[1] for t in touching) / min(t[1] for t in apart):.2f}"])
+    apart = cases[kernel, "automatic", "apart"]
+    for name in ("not fitting", "fitting"):
+        touching = cases[kernel, "automatic", name]
+        contact.append([kernel, name, show(apart), show(touching), f"{middle(touching) / middle(apart):.2f}",
+                        f"{min(t[1] for t in touching) / min(t[1] for t in apart):.2f}"])
 
 publish(
     "explicit", "Explicit dynamics, per element and step", options,
@@ -156,5 +161,7 @@ publish(
     "The same as ratios to what the machine gave (medians): floating-point operations at peak / bytes at triad in that time.",
     table(["instructions"] + list(KERNELS), flops),
     "## Contact\n\nTwo blocks of 50 × 50 × 20 bricks on each other, 5 % of the nodes on the faces that touch: without and "
-    "with contact (planed facets, two passes), best instruction set. Wanted: at most 1.5 times.",
-    table(["kernel", "without", "with", "ratio of medians", "of the least"], contact))
+    "with contact (planed facets, two passes), best instruction set. Either the meshes do not fit (the upper block is 3 and "
+    "4 mm aside), or all nodes lie on nodes and are shared by four facets each, which is the dearest there is. Wanted: at "
+    "most 1.5 times.",
+    table(["kernel", "meshes", "without", "with", "ratio of medians", "of the least"], contact))

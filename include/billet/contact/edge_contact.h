@@ -9,8 +9,8 @@
 namespace billet {
 
 /// Finds edges that cross edges: what nodes against facets cannot see, such as two cubes, turned by 45
-/// degrees, that meet with an edge each. Sharp edges only: those that facets meet in at an outward angle, and
-/// borders.
+/// degrees, that meet with an edge each; or the ridges of two folds that cross. Only edges in which facets
+/// meet at an outward angle, and borders.
 class EdgeContact {
 public:
   using Positions = FacetSearch::Positions;
@@ -29,7 +29,7 @@ public:
     std::array<unsigned int, 2> surfaces;
   };
 
-  /// Edges are sharp where the scalar product of their facets' normals is below `largest_alignment`.
+  /// Edges count where the scalar product of their facets' normals is below `largest_alignment`.
   EdgeContact(FacetSearch::Partners partners, double largest_alignment);
 
   /// Makes lists of the pairs that may come to cross before positions move by more than `margin` relative to
@@ -50,7 +50,7 @@ private:
     std::array<unsigned int, 2> facets; ///< that with the lower key first; none at a border
     double reach;
   };
-  std::vector<Edge> find_sharp_edges(const Positions &positions) const;
+  std::vector<Edge> find_outward_edges(const Positions &positions) const;
   dealii::Tensor<1, 3> outward(const Edge &edge, const Positions &positions) const;
   bool may_touch(const Edge &slave, const Edge &target) const;
 

@@ -12,7 +12,7 @@ struct ContactLimits {
   /// A node so near to an edge, inside or outside, is shared with the facets around it: FacetLimits::zone.
   double zone = 0.1;
   /// A node that touches already is held down to this many times the facet's reach.
-  double held_depth = 5.;
+  double held_depth = 10.;
   /// A node that touches already and has come to lie below the seam of two facets that meet in a concave
   /// edge, behind both of them and before neither, is held by the one whose border it is less than this far
   /// beyond.

@@ -29,10 +29,11 @@ struct FacetContactSettings {
   bool two_pass = true;
   ContactLimits limits;
   double search_margin; ///< of FacetSearch, > 0 [length]
-  /// Sharp edges are held apart where they cross, without friction, at the mean full penalty of the ends of
-  /// the edge on the surface with the lower number. Not asked for, this costs nothing.
+  /// Edges that are not flat are held apart where they cross, without friction, at the mean full penalty of
+  /// the ends of the edge on the surface with the lower number. Not asked for, this costs nothing.
   bool edges = false;
-  double sharp_edge = 0.9; ///< EdgeContact's largest alignment of normals
+  double flat_edge = 0.99; ///< EdgeContact's largest alignment of normals
+  double edge_depth = 5.;  ///< and its depth, relative to the facets' reach
 };
 
 /// What contact between surfaces does in one step, over all ranks.
