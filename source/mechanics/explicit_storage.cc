@@ -236,7 +236,7 @@ bool ExplicitStorage::initialize_element(const std::size_t element,
           constant(element, place++) = geometry.modes[k].norm() / geometry.modes[l].norm();
     for (unsigned int m = 0; m < 4; ++m)
       for (unsigned int k = 0; k < 3; ++k)
-        history(element, n_last + 3 * m + k) = (inverse * geometry.modes[3 + m])[k];
+        history(element, n_last + std::size_t{3} * m + k) = (inverse * geometry.modes[3 + m])[k];
     initialize_point(element, n_last + 12, inverse, yield_stress);
   } else {
     constant(element, 0) = volume;
@@ -261,7 +261,7 @@ explicit_kernels::Elements ExplicitStorage::elements() {
 }
 
 explicit_kernels::Elements ExplicitStorage::copy_element(const std::size_t element, Copy &copy) const {
-  copy.nodes.resize(n_element_nodes * n_lanes_);
+  copy.nodes.resize(std::size_t{n_element_nodes} * n_lanes_);
   copy.constants.resize(layout_.n_constants * n_lanes_);
   copy.history.resize(layout_.n_history * n_lanes_);
   for (std::size_t lane = 0; lane < n_lanes_; ++lane) {

@@ -110,20 +110,24 @@ def crossings(tube, tolerances=(0.05 * WALL, 0.5 * WALL)):
 
 
 def deepest_inside(tube):
-    """Boundary nodes that lie inside a brick that is not theirs, and the largest distance of one from the nearest facet that
-    does not have it."""
+    """Boundary nodes that lie inside a brick of another place, one that has no node in common with the bricks around them, and
+    the largest distance of one from the nearest facet that does not have it."""
     x = tube.now
     nodes = numpy.unique(tube.facets)
     facet_bricks = numpy.unique(tube.brick_of_facet)
     corners = x[tube.bricks]
     tree = cKDTree(x[nodes])
     radius = numpy.linalg.norm(corners - corners.mean(axis=1)[:, None], axis=2).max(axis=1)
+    around = [set() for _ in x]  # nodes of the bricks around each node
+    for brick in tube.bricks:
+        for node in brick:
+            around[node].update(brick)
     count, deepest = 0, 0.0
     for brick in facet_bricks:
         own = set(tube.bricks[brick])
         near = [nodes[i] for i in tree.query_ball_point(corners[brick].mean(axis=0), radius[brick])]
         for node in near:
-            if node in own:
+            if not own.isdisjoint(around[node]):
                 continue
             depth = inside_brick(corners[brick], x[node])
             if depth is None:
