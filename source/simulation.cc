@@ -225,7 +225,8 @@ private:
     return (std::floor(time / interval + slack) + 1.) * interval;
   }
   static bool is_multiple(const double time, const double interval) {
-    return std::abs(time / interval - std::round(time / interval)) < slack;
+    const double n = std::round(time / interval);
+    return std::abs(time / interval - n) < slack && (n > 0. || time == 0.);
   }
 
   const parameters::Scene &parameters_;
@@ -285,24 +286,32 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
     processor_seconds += processor_time() - processor_start;
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  for (bool is_finished = false; !is_finished;) {
-    is_finished = problem.time() >= events.end();
-    const bool is_due = events.is_history_due(problem.time());
+  const auto attempt = [&](const auto &run) {
     try {
-      const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
-      measure([&] { problem.prepare_step(event); });
+      measure(run);
     } catch (const SolutionFailure &failure) { // nothing already computed is lost
       problem.update_state();
       outputs.snapshots.write(problem);
       throw SolutionFailure(std::string(failure.what()) + ". What was computed until then is in '" +
                             parameters.output.folder.value + "'.");
     }
+  };
+  constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
+  for (bool is_finished = false; !is_finished;) {
+    is_finished = problem.time() >= events.end();
+    const bool is_due = events.is_history_due(problem.time());
+    attempt([&] {
+      const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
+      problem.prepare_step(event);
+    });
     if (problem.n_steps() == 0)
       outputs.progress.show_number_of_steps(events.end() / problem.step_length(), problem.step_length());
-    if (is_due) {
+    if (is_due)
       put_out();
+    else if (problem.n_steps() % steps_between_looks == 0)
+      problem.update_ledger();
+    if (is_due || problem.n_steps() % steps_between_looks == 0)
       stop_on_drift();
-    }
     if (problem.n_steps() == 0) {
       problem.update_state();
       outputs.snapshots.write(problem);
@@ -311,7 +320,7 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
       outputs.snapshots.after_step(problem.n_steps(), problem);
     }
     if (!is_finished)
-      measure([&] { problem.finish_step(); });
+      attempt([&] { problem.finish_step(); });
   }
   outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
                              processor_seconds);

@@ -21,6 +21,12 @@ Tensor<1, 3> unit_normal(const FacetCorners &x) {
   return size > 0. ? area_vector / size : Tensor<1, 3>();
 }
 
+/// Towards the ends of an edge, which are nodes that facets see, its part ceases without a jump.
+double fade(const double parameter) {
+  constexpr double zone = 0.1;
+  return std::min(1., std::min(parameter, 1. - parameter) / zone);
+}
+
 Tensor<1, 3> middle(const FacetCorners &x) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); }
 
 } // namespace
@@ -61,11 +67,14 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
   return outward_edges;
 }
 
-Tensor<1, 3> EdgeContact::outward(const Edge &edge, const Positions &positions) const {
-  Tensor<1, 3> sum = unit_normal(corners_of(facets_[edge.facets[0]], positions));
+bool EdgeContact::is_between_normals(const Edge &edge, const Tensor<1, 3> &normal,
+                                     const Positions &positions) const {
+  constexpr double beside = 0.35; // radians that the normal may be out of the angle between theirs
+  Tensor<1, 3> middle = unit_normal(corners_of(facets_[edge.facets[0]], positions));
   if (edge.facets[1] != none)
-    sum += unit_normal(corners_of(facets_[edge.facets[1]], positions));
-  return sum;
+    middle = 0.5 * (middle + unit_normal(corners_of(facets_[edge.facets[1]], positions)));
+  const double cosine = middle.norm(); // of half that angle
+  return normal * middle > cosine * std::cos(std::min(std::acos(std::min(cosine, 1.)) + beside, M_PI_2));
 }
 
 bool EdgeContact::may_touch(const Edge &slave, const Edge &target) const {
@@ -120,21 +129,25 @@ std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &
     if (!closest.is_crossing)
       continue;
     const Tensor<1, 3> along_1 = first[1] - first[0], along_2 = second[1] - second[0];
+    // Edges that are nearly parallel have no common normal to speak of: nodes see what they do.
+    constexpr double least_sine = 0.1;
     Tensor<1, 3> normal = dealii::cross_product_3d(along_1, along_2);
+    const double sine = normal.norm() / (along_1.norm() * along_2.norm());
+    if (sine < least_sine)
+      continue;
     normal /= normal.norm();
-    const double towards = normal * outward(target, positions);
-    if (towards < 0.)
+    if (!is_between_normals(target, normal, positions))
       normal *= -1.;
     const double gap = closest.difference * normal;
     if (!(gap < 0.) || gap < -depth_ * std::min(slave.reach, target.reach) ||
-        normal * outward(slave, positions) >= 0.)
+        !is_between_normals(target, normal, positions) || !is_between_normals(slave, -normal, positions))
       continue;
     const double s = closest.parameters[0], t = closest.parameters[1];
     crossings.push_back({{slave.nodes[0], slave.nodes[1], target.nodes[0], target.nodes[1]},
                          {1. - s, s, 1. - t, t},
                          normal,
                          gap,
-                         0.25 * along_1.norm() * along_2.norm(),
+                         0.25 * along_1.norm() * along_2.norm() * fade(s) * fade(t),
                          {facets_[slave.facets[0]].surface, facets_[target.facets[0]].surface}});
   }
   return crossings;

@@ -167,6 +167,14 @@ public:
     refuse_subsection({scene_.is_explicit() ? "Solver" : "Explicit dynamics"});
     if (!scene_.is_explicit())
       refuse({"Output"}, "History interval");
+    constexpr double most_times = 1e7; // of output; more are a mistake that fills a disk
+    for (const std::string key : {"Interval", "History interval"}) {
+      const double interval = key == "Interval" ? scene_.output.interval : scene_.output.history_interval;
+      if (interval > 0. && interval * most_times < scene_.time_stepping.end_time)
+        throw InputError(file_.where({"Output"}, key) + ": '" + key + "'" + in({"Output"}) + ": found '" +
+                         file_.value({"Output"}, key, "0") +
+                         "', allowed is 0, or at least 1e-7 of the end time");
+    }
     for (const auto &body : scene_.bodies)
       check(body, {"Bodies", body.name});
     for (const auto &tool : scene_.tools) {

@@ -292,6 +292,8 @@ void ContactPair::parse_bodies(Reader &reader) {
                                     : kind == "mean gap" ? Facets::mean_gap
                                                          : Facets::bilinear);
   two_passes = reader.text("Passes") == "two";
+  if (!two_passes && second_body.value == body.value)
+    reader.reject("Passes", "two: of a body that touches itself, every node is kept out");
   edges = reader.flag("Edges");
   search_margin = reader.positive("Search margin");
   penalty_of = reader.text("Penalty of") == "stiffer" ? PenaltyOf::stiffer : PenaltyOf::series;

@@ -188,11 +188,12 @@ void ExplicitDynamics::set_initial_motion() {
           }
     });
   });
-  // Where planes contradict each other it shows here.
+  // Where planes contradict each other it shows here, if it does at one of these times.
   const Supports supports(scene_, discretization_);
+  constexpr unsigned int n_looks = 16;
   check_before_start([&] {
-    supports.at_time(0.);
-    supports.at_time(scene_.parameters().time_stepping.end_time);
+    for (unsigned int look = 0; look <= n_looks; ++look)
+      supports.at_time(scene_.parameters().time_stepping.end_time * look / n_looks);
   });
   held_.set_displacements(0., u_);
 }
@@ -211,13 +212,21 @@ void ExplicitDynamics::compute_internal_forces() {
     const auto result =
         blocks_[b]->advance({u_.data(), v_.data(), forces_.data()}, n_steps_ == 0 ? 0. : step_);
     if (result.inverted < blocks_[b]->size()) {
-      dealii::Point<3> centre;
-      for (const unsigned int node : nodes_.elements(b)[result.inverted])
+      dealii::Point<3> centre, at_start;
+      for (const unsigned int node : nodes_.elements(b)[result.inverted]) {
+        at_start += 0.125 * get_vector(nodes_.positions().data(), node);
         centre += 0.125 * (get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node));
+      }
       std::ostringstream why;
-      why << "an element of body '" << scene_.bodies()[b].name << "' at (" << centre
-          << ") is inside out or not a number: try a smaller 'Safety factor', more bulk viscosity, a softer "
-             "penalty or a mesh that is less distorted there";
+      why << "element " << discretization_.elements(b)[result.inverted].cell->global_active_cell_index()
+          << " of body '" << scene_.bodies()[b].name << "', which started at (" << at_start << "), is ";
+      if (std::isfinite(centre.norm()))
+        why << "inside out at (" << centre
+            << "): try a smaller 'Safety factor', more bulk viscosity, a softer penalty or a mesh that is "
+               "less "
+               "distorted there";
+      else
+        why << "at no finite place: a velocity, a load or a penalty may be too large for its units";
       fail(why.str());
     }
     element_step_ = std::min(element_step_, result.stable_step);
@@ -274,6 +283,8 @@ void ExplicitDynamics::compute_forces() {
   clear(external_, loaded_nodes_);
   std::exception_ptr failure;
   try {
+    if (late_failure_)
+      std::rethrow_exception(late_failure_);
     remove_tools();
     compute_internal_forces();
     compute_contact_forces();
@@ -319,10 +330,11 @@ double ExplicitDynamics::stable_step() const {
 }
 
 void ExplicitDynamics::choose_step(const double event) {
+  // The pace grows slowly; steps that lead to an event may be shorter, and do not slow it down.
   constexpr double largest_growth = 1.02;
-  double largest = parameters_.safety_factor * element_step_;
-  if (n_steps_ > 0)
-    largest = std::min(largest, largest_growth * step_);
+  const double allowed = parameters_.safety_factor * element_step_;
+  pace_ = n_steps_ > 0 ? std::min(allowed, largest_growth * pace_) : allowed;
+  const double largest = pace_;
   // A step that may be kept is kept, though it could be a little longer: the scheme likes equal steps.
   if (n_planned_ > 0 && step_ <= largest && step_ > 0.9 * largest) {
     --n_planned_;
@@ -362,7 +374,11 @@ void ExplicitDynamics::kick() {
     forces += nodal_stride;
   }
   clear(supports_, held_.nodes());
-  held_.constrain(time_, step_, u_, masses_, v_, supports_);
+  try {
+    held_.constrain(time_, step_, u_, masses_, v_, supports_);
+  } catch (const SolutionFailure &) { // of this rank; the others do not know, and the next forces tell them
+    late_failure_ = std::current_exception();
+  }
   for (const unsigned int node : held_.nodes())
     for (unsigned int i = 0; i < 3; ++i)
       supports_[std::size_t{nodal_stride} * node + i] /= weight;
@@ -436,31 +452,31 @@ void ExplicitDynamics::update_ledger() {
     momentum,
     angular = momentum + 3
   };
-  std::vector<double> sums(angular + 3, 0.);
+  std::vector<double> own(angular + 3, 0.);
   for (unsigned int node = 0; node < nodes_.size(); ++node) {
     if (!nodes_.is_owned(node))
       continue;
     const std::size_t k = std::size_t{nodal_stride} * node;
-    sums[kinetic] += 0.5 * masses_[node] * dot(&v_[k], &v_before_[k]);
+    own[kinetic] += 0.5 * masses_[node] * dot(&v_[k], &v_before_[k]);
     const Tensor<1, 3> p =
         0.5 * masses_[node] * (get_vector(v_.data(), node) + get_vector(v_before_.data(), node));
     const Tensor<1, 3> L = dealii::cross_product_3d(
         get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node), p);
     for (unsigned int i = 0; i < 3; ++i) {
-      sums[momentum + i] += p[i];
-      sums[angular + i] += L[i];
+      own[momentum + i] += p[i];
+      own[angular + i] += L[i];
     }
   }
-  sums[elastic] = elastic_energy_;
-  sums[plastic] = works_.plastic;
+  own[elastic] = elastic_energy_;
+  own[plastic] = works_.plastic;
   for (const auto &load : tool_loads_)
-    sums[contact] += load.stored_energy;
-  sums[friction] = works_.friction;
-  sums[viscous] = works_.viscous;
-  sums[hourglass] = works_.hourglass + hourglass_energy_;
-  sums[external] = works_.external;
-  std::vector<double> totals(sums.size());
-  dealii::Utilities::MPI::sum(sums, communicator, totals);
+    own[contact] += load.stored_energy;
+  own[friction] = works_.friction;
+  own[viscous] = works_.viscous;
+  own[hourglass] = works_.hourglass + hourglass_energy_;
+  own[external] = works_.external;
+  std::vector<double> totals(own.size());
+  dealii::Utilities::MPI::sum(own, communicator, totals);
 
   EnergyLedger &energies = state_.energies;
   energies.kinetic = totals[kinetic];
@@ -478,6 +494,7 @@ void ExplicitDynamics::update_ledger() {
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     energies.kinetic += tools_[i].kinetic_energy();
     state_.momentum += tools_[i].momentum();
+    state_.angular_momentum += tools_[i].angular_momentum();
     state_.tool_loads[i] = sum_over_ranks(tool_loads_[i], communicator);
     state_.placements[i] = tools_[i].now();
   }
@@ -487,8 +504,9 @@ void ExplicitDynamics::update_ledger() {
   }
   if (n_steps_ == 0)
     energies.initial = energies.total();
+  // What is there counts half only: energy that came from nowhere must not hide itself.
   largest_energy_ =
-      std::max({largest_energy_, energies.total(), std::abs(energies.initial + energies.external)});
+      std::max({largest_energy_, 0.5 * energies.total(), std::abs(energies.initial + energies.external)});
 }
 
 double ExplicitDynamics::relative_drift() const {

@@ -45,6 +45,12 @@ dealii::Tensor<1, 3> FreeTool::momentum() const {
              : dealii::Tensor<1, 3>();
 }
 
+dealii::Tensor<1, 3> FreeTool::angular_momentum() const {
+  if (tool_.control() == Tool::Control::moment)
+    return 0.5 * inertia_ * (rate_before_ + rate_) * tool_.rotation_axis();
+  return dealii::cross_product_3d(now_.moved_centre(), momentum());
+}
+
 double FreeTool::motion_work(const ContactLoad &local) const {
   // The offset's share is work between tool and bodies, of which the tool's kinetic energy keeps account.
   const double turn = now_.rotation_angle - before_.rotation_angle;

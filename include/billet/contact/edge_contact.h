@@ -24,7 +24,8 @@ public:
     std::array<double, 4> weights;
     dealii::Tensor<1, 3> normal; ///< unit, out of the second edge's body, across both edges
     double gap;                  ///< [length]
-    /// A quarter of the product of both lengths, the share of a facet's corner between such sides [length²]
+    /// A quarter of the product of both lengths, the share of a facet's corner between such sides; less near
+    /// the ends of the edges, and 0 there [length²]
     double area;
     std::array<unsigned int, 2> surfaces;
   };
@@ -51,7 +52,9 @@ private:
     double reach;
   };
   std::vector<Edge> find_outward_edges(const Positions &positions) const;
-  dealii::Tensor<1, 3> outward(const Edge &edge, const Positions &positions) const;
+  /// A unit vector lies between the normals of the edge's facets, or not far beside them.
+  bool is_between_normals(const Edge &edge, const dealii::Tensor<1, 3> &normal,
+                          const Positions &positions) const;
   bool may_touch(const Edge &slave, const Edge &target) const;
 
   FacetSearch::Partners partners_;

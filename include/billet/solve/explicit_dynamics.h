@@ -93,8 +93,10 @@ private:
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
   double element_step_ = 0.;                               ///< stable step of the elements of all ranks
   double time_ = 0., step_ = 0., step_before_ = 0.;
+  double pace_ = 0.;                         ///< what the step would be without events
   double event_ = 0.;                        ///< that the planned steps lead to
   unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
+  std::exception_ptr late_failure_;          ///< of this rank, since the last compute_forces()
   double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
   struct Works {

@@ -34,6 +34,8 @@ public:
   double kinetic_energy() const { return 0.5 * inertia_ * rate_before_ * rate_; }
   /// Of a tool that turns none: its axis is held.
   dealii::Tensor<1, 3> momentum() const;
+  /// About the origin, as if the mass were at the centre of rotation. 0 of a tool that only moves as told.
+  dealii::Tensor<1, 3> angular_momentum() const;
   /// Works on the scene in one half of the step from before() to now(), with the loads at one of its ends: by
   /// the prescribed motion, against `local`, ...
   double motion_work(const ContactLoad &local) const;
