@@ -42,7 +42,7 @@ public:
   void consider_around(const TouchedFacet &last, const unsigned int facet) {
     const TouchedFacet touched = look_at(facet, {});
     if (touched.exists() && is_held(touched) &&
-        (meet_smoothly(last.projection.normal, touched.projection.normal) || has_come_through(facet)) &&
+        (meet_smoothly(last.projection.normal, touched.projection.normal) || has_come_through(touched)) &&
         faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
@@ -57,7 +57,7 @@ public:
   /// One that the node may have come through.
   void consider_new(const unsigned int facet) {
     const TouchedFacet touched = look_at(facet, {});
-    if (touched.exists() && has_come_through(facet) && faces(touched) && is_on_its_own_side(touched))
+    if (touched.exists() && has_come_through(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
 
@@ -127,30 +127,48 @@ private:
   }
 
   /// At the start of the step the node was before the facet, or not far behind. Its plane is enough to tell.
-  bool has_come_through(const unsigned int facet) const {
-    const SurfaceFacet &target = search_.facets()[facet];
-    return PlanedFacet(corners_of(target, positions_n_)).project(x_n_, {}).gap >= -target.reach;
+  /// A node that is out of the body has no reason to have been behind: it was under the body's end, beside
+  /// this facet, and is leaving.
+  bool has_come_through(const TouchedFacet &touched) const {
+    const SurfaceFacet &target = search_.facets()[touched.facet];
+    const PlanedFacet plane(corners_of(target, positions_n_));
+    const double depth = is_out(touched) ? in_line * plane.radius() : target.reach;
+    return plane.project(x_n_, {}).gap >= -depth;
   }
 
-  /// A node that is beyond the border, within the tolerance, may be out of the body: before the facet next to
-  /// this one, as beside a block. Farther out it must be one that a smooth neighbour shares.
-  bool is_on_its_own_side(const TouchedFacet &touched) const {
-    const FacetProjection &own = touched.projection;
-    if (own.excess <= std::min(in_line, limits_.tolerance))
-      return true;
-    bool is_near = own.excess <= limits_.tolerance, is_out = false;
+  /// Calls visit(projection, whether it meets smoothly) for the facets around the corner that is nearest to a
+  /// node beyond the border of one of them.
+  template <class Visit> void visit_beside(const TouchedFacet &touched, const Visit &visit) const {
     search_.visit_around(
-        search_.nearest_corner(touched.facet, own.parameters), [&](const unsigned int facet) {
+        search_.nearest_corner(touched.facet, touched.projection.parameters), [&](const unsigned int facet) {
           const FacetProjection p =
               facet == touched.facet ? FacetProjection() : project(facet, limits_.tolerance, {});
-          if (!p.exists)
-            return;
-          if (meet_smoothly(own.normal, p.normal))
-            is_near = true;
-          else
-            is_out = is_out || p.gap >= 0.;
+          if (p.exists)
+            visit(p, meet_smoothly(touched.projection.normal, p.normal));
         });
-    return is_near && !is_out;
+  }
+
+  /// Beyond the border and before a facet that bounds the body there, as beside a block.
+  bool is_out(const TouchedFacet &touched) const {
+    bool is_out = false;
+    if (touched.projection.excess > 0.)
+      visit_beside(touched, [&](const FacetProjection &p, const bool is_smooth) {
+        is_out = is_out || (!is_smooth && p.gap >= 0.);
+      });
+    return is_out;
+  }
+
+  /// A node that is beyond the border, within the tolerance, must not be out of the body. Farther out it must
+  /// be one that a smooth neighbour shares.
+  bool is_on_its_own_side(const TouchedFacet &touched) const {
+    const double excess = touched.projection.excess;
+    if (excess <= std::min(in_line, limits_.tolerance))
+      return true;
+    bool is_near = excess <= limits_.tolerance;
+    if (!is_near)
+      visit_beside(touched,
+                   [&](const FacetProjection &, const bool is_smooth) { is_near = is_near || is_smooth; });
+    return is_near && !is_out(touched);
   }
 
   /// The middle of neither lies behind the other.

@@ -40,8 +40,7 @@ bool PlanedFacet::is_aside(const Tensor<1, 3> &x, const double tolerance) const 
   if (!(double_area_ > 0.))
     return true;
   const Tensor<1, 3> arm = x - centre_;
-  const double height = arm * normal_,
-               largest = (1. + 4. * tolerance) * std::sqrt(square_of_radius_) + std::abs(height);
+  const double height = arm * normal_, largest = (1. + 4. * tolerance) * radius() + std::abs(height);
   return arm.norm_square() - height * height > largest * largest;
 }
 

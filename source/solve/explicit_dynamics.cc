@@ -289,7 +289,6 @@ void ExplicitDynamics::compute_forces() {
     compute_internal_forces();
     compute_contact_forces();
     loads_->add_forces(time_, u_, v_, external_);
-    loads_->add_bounds(bounds_);
   } catch (const SolutionFailure &) { // of this rank
     failure = std::current_exception();
     element_step_ = -1.;
@@ -299,6 +298,10 @@ void ExplicitDynamics::compute_forces() {
     works_.friction += contact->local_dissipation();
     contact->commit();
   }
+  const double resolution = parameters_.contact_resolution * parameters_.contact_resolution;
+  for (const unsigned int node : bounded_nodes_)
+    bounds_[std::size_t{nodal_stride} * node] *= resolution;
+  loads_->add_bounds(bounds_);
   for (const unsigned int node : loaded_nodes_)
     add_vector(forces_.data(), node, get_vector(external_.data(), node));
   nodes_.sum_shared(forces_);

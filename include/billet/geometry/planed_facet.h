@@ -38,6 +38,9 @@ public:
   /// Unit, out of the body; 0 if the facet has no area.
   const dealii::Tensor<1, 3> &normal() const { return normal_; }
 
+  /// Of a circle around the corners.
+  double radius() const { return std::sqrt(square_of_radius_); }
+
   /// The whole surface between the corners, however warped, and continued by `tolerance` beyond its border,
   /// is behind the point. Quicker to tell than a projection, as is_aside().
   bool is_before(const dealii::Tensor<1, 3> &x, const double tolerance) const {

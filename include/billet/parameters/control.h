@@ -41,6 +41,7 @@ struct ExplicitDynamics {
   enum class Instructions { automatic, scalar, sse2, avx2, avx512 };
 
   double safety_factor;
+  double contact_resolution; ///< of the oscillation on penalties, >= 1
   double linear_viscosity, quadratic_viscosity;
   double hourglass_stiffness;
   double scaled_step;   ///< elements get mass until their step is not shorter; 0: none
