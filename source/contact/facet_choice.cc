@@ -40,23 +40,28 @@ public:
   /// One around the last one: where they do not meet smoothly, as at the edge of an end, the node may be far
   /// behind one of them and never have come through it.
   void consider_around(const TouchedFacet &last, const unsigned int facet) {
-    const TouchedFacet touched = look_at(facet, {});
-    if (touched.exists() && is_held(touched) &&
-        (meet_smoothly(last.projection.normal, touched.projection.normal) || has_come_through(touched)) &&
-        faces(touched) && is_on_its_own_side(touched))
+    TouchedFacet touched = look_at(facet, {});
+    if (!touched.exists() || !is_held(touched))
+      return;
+    if (meet_smoothly(last.projection.normal, touched.projection.normal))
+      touched.offset = std::min(last.offset, -touched.projection.gap);
+    else if (!has_come_through(touched))
+      return;
+    if (faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
 
   /// The one that the node touches.
-  void consider_held(const unsigned int facet, const std::array<double, 2> &start) {
-    const TouchedFacet touched = look_at(facet, start);
+  void consider_held(const TouchedFacet &last) {
+    TouchedFacet touched = look_at(last.facet, last.projection.parameters);
+    touched.offset = std::min(last.offset, -touched.projection.gap);
     if (touched.exists() && is_held(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
 
   /// One that the node may have come through.
   void consider_new(const unsigned int facet) {
-    const TouchedFacet touched = look_at(facet, {});
+    TouchedFacet touched = look_at(facet, {});
     if (touched.exists() && has_come_through(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
@@ -75,7 +80,7 @@ public:
   }
 
   /// The seam of facets around the last one, all of which the node is behind.
-  void consider_seam(const unsigned int last) {
+  void consider_seam(const TouchedFacet &last) {
     TouchedFacet nearest;
     nearest.projection.excess = limits_.seam_tolerance;
     unsigned int n_near = 0;
@@ -89,10 +94,12 @@ public:
       if (touched.projection.excess < nearest.projection.excess)
         nearest = touched;
     };
-    add(last);
-    search_.visit_ring(last, add);
-    if (n_near > 1 && is_behind_all)
+    add(last.facet);
+    search_.visit_ring(last.facet, add);
+    if (n_near > 1 && is_behind_all) {
       best_ = nearest;
+      best_.offset = std::min(last.offset, -nearest.projection.gap);
+    }
   }
 
 private:
@@ -126,14 +133,18 @@ private:
     return touched.projection.gap >= -limits_.held_depth * search_.facets()[touched.facet].reach;
   }
 
-  /// At the start of the step the node was before the facet, or not far behind. Its plane is enough to tell.
+  /// At the start of the step the node was before the facet, or not far behind, which sets the offset. Its
+  /// plane is enough to tell.
   /// A node that is out of the body has no reason to have been behind: it was under the body's end, beside
   /// this facet, and is leaving.
-  bool has_come_through(const TouchedFacet &touched) const {
+  bool has_come_through(TouchedFacet &touched) const {
     const SurfaceFacet &target = search_.facets()[touched.facet];
     const PlanedFacet plane(corners_of(target, positions_n_));
-    const double depth = is_out(touched) ? in_line * plane.radius() : target.reach;
-    return plane.project(x_n_, {}).gap >= -depth;
+    const double depth = -plane.project(x_n_, {}).gap;
+    if (depth <= in_line * plane.radius())
+      return true;
+    touched.offset = -touched.projection.gap;
+    return depth <= target.reach && !is_out(touched);
   }
 
   /// Calls visit(projection, whether it meets smoothly) for the facets around the corner that is nearest to a
@@ -206,11 +217,11 @@ TouchedFacet choose_facet(const MovedFacets &facets, const std::size_t slave,
   const FacetSearch &search = facets.search();
   Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits);
   if (last.exists()) {
-    choice.consider_held(last.facet, last.projection.parameters);
+    choice.consider_held(last);
     if (!choice.best().exists())
       search.visit_ring(last.facet, [&](const unsigned int facet) { choice.consider_around(last, facet); });
     if (!choice.best().exists())
-      choice.consider_seam(last.facet);
+      choice.consider_seam(last);
   }
   if (choice.best().exists())
     search.visit_candidates(slave, [&](const unsigned int facet) { choice.consider_beside_held(facet); });

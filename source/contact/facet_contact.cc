@@ -116,7 +116,7 @@ void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) cons
   });
 }
 
-template <class Facet> void FacetContact::find_contact(const std::size_t s) {
+template <class Facet> void FacetContact::find_contact(const std::size_t s, const double duration) {
   SlaveState &state = states_[s];
   state = SlaveState();
   state.first_share = shares_.size();
@@ -128,7 +128,11 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s) {
     if (!(state.contact.gap < 0.)) {
       state.touched = TouchedFacet();
       shares_.resize(state.first_share);
-    }
+    } else if (duration > 0.) {
+      state.touched.offset = std::min(state.touched.offset, -state.contact.gap);
+      state.contact.gap += state.touched.offset;
+    } else // where bodies start in each other they part
+      state.touched.offset = 0.;
   }
   if (!state.touched.exists() && search_.has_candidates(s)) {
     const TouchedFacet below = find_facet_below(moved_, s, settings_.limits);
@@ -160,7 +164,7 @@ SlaveMotion FacetContact::compute_motion(const std::size_t s, const double durat
 
 template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
   const SlaveState &state = states_[s];
-  if (!state.touched.exists() || !(state.own_area > 0.))
+  if (!state.presses() || !(state.own_area > 0.))
     return;
   const Tensor<1, 3> force = state.own_area * state.traction.traction;
   for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
@@ -174,13 +178,13 @@ template <class Visit> void FacetContact::visit_forces(const std::size_t s, cons
 template <class Facet, class Law> void FacetContact::evaluate(const Law &law, const double duration) {
   shares_.clear();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    find_contact<Facet>(s);
+    find_contact<Facet>(s, duration);
     SlaveState &state = states_[s];
     const SharedGap &contact = state.contact;
     if constexpr (std::is_same_v<Law, Frictionless>) {
-      if (state.touched.exists())
+      if (state.presses())
         state.traction = compute_slave_traction(law, stiffness_[s].normal, contact.normal, contact.gap);
-    } else if (state.touched.exists()) {
+    } else if (state.presses()) {
       state.traction = compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap,
                                               compute_motion(s, duration), history_n_[s], history_[s]);
     } else {
@@ -271,7 +275,7 @@ FacetContactLoad FacetContact::compute_load() const {
   FacetContactLoad load;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    if (!state.touched.exists())
+    if (!state.presses())
       continue;
     visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
       const FacetCorners corners = moved_.corners(share.facet);
@@ -294,8 +298,9 @@ FacetContactLoad FacetContact::compute_load() const {
     const FacetCorners corners = moved_.corners(state.touched.facet);
     const double size =
         std::sqrt(0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]).norm());
-    load.deepest = std::max(load.deepest, -state.contact.gap);
-    load.deepest_relative = std::max(load.deepest_relative, -state.contact.gap / size);
+    const double depth = state.touched.offset - state.contact.gap;
+    load.deepest = std::max(load.deepest, depth);
+    load.deepest_relative = std::max(load.deepest_relative, depth / size);
   }
   add_edges(load);
   std::array<double, 14> sums{load.stored_energy, load.dissipation, load.area, load.n_touching,
@@ -337,10 +342,10 @@ std::vector<FacetContact::NodeReport> FacetContact::report() const {
   std::vector<NodeReport> reports(exchange_.n_own_nodes());
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    const bool touches = state.touched.exists();
+    const bool touches = state.presses();
     reports[slaves_[s].node] = {state.traction.status,
                                 state.traction.pressure,
-                                touches ? state.contact.gap : 0.,
+                                touches ? state.contact.gap - state.touched.offset : 0.,
                                 history_.empty() ? 0. : history_[s].slip,
                                 touches ? state.area : 0.,
                                 state.traction.traction};

@@ -33,6 +33,9 @@ struct TouchedFacet {
   static constexpr unsigned int none = static_cast<unsigned int>(-1);
   unsigned int facet = none;
   FacetProjection projection; ///< its gap is < 0
+  /// How deep the node was when it was found behind the facet without having come through it, as one that
+  /// comes in from beside: only what is deeper counts. It never grows, and is at most the depth [length].
+  double offset = 0.;
 
   bool exists() const { return facet != none; }
 };
@@ -43,7 +46,8 @@ struct TouchedFacet {
 /// Touched can be a facet that the node is straight above or below, is behind, and faces. A facet that the
 /// node has not touched before must have been come through: at the start of the step the node was before it,
 /// or behind it by no more than its reach. So a wall is not glued to its own far side, and a fast node is not
-/// lost.
+/// lost. One that was behind it then by more than round-off, in from beside, would be thrown out from the
+/// depth: it is touched with an offset.
 ///
 /// The order of Bittencourt & Creus (1998): the last facet, then those around it, and only for nodes that
 /// then touch nothing the candidates. Of several, at one stage, where the middle of one facet lies behind the

@@ -112,12 +112,14 @@ private:
   struct SlaveState {
     TouchedFacet touched;
     bool is_near = false; ///< touches nothing yet, but may soon
-    /// Of what is touched or near: normal and gap, and the facets, by index into shares_.
+    /// Of what is touched or near: normal and gap, less the offset, and the facets, by index into shares_.
     SharedGap contact{dealii::Tensor<1, 3>(), 0.};
     std::size_t first_share = 0, end_of_shares = 0;
     SlaveTraction traction;
     double own_area = 0.; ///< of this rank's facets
     double area = 0.;     ///< of all
+
+    bool presses() const { return touched.exists() && contact.gap < 0.; }
   };
 
   void update_search(const Positions &positions_n, const Positions &positions);
@@ -125,7 +127,7 @@ private:
   /// States of the slaves, and their forces in nodal_forces_.
   template <class Facet, class Law> void evaluate(const Law &law, double duration);
   /// What slave s touches, or is near, and with which areas.
-  template <class Facet> void find_contact(std::size_t s);
+  template <class Facet> void find_contact(std::size_t s, double duration);
   SlaveMotion compute_motion(std::size_t s, double duration) const;
   void compute_areas(const SlaveNode &slave, SlaveState &state) const;
   /// Calls visit(share, force on the slave, reaction on the corners) for each facet that slave s touches.
