@@ -21,14 +21,38 @@ namespace {
 
 using Coordinates = std::array<double, 3>;
 
-/// The nodes of these faces, on all ranks, each once or more.
-std::vector<Coordinates> gather_nodes(const Discretization &discretization, const std::size_t body,
-                                      const std::vector<unsigned int> &boundary_ids) {
+/// Points that tell what is inside the body below a facet where no node of it need be in the other body: a
+/// grid a thousandth of the element below the facet and within its border, and the middle of the element.
+/// Points of bodies that only touch are in none of the other's elements.
+void add_probes(const BoundaryFacet &facet, std::vector<Coordinates> &points) {
+  constexpr double inset = 1e-3;
+  FacetCorners corners;
+  std::copy(facet.corners.begin(), facet.corners.end(), corners.begin());
+  const Tensor<1, 3> area = facet.area_vector();
+  if (!(area.norm() > 0.))
+    return;
+  const auto add = [&](const double xi, const double eta, const double depth) {
+    const Tensor<1, 3> x = facet::interpolate(facet::weights({xi, eta}), corners) -
+                           (depth * facet.thickness / area.norm()) * area;
+    points.push_back({x[0], x[1], x[2]});
+  };
+  constexpr std::array<double, 3> along{-1. + 2. * inset, 0., 1. - 2. * inset};
+  for (const double xi : along)
+    for (const double eta : along)
+      add(xi, eta, inset);
+  add(0., 0., 0.5);
+}
+
+/// The nodes of these faces and points below them, on all ranks, each once or more.
+std::vector<Coordinates> gather_points(const Discretization &discretization, const std::size_t body,
+                                       const std::vector<unsigned int> &boundary_ids) {
   std::map<DofIndex, Coordinates> nodes;
-  for (const auto &facet : collect_boundary_facets(discretization, body, boundary_ids))
+  std::vector<Coordinates> own, all;
+  for (const auto &facet : collect_boundary_facets(discretization, body, boundary_ids)) {
     for (unsigned int a = 0; a < 4; ++a)
       nodes[facet.dofs[a][0]] = {facet.corners[a][0], facet.corners[a][1], facet.corners[a][2]};
-  std::vector<Coordinates> own, all;
+    add_probes(facet, own);
+  }
   for (const auto &entry : nodes)
     own.push_back(entry.second);
   for (const auto &part : dealii::Utilities::MPI::all_gather(discretization.communicator(), own))
@@ -114,28 +138,28 @@ private:
 Overlap find_overlap(const Discretization &discretization, const std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, const std::size_t other_body,
                      const std::vector<unsigned int> &other_boundary_ids) {
-  const std::vector<Coordinates> nodes = gather_nodes(discretization, body, boundary_ids);
+  const std::vector<Coordinates> points = gather_points(discretization, body, boundary_ids);
   const Elements elements(discretization.elements(other_body));
   const auto facets = collect_boundary_facets(discretization, other_body, other_boundary_ids);
   const Faces faces(facets);
 
   std::vector<int> is_inside;
-  for (const auto &x : nodes)
+  for (const auto &x : points)
     is_inside.push_back(elements.contain(dealii::Point<3>(x[0], x[1], x[2])) ? 1 : 0);
   std::vector<int> on_any_rank(is_inside.size());
   dealii::Utilities::MPI::max(is_inside, discretization.communicator(), on_any_rank);
   std::vector<double> distances;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i)
     distances.push_back(
-        on_any_rank[i] == 1 ? faces.distance(Tensor<1, 3>({nodes[i][0], nodes[i][1], nodes[i][2]})) : 0.);
+        on_any_rank[i] == 1 ? faces.distance(Tensor<1, 3>({points[i][0], points[i][1], points[i][2]})) : 0.);
   std::vector<double> depths(distances.size());
   dealii::Utilities::MPI::min(distances, discretization.communicator(), depths);
 
   Overlap overlap;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i)
     if (depths[i] > overlap.depth) {
       overlap.depth = depths[i];
-      overlap.position = Tensor<1, 3>({nodes[i][0], nodes[i][1], nodes[i][2]});
+      overlap.position = Tensor<1, 3>({points[i][0], points[i][1], points[i][2]});
     }
   return overlap;
 }

@@ -10,12 +10,15 @@ namespace billet {
 
 /// How deep undeformed bodies are in each other.
 struct Overlap {
-  double depth = 0.; ///< largest distance of a node of one to the surface of the other, inside it [length]
-  dealii::Tensor<1, 3> position; ///< of that node
+  /// Largest distance of a node of one, or a point below its faces, to the surface of the other, inside it
+  /// [length].
+  double depth = 0.;
+  dealii::Tensor<1, 3> position; ///< of that point
 };
 
-/// Looks for the nodes of one body's faces inside the elements of another, and how far they are from its
-/// faces. Collective; meant for the start only: ranks tell each other all of the first body's nodes.
+/// Looks for the nodes of one body's faces, and points of the elements at them, inside the elements of
+/// another, and how far they are from its faces. Collective; meant for the start only: ranks tell each other
+/// all of the first body's points.
 Overlap find_overlap(const Discretization &discretization, std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, std::size_t other_body,
                      const std::vector<unsigned int> &other_boundary_ids);
