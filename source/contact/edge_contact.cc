@@ -48,8 +48,10 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
         continue;
       Edge &edge = found.first->second;
       edge.facets[1] = f;
-      if (facets_[f].key < facets_[edge.facets[0]].key)
+      if (facets_[f].key < facets_[edge.facets[0]].key) {
         std::swap(edge.facets[0], edge.facets[1]);
+        edge.nodes = {a, b}; // from the same facet on all ranks, so that they compute the same
+      }
       edge.reach = std::min(edge.reach, facets_[f].reach);
     }
   std::vector<Edge> outward_edges;

@@ -66,6 +66,8 @@ void FacetContact::rebuild() {
   exchange_.rebuild(positions_n_, positions_, distance);
   exchange_.update(positions_n_);
   exchange_.update(positions_);
+  if (edges_)
+    exchange_.update(edge_stiffness_);
   search_.set_surface(exchange_.facets(), slaves_);
   search_.rebuild(positions_n_, positions_);
   if (edges_)

@@ -30,7 +30,7 @@ struct FacetContactSettings {
   ContactLimits limits;
   double search_margin; ///< of FacetSearch, > 0 [length]
   /// Edges that are not flat are held apart where they cross, without friction, at the mean full penalty of
-  /// the ends of the edge on the surface with the lower number. Not asked for, this costs nothing.
+  /// the ends of both. Not asked for, this costs nothing.
   bool edges = false;
   double flat_edge = 0.99; ///< EdgeContact's largest alignment of normals
   double edge_depth = 5.;  ///< and its depth, relative to the facets' reach
@@ -134,7 +134,10 @@ private:
   template <class Visit> void visit_forces(std::size_t s, const Visit &visit) const;
   /// k A of a crossing [force/length].
   double edge_spring(const EdgeContact::Crossing &crossing) const {
-    return 0.5 * crossing.area * (edge_stiffness_[crossing.nodes[0]] + edge_stiffness_[crossing.nodes[1]]);
+    double sum = 0.;
+    for (const unsigned int node : crossing.nodes)
+      sum += edge_stiffness_[node];
+    return 0.25 * crossing.area * sum;
   }
   void add_edges(FacetContactLoad &load) const;
 
@@ -152,7 +155,7 @@ private:
   std::vector<FacetShare> shares_;                ///< slave by slave
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only
   std::optional<EdgeContact> edges_;
-  std::vector<double> edge_stiffness_; ///< full normal penalties of own nodes, if there are edges
+  std::vector<double> edge_stiffness_; ///< full normal penalties of nodes, if there are edges
   std::vector<EdgeContact::Crossing> crossings_;
   Positions nodal_forces_; ///< with ghosts, of one step
   std::vector<double> nodal_sums_;
