@@ -15,8 +15,8 @@ using dealii::Tensor;
 
 namespace {
 
-Tensor<1, 3> unit_normal(const FacetCorners &x) {
-  const Tensor<1, 3> area_vector = dealii::cross_product_3d(x[3] - x[0], x[2] - x[1]);
+Tensor<1, 3> unit_normal(const facet::Expansion &surface) {
+  const Tensor<1, 3> area_vector = surface.mean_area_vector();
   const double size = area_vector.norm();
   return size > 0. ? area_vector / size : Tensor<1, 3>();
 }
@@ -26,8 +26,6 @@ double fade(const double parameter) {
   constexpr double zone = 0.1;
   return std::min(1., std::min(parameter, 1. - parameter) / zone);
 }
-
-Tensor<1, 3> middle(const FacetCorners &x) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); }
 
 } // namespace
 
@@ -58,10 +56,9 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
   for (const auto &entry : edges) {
     const Edge &edge = entry.second;
     if (edge.facets[1] != none) {
-      const FacetCorners x = corners_of(facets_[edge.facets[0]], positions),
-                         y = corners_of(facets_[edge.facets[1]], positions);
-      if (unit_normal(x) * unit_normal(y) >= largest_alignment_ ||
-          (middle(y) - middle(x)) * unit_normal(x) > 0.)
+      const facet::Expansion x = corners_of(facets_[edge.facets[0]], positions),
+                             y = corners_of(facets_[edge.facets[1]], positions);
+      if (unit_normal(x) * unit_normal(y) >= largest_alignment_ || (y.e_0 - x.e_0) * unit_normal(x) > 0.)
         continue;
     }
     outward_edges.push_back(edge);
