@@ -30,12 +30,24 @@ FacetMethod method_of(const parameters::ContactPair::Facets facets) {
   case Facets::mean_gap:
     return FacetMethod::mean_gap;
   case Facets::bilinear:
+    return FacetMethod::bilinear;
+  case Facets::overlap:
     break;
   }
-  return FacetMethod::bilinear;
+  return FacetMethod::overlap;
 }
 
 } // namespace
+
+template <class DisplacementOf>
+void BodyContact::update(const DisplacementOf &displacement_of, const double duration) {
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i)
+    positions_[i] = get_vector(nodes_.positions().data(), local_nodes_[i]) + displacement_of(i);
+  if (positions_n_.size() != positions_.size())
+    positions_n_ = positions_;
+  forces_.assign(local_nodes_.size(), Tensor<1, 3>());
+  contact_->add_forces(positions_n_, positions_, duration, forces_);
+}
 
 BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes)
     : pair_(scene.body_pairs()[pair]), nodes_(nodes) {
@@ -55,7 +67,10 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   std::vector<std::uint64_t> keys;
   for (const unsigned int node : local_nodes_)
     keys.push_back(nodes.dofs(node)[0]);
-  contact_ = std::make_unique<FacetContact>(communicator, settings, keys, facets_, compute_stiffness(scene));
+  if (!scene.parameters().is_explicit())
+    settings.touching_gap = touching_gap;
+  contact_ =
+      std::make_unique<FacetContact>(communicator, settings, keys, facets_, compute_stiffness(scene), sizes_);
 }
 
 void BodyContact::collect() {
@@ -86,6 +101,7 @@ void BodyContact::collect() {
       facets_.push_back(facet);
     }
   positions_.resize(local_nodes_.size());
+  positions_n_.clear();
   const auto sizes = compute_facet_sizes(discretization, all);
   for (const unsigned int node : local_nodes_)
     sizes_.push_back(sizes.at(nodes_.dofs(node)[0]));
@@ -119,19 +135,128 @@ std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene)
 
 void BodyContact::add_forces(const NodalVectors &displacements, const double duration, NodalVectors &forces,
                              NodalVectors &bounds) {
-  for (std::size_t i = 0; i < local_nodes_.size(); ++i)
-    positions_[i] = get_vector(nodes_.positions().data(), local_nodes_[i]) +
-                    get_vector(displacements.data(), local_nodes_[i]);
-  if (positions_n_.size() != positions_.size())
-    positions_n_ = positions_;
-  forces_.assign(local_nodes_.size(), Tensor<1, 3>());
+  update([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); }, duration);
   row_sums_.assign(local_nodes_.size(), 0.);
-  contact_->add_forces(positions_n_, positions_, duration, forces_);
   contact_->add_row_sums(row_sums_);
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
     add_vector(forces.data(), local_nodes_[i], forces_[i]);
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] += row_sums_[i];
   }
+}
+
+void BodyContact::update(const Vector &displacements, const double duration) {
+  update(
+      [&](const std::size_t i) {
+        Tensor<1, 3> displacement;
+        for (unsigned int c = 0; c < 3; ++c)
+          displacement[c] = displacements(nodes_.dofs(local_nodes_[i])[c]);
+        return displacement;
+      },
+      duration);
+}
+
+void BodyContact::add_forces(Vector &residual) const {
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
+    const std::array<double, 3> values{-forces_[i][0], -forces_[i][1], -forces_[i][2]};
+    residual.add(3, nodes_.dofs(local_nodes_[i]).data(), values.data());
+  }
+}
+
+void BodyContact::find_ghost_dofs() {
+  all_dofs_.clear();
+  for (const unsigned int node : local_nodes_)
+    all_dofs_.push_back(nodes_.dofs(node));
+  contact_->exchange().update(all_dofs_);
+}
+
+void BodyContact::add_couplings(const ContactTangent kind,
+                                dealii::TrilinosWrappers::SparsityPattern &pattern) {
+  std::vector<DofIndex> dofs;
+  contact_->visit_couplings(kind, [&](const std::vector<unsigned int> &nodes) {
+    dofs.clear();
+    for (const unsigned int node : nodes)
+      dofs.insert(dofs.end(), all_dofs_[node].begin(), all_dofs_[node].end());
+    std::sort(dofs.begin(), dofs.end());
+    for (const DofIndex row : dofs)
+      pattern.add_entries(row, dofs.begin(), dofs.end(), true);
+  });
+}
+
+void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) {
+  find_ghost_dofs();
+  for (const auto &of_node : all_dofs_)
+    dofs.add_indices(of_node.begin(), of_node.end());
+}
+
+namespace {
+
+/// The constraints of a node's dofs, which name no other nodes' dofs: u = free u + value.
+struct NodeConstraint {
+  std::array<std::array<double, 3>, 3> free{{{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}}};
+  std::array<double, 3> value{};
+};
+
+NodeConstraint constraint_of(const Constraints &constraints, const std::array<DofIndex, 3> &dofs) {
+  NodeConstraint result;
+  for (unsigned int i = 0; i < 3; ++i) {
+    if (!constraints.is_constrained(dofs[i]))
+      continue;
+    result.free[i] = {};
+    if (const auto *entries = constraints.get_constraint_entries(dofs[i]))
+      for (const auto &[other, factor] : *entries)
+        result.free[i][std::find(dofs.begin(), dofs.end(), other) - dofs.begin()] = factor;
+    result.value[i] = constraints.get_inhomogeneity(dofs[i]);
+  }
+  return result;
+}
+
+} // namespace
+
+void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent kind) const {
+  // Of nodes of other ranks, constraints are known there.
+  std::vector<NodeConstraint> constraints;
+  for (const unsigned int node : local_nodes_)
+    constraints.push_back(constraint_of(system.constraints, nodes_.dofs(node)));
+  contact_->exchange().update(constraints);
+  FacetContact::Positions lift(all_dofs_.size());
+  dealii::FullMatrix<double> half, condensed;
+  std::vector<DofIndex> dofs;
+  contact_->visit_tangents(
+      kind, [&](const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K) {
+        const std::size_t n = K.m();
+        dofs.clear();
+        half.reinit(n, n);
+        condensed.reinit(n, n);
+        for (std::size_t b = 0; b < nodes.size(); ++b) {
+          const NodeConstraint &constraint = constraints[nodes[b]];
+          dofs.insert(dofs.end(), all_dofs_[nodes[b]].begin(), all_dofs_[nodes[b]].end());
+          for (std::size_t row = 0; row < n; ++row)
+            for (unsigned int j = 0; j < 3; ++j)
+              for (unsigned int k = 0; k < 3; ++k)
+                half(row, 3 * b + j) += K(row, 3 * b + k) * constraint.free[k][j];
+        }
+        for (std::size_t a = 0; a < nodes.size(); ++a) {
+          const NodeConstraint &constraint = constraints[nodes[a]];
+          Tensor<1, 3> force;
+          for (unsigned int k = 0; k < 3; ++k) {
+            for (unsigned int i = 0; i < 3; ++i)
+              for (std::size_t column = 0; column < n; ++column)
+                condensed(3 * a + i, column) += constraint.free[k][i] * half(3 * a + k, column);
+            for (std::size_t b = 0; b < nodes.size(); ++b)
+              for (unsigned int j = 0; j < 3; ++j)
+                force[k] -= K(3 * a + k, 3 * b + j) * constraints[nodes[b]].value[j];
+          }
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int k = 0; k < 3; ++k)
+              lift[nodes[a]][i] += constraint.free[k][i] * force[k];
+        }
+        system.matrix.add(dofs, condensed, false);
+      });
+  if (system.lift == nullptr)
+    return;
+  contact_->exchange().collect(lift);
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i)
+    system.lift->add(3, nodes_.dofs(local_nodes_[i]).data(), lift[i].begin_raw());
 }
 
 void BodyContact::commit() {
@@ -148,6 +273,17 @@ ContactLoad BodyContact::compute_load() const {
   load.dissipation = all.dissipation;
   load.deepest = all.deepest;
   return load;
+}
+
+void BodyContact::add_resistances(const std::size_t body, std::vector<Resistance> &resistances) const {
+  if (pair_.bodies[0] == pair_.bodies[1])
+    return;
+  contact_->visit_touching([&](const Tensor<1, 3> &position, const Tensor<1, 3> &normal,
+                               const unsigned int of_node, const unsigned int of_facet) {
+    for (const unsigned int side : {of_node, of_facet})
+      if (pair_.bodies[side] == body)
+        add_contact(position, side == of_node ? normal : -normal, false, pair_.has_friction(), resistances);
+  });
 }
 
 void BodyContact::check_overlap() const {

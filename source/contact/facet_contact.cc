@@ -17,7 +17,7 @@ using dealii::Tensor;
 
 FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &settings,
                            std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
-                           std::vector<ContactStiffness> stiffness)
+                           std::vector<ContactStiffness> stiffness, std::vector<double> sizes)
     : communicator_(communicator), settings_(settings),
       exchange_(communicator, std::move(node_keys), std::move(facets)),
       search_(settings.partners, settings.search_margin) {
@@ -28,6 +28,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
       if (!is_listed[node] && (settings.two_pass || facet.surface == 0)) {
         is_listed[node] = true;
         slaves_.push_back({node, facet.surface});
+        sizes_.push_back(sizes[node]);
         const double part = settings.two_pass ? 0.5 : 1.;
         stiffness_.push_back({part * stiffness[node].normal, part * stiffness[node].tangential});
       }
@@ -38,6 +39,8 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
   if (!std::holds_alternative<Frictionless>(settings.friction))
     history_n_.resize(slaves_.size());
   history_ = history_n_;
+  if (settings.method == FacetMethod::overlap)
+    overlaps_.emplace();
   if (settings.edges) {
     edges_.emplace(settings.partners, settings.flat_edge);
     for (const auto &of_node : stiffness)
@@ -52,15 +55,15 @@ void FacetContact::rebuild() {
     if (touched_n_[s].exists())
       keys[s] = search_.facets()[touched_n_[s].facet].key;
   double distance = largest_reach_ + settings_.search_margin;
-  if (edges_) {
-    // The middle of an edge is farther from nodes, and depth is not limited to the reach.
+  if (edges_ || overlaps_) {
+    // The middle of an edge or a facet is farther from nodes, and depth is not limited to the reach.
     double longest = 0.;
     for (std::size_t f = 0; f < exchange_.n_own_facets(); ++f) {
       const FacetCorners x = corners_of(exchange_.facets()[f], positions_);
       for (unsigned int i = 0; i < 4; ++i)
         longest = std::max(longest, (x[facet::around[(i + 1) % 4]] - x[facet::around[i]]).norm());
     }
-    distance += settings_.edge_depth * largest_reach_ + longest;
+    distance += (edges_ ? settings_.edge_depth : FacetOverlaps::depth) * largest_reach_ + longest;
     MPI_Allreduce(MPI_IN_PLACE, &distance, 1, MPI_DOUBLE, MPI_MAX, communicator_);
   }
   exchange_.rebuild(positions_n_, positions_, distance);
@@ -70,6 +73,10 @@ void FacetContact::rebuild() {
     exchange_.update(edge_stiffness_);
   search_.set_surface(exchange_.facets(), slaves_);
   search_.rebuild(positions_n_, positions_);
+  if (overlaps_)
+    overlaps_->rebuild(search_, positions_n_, positions_, settings_.search_margin,
+                       settings_.partners == FacetSearch::Partners::other_surfaces_and_self,
+                       settings_.two_pass);
   if (edges_)
     edges_->rebuild(search_.facets(), exchange_.n_own_facets(), positions_, settings_.search_margin,
                     settings_.edge_depth);
@@ -104,6 +111,40 @@ void FacetContact::update_search(const Positions &positions_n, const Positions &
   if (is_outdated)
     rebuild();
   moved_.reset();
+  if (overlaps_)
+    overlaps_->update(search_, positions_, {});
+}
+
+void FacetContact::find_overlaps(const std::size_t s) {
+  SlaveState &state = states_[s];
+  state = SlaveState();
+  state.first_share = shares_.size();
+  double largest = 0.;
+  search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
+    const auto &nodes = search_.facets()[f].nodes;
+    const auto corner =
+        static_cast<unsigned int>(std::find(nodes.begin(), nodes.end(), slaves_[s].node) - nodes.begin());
+    overlaps_->visit(f, [&](const FacetOverlaps::Overlap &overlap) {
+      shares_.push_back(share_of_overlap(overlap.integrals, corner, f, overlap.target));
+      const double area = shares_.back().share;
+      if (!(area > 0.)) {
+        shares_.pop_back();
+        return;
+      }
+      state.area += area;
+      if (f < exchange_.n_own_facets())
+        state.own_area += area;
+      if (area > largest) {
+        largest = area;
+        state.touched.facet = overlap.target;
+      }
+    });
+  });
+  state.end_of_shares = shares_.size();
+  if (!state.touched.exists())
+    return;
+  state.contact = combine(shares_, state.first_share);
+  state.rests = !(state.contact.gap < 0.);
 }
 
 void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) const {
@@ -118,7 +159,13 @@ void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) cons
   });
 }
 
-template <class Facet> void FacetContact::find_contact(const std::size_t s, const double duration) {
+bool FacetContact::is_resting(const TouchedFacet &below, const std::size_t s, const double on_it) const {
+  const FacetProjection before = PlanedFacet(corners_of(search_.facets()[below.facet], positions_n_))
+                                     .project(positions_n_[slaves_[s].node], {});
+  return before.exists && before.gap <= on_it;
+}
+
+template <class Facet> void FacetContact::find_contact(const std::size_t s) {
   SlaveState &state = states_[s];
   state = SlaveState();
   state.first_share = shares_.size();
@@ -130,7 +177,7 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s, cons
     if (!(state.contact.gap < 0.)) {
       state.touched = TouchedFacet();
       shares_.resize(state.first_share);
-    } else if (duration > 0.) {
+    } else if (has_started_) {
       state.touched.offset = std::min(state.touched.offset, -state.contact.gap);
       state.contact.gap += state.touched.offset;
     } else // where bodies start in each other they part
@@ -138,8 +185,12 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s, cons
   }
   if (!state.touched.exists() && search_.has_candidates(s)) {
     const TouchedFacet below = find_facet_below(moved_, s, settings_.limits);
-    state.is_near = below.exists();
-    if (state.is_near) {
+    const double on_it = settings_.touching_gap * sizes_[s];
+    state.rests = below.exists() && below.projection.gap <= on_it && is_resting(below, s, on_it);
+    state.is_near = below.exists() && !state.rests;
+    if (state.rests)
+      state.touched = below;
+    if (below.exists()) {
       state.contact = {below.projection.normal, below.projection.gap};
       shares_.push_back({below.facet, 1., below.projection});
     }
@@ -150,13 +201,13 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s, cons
 }
 
 SlaveMotion FacetContact::compute_motion(const std::size_t s, const double duration) const {
-  const unsigned int node = slaves_[s].node;
   SlaveMotion mean{Tensor<1, 3>(), Tensor<2, 3>(), duration};
   for (std::size_t i = states_[s].first_share; i < states_[s].end_of_shares; ++i) {
     const FacetShare &share = shares_[i];
     const SlaveMotion motion = compute_slave_motion(corners_of(search_.facets()[share.facet], positions_n_),
                                                     moved_.corners(share.facet), share.projection.weights,
-                                                    positions_n_[node], positions_[node], duration);
+                                                    slave_point(s, share, positions_n_),
+                                                    slave_point(s, share, positions_), duration);
     mean.displacement += share.share * motion.displacement;
     // Nearly a rotation; what it carries along is made a unit vector again.
     mean.rotation += share.share * motion.rotation;
@@ -168,19 +219,24 @@ template <class Visit> void FacetContact::visit_forces(const std::size_t s, cons
   const SlaveState &state = states_[s];
   if (!state.presses() || !(state.own_area > 0.))
     return;
-  const Tensor<1, 3> force = state.own_area * state.traction.traction;
   for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
     const FacetShare &share = shares_[i];
-    const Tensor<1, 3> part = share.share * force;
+    const double area = area_of(state, share);
+    if (!(area > 0.))
+      continue;
+    const Tensor<1, 3> part = area * state.traction.traction;
     visit(share, part,
-          moved_.reaction(share.facet)(share.projection.weights, positions_[slaves_[s].node], part));
+          moved_.reaction(share.facet)(share.projection.weights, slave_point(s, share, positions_), part));
   }
 }
 
 template <class Facet, class Law> void FacetContact::evaluate(const Law &law, const double duration) {
   shares_.clear();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    find_contact<Facet>(s, duration);
+    if constexpr (std::is_same_v<Facet, OverlapFacet>)
+      find_overlaps(s);
+    else
+      find_contact<Facet>(s);
     SlaveState &state = states_[s];
     const SharedGap &contact = state.contact;
     if constexpr (std::is_same_v<Law, Frictionless>) {
@@ -194,7 +250,11 @@ template <class Facet, class Law> void FacetContact::evaluate(const Law &law, co
       history_[s].slip = history_n_[s].slip;
     }
     visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
-      nodal_forces_[slaves_[s].node] += force;
+      if (share.slave_facet == FacetShare::none)
+        nodal_forces_[slaves_[s].node] += force;
+      else
+        for (unsigned int a = 0; a < 4; ++a)
+          nodal_forces_[search_.facets()[share.slave_facet].nodes[a]] += share.slave_weights[a] * force;
       for (unsigned int a = 0; a < 4; ++a)
         nodal_forces_[search_.facets()[share.facet].nodes[a]] += reaction[a];
     });
@@ -204,15 +264,12 @@ template <class Facet, class Law> void FacetContact::evaluate(const Law &law, co
 void FacetContact::add_forces(const Positions &positions_n, const Positions &positions, const double duration,
                               Positions &forces) {
   update_search(positions_n, positions);
+  duration_ = duration;
   nodal_forces_.assign(exchange_.n_nodes(), Tensor<1, 3>());
   std::visit(
       [&](const auto &law) {
-        if (settings_.method == FacetMethod::planed)
-          evaluate<PlanedFacet>(law, duration);
-        else if (settings_.method == FacetMethod::mean_gap)
-          evaluate<MeanGapFacet>(law, duration);
-        else
-          evaluate<BilinearFacet>(law, duration);
+        visit_method(settings_.method,
+                     [&](auto facet) { evaluate<typename decltype(facet)::type>(law, duration); });
       },
       settings_.friction);
 
@@ -240,11 +297,17 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) {
     for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)
       for (const double weight : shares_[i].projection.weights)
         columns += shares_[i].share * std::abs(weight);
-    all[slaves_[s].node] += columns * k * state.own_area;
-    for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)
-      for (unsigned int a = 0; a < 4; ++a)
-        all[search_.facets()[shares_[i].facet].nodes[a]] +=
-            shares_[i].share * std::abs(shares_[i].projection.weights[a]) * columns * k * state.own_area;
+    for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
+      const FacetShare &share = shares_[i];
+      const double spring = columns * k * area_of(state, share);
+      if (share.slave_facet == FacetShare::none)
+        all[slaves_[s].node] += spring;
+      for (unsigned int a = 0; a < 4; ++a) {
+        if (share.slave_facet != FacetShare::none)
+          all[search_.facets()[share.slave_facet].nodes[a]] += share.slave_weights[a] * spring;
+        all[search_.facets()[share.facet].nodes[a]] += std::abs(share.projection.weights[a]) * spring;
+      }
+    }
   }
   for (const auto &crossing : crossings_)
     for (unsigned int i = 0; i < 4; ++i)
@@ -285,7 +348,7 @@ FacetContactLoad FacetContact::compute_load() const {
       for (unsigned int a = 0; a < 4; ++a) {
         load.residual_force += reaction[a];
         load.residual_moment +=
-            dealii::cross_product_3d(corners[a] - positions_[slaves_[s].node], reaction[a]);
+            dealii::cross_product_3d(corners[a] - slave_point(s, share, positions_), reaction[a]);
       }
       if (slaves_[s].surface == 0)
         load.force += force;
@@ -335,6 +398,7 @@ double FacetContact::local_dissipation() const {
 }
 
 void FacetContact::commit() {
+  has_started_ = true;
   for (std::size_t s = 0; s < slaves_.size(); ++s)
     touched_n_[s] = states_[s].touched;
   history_n_ = history_;

@@ -35,19 +35,7 @@ SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, c
     shares.push_back({touched.facet, 1., own});
     return {own.normal, own.gap};
   }
-  double sum = 0.;
-  for (std::size_t i = first; i < shares.size(); ++i)
-    sum += shares[i].share;
-  SharedGap result{Tensor<1, 3>(), 0.};
-  for (std::size_t i = first; i < shares.size(); ++i) {
-    shares[i].share /= sum;
-    result.normal += shares[i].share * shares[i].projection.normal;
-    result.gap += shares[i].share * shares[i].projection.gap;
-  }
-  const double length = result.normal.norm();
-  result.normal /= length;
-  result.gap /= length;
-  return result;
+  return combine(shares, first);
 }
 
 #define BILLET_INSTANTIATE(Facet)                                                                            \

@@ -7,24 +7,27 @@ namespace billet {
 
 using dealii::Tensor;
 
-SlaveMotion compute_slave_motion(const FacetCorners &corners_n, const FacetCorners &corners,
-                                 const std::array<double, 4> &weights, const Tensor<1, 3> &x_n,
-                                 const Tensor<1, 3> &x, const double duration) {
-  const Tensor<2, 3> rotation = facet_rotation(corners_n, corners);
-  const Tensor<1, 3> arm_n = x_n - facet::interpolate(weights, corners_n),
-                     arm = x - facet::interpolate(weights, corners);
+template <class Number>
+SlaveMotionOf<Number>
+compute_slave_motion(const FacetCorners &corners_n, const FacetCornersOf<Number> &corners,
+                     const std::array<Number, 4> &weights, const Tensor<1, 3, Number> &x_n,
+                     const Tensor<1, 3, Number> &x, const double duration) {
+  const Tensor<2, 3, Number> rotation = facet_rotation(corners_n, corners);
+  Tensor<1, 3, Number> arm_n = x_n, arm = x;
+  for (unsigned int a = 0; a < 4; ++a) {
+    arm_n -= weights[a] * corners_n[a];
+    arm -= weights[a] * corners[a];
+  }
   return {arm - rotation * arm_n, rotation, duration};
 }
 
-SlaveTraction compute_slave_traction(const Frictionless &, const double normal_stiffness,
-                                     const Tensor<1, 3> &normal, const double gap) {
-  const FrameTraction t = compute_frictionless_traction(normal_stiffness, gap);
-  SlaveTraction result;
-  result.status = t.status;
-  result.pressure = t.pressure;
-  result.traction = t.pressure * normal;
-  result.stored_energy = 0.5 * normal_stiffness * gap * gap;
-  return result;
-}
+template SlaveMotion compute_slave_motion(const FacetCorners &, const FacetCorners &,
+                                          const std::array<double, 4> &, const Tensor<1, 3> &,
+                                          const Tensor<1, 3> &, double);
+template SlaveMotionOf<Derivative> compute_slave_motion(const FacetCorners &,
+                                                        const FacetCornersOf<Derivative> &,
+                                                        const std::array<Derivative, 4> &,
+                                                        const Tensor<1, 3, Derivative> &,
+                                                        const Tensor<1, 3, Derivative> &, double);
 
 } // namespace billet

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/bilinear_facet.h"
 
+#include "billet/geometry/derivative.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -129,5 +131,43 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
   projection.exists = is_straight && projection.gap >= -limits.reach;
   return projection;
 }
+
+template <class Number>
+FacetProjectionOf<Number> BilinearFacet::follow(const facet::ExpansionOf<Number> &surface,
+                                                const Tensor<1, 3, Number> &x, const FacetLimits &limits,
+                                                const FacetProjection &found) {
+  const auto &[e_0, e_1, e_2, e_3] = surface;
+  const auto difference = [&](const std::array<Number, 2> &at) {
+    return (e_0 - x) + at[0] * e_1 + at[1] * e_2 + Number(at[0] * at[1]) * e_3;
+  };
+  std::array<Number, 2> at{found.parameters[0], found.parameters[1]};
+  const Tensor<1, 3, Number> away = difference(at), along_xi = e_1 + at[1] * e_3,
+                             along_eta = e_2 + at[0] * e_3;
+  const Number r_xi = away * along_xi, r_eta = away * along_eta;
+  const double xi_xi = value_of(along_xi.norm_square()), eta_eta = value_of(along_eta.norm_square()),
+               mixed = value_of(along_xi * along_eta + away * e_3),
+               determinant = xi_xi * eta_eta - mixed * mixed;
+  at[0] -= (eta_eta * r_xi - mixed * r_eta) / determinant;
+  at[1] -= (xi_xi * r_eta - mixed * r_xi) / determinant;
+
+  FacetProjectionOf<Number> projection;
+  const Tensor<1, 3, Number> area_vector = dealii::cross_product_3d(e_1 + at[1] * e_3, e_2 + at[0] * e_3);
+  projection.normal = area_vector / area_vector.norm();
+  projection.gap = -(difference(at) * projection.normal);
+  projection.parameters = at;
+  projection.weights = facet::weights(at);
+  projection.excess = found.excess;
+  using std::abs;
+  projection.share = facet::share_at(Number(0.5 * (1. - abs(at[0]))), limits.zone) *
+                     facet::share_at(Number(0.5 * (1. - abs(at[1]))), limits.zone);
+  projection.exists = true;
+  return projection;
+}
+
+template FacetProjection BilinearFacet::follow(const facet::Expansion &, const Tensor<1, 3> &,
+                                               const FacetLimits &, const FacetProjection &);
+template FacetProjectionOf<Derivative> BilinearFacet::follow(const facet::ExpansionOf<Derivative> &,
+                                                             const Tensor<1, 3, Derivative> &,
+                                                             const FacetLimits &, const FacetProjection &);
 
 } // namespace billet

@@ -188,9 +188,8 @@ public:
                 tool.motion.control == Motion::Control::force ? "Mass" : "Moment of inertia");
     }
     for (const auto &pair : scene_.pairs)
-      if (pair.is_between_bodies() && !scene_.is_explicit())
-        throw InputError(pair.second_body.origin + ": found '" + pair.second_body.value +
-                         "', allowed are pairs of a body and a tool, unless the scheme is explicit");
+      if (pair.edges && !scene_.is_explicit())
+        refuse_entry({"Contact pairs", pair.name}, "Edges");
   }
 
 private:

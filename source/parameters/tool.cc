@@ -196,13 +196,17 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "Boundary ids of the second body's faces. Empty, where it is the same body: the faces of "
                     "'Boundary ids' among themselves.");
   prm.declare_entry(
-      "Facets", "planed", Patterns::Selection("planed|mean gap|bilinear"),
+      "Facets", "planed", Patterns::Selection("planed|mean gap|bilinear|overlap"),
       "Pairs of bodies: planed: the planed contact element, no iterations (Bittencourt & Creus "
       "1998), with the gap to the warped face; mean gap: to its mean plane, as published, which "
-      "can create energy; bilinear: the closest point on the bilinear face, iterated.");
-  prm.declare_entry("Passes", "two", Patterns::Selection("one|two"),
-                    "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
-                    "half the penalty; one: those of 'Body' alone.");
+      "can create energy; bilinear: the closest point on the bilinear face, iterated; overlap: faces touch "
+      "as "
+      "a whole, in their common polygon on the planed face: a uniform pressure is exact, and edges are "
+      "seen.");
+  prm.declare_entry(
+      "Passes", "", Patterns::Selection("|one|two"),
+      "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
+      "half the penalty; one: those of 'Body' alone. Empty: one where faces overlap, else two.");
   prm.declare_entry("Edges", "false", Patterns::Bool(),
                     "Pairs of bodies: edges are kept out of edges, too, which nodes against facets miss.");
   prm.declare_entry(
@@ -290,11 +294,15 @@ void ContactPair::parse_bodies(Reader &reader) {
   const std::string kind = reader.text("Facets");
   facets = reader.located("Facets", kind == "planed"     ? Facets::planed
                                     : kind == "mean gap" ? Facets::mean_gap
-                                                         : Facets::bilinear);
-  two_passes = reader.text("Passes") == "two";
-  if (!two_passes && second_body.value == body.value)
+                                    : kind == "bilinear" ? Facets::bilinear
+                                                         : Facets::overlap);
+  const std::string passes = reader.text("Passes");
+  two_passes = passes.empty() ? facets.value != Facets::overlap : passes == "two";
+  if (passes == "one" && second_body.value == body.value)
     reader.reject("Passes", "two: of a body that touches itself, every node is kept out");
   edges = reader.flag("Edges");
+  if (edges && facets.value == Facets::overlap)
+    reader.reject("Edges", "no value: faces that overlap see edges");
   search_margin = reader.positive("Search margin");
   penalty_of = reader.text("Penalty of") == "stiffer" ? PenaltyOf::stiffer : PenaltyOf::series;
 }

@@ -118,6 +118,10 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
                          bodies_[b].holds[h].name.substr(std::string("symmetry plane ").size()) +
                          "', allowed are planes that hold boundary faces of body '" + bodies_[b].name +
                          "'; none lies in it");
+    if (std::any_of(body_pairs_.begin(), body_pairs_.end(), [b](const BodyPair &pair) {
+          return pair.bodies[0] != pair.bodies[1] && (pair.bodies[0] == b || pair.bodies[1] == b);
+        }))
+      continue; // another body may hold it, which shows when both are meshed
     touching.insert(touching.end(), holding.begin(), holding.end());
     if (const auto motion = find_free_motion(touching, centre, size))
       throw InputError(parameters_.bodies[b].origin +

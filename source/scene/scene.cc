@@ -120,9 +120,11 @@ std::string describe_facets(const parameters::ContactPair::Facets facets) {
   case Facets::mean_gap:
     return "mean gap";
   case Facets::bilinear:
+    return "bilinear";
+  case Facets::overlap:
     break;
   }
-  return "bilinear";
+  return "overlapping";
 }
 
 std::string describe_friction(const parameters::ContactPair &pair) {

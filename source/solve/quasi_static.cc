@@ -28,10 +28,15 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
       internal_(scene, discretization) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     contacts_.emplace_back(scene, p, discretization, scene.contact_tangent());
-  build_matrix();
-  direct_ = make_direct_solver(scene.parameters().solver.linear_solver.value,
-                               !scene.capabilities().unsymmetric_matrix, matrix_.trilinos_matrix(),
-                               discretization.communicator());
+  if (!scene.body_pairs().empty())
+    nodes_ = std::make_unique<LocalNodes>(discretization);
+  for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
+    body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, *nodes_));
+    body_contacts_.back()->check_overlap();
+  }
+  state_.body_pair_loads.resize(body_contacts_.size());
+  if (body_contacts_.empty()) // else when it is known who touches whom
+    build_matrix();
 
   trial_ = u_n_ = last_increment_ = support_forces_ = support_forces_n_ = discretization.make_owned_vector();
   trial_ghosted_ = state_.displacements = discretization.make_ghosted_vector();
@@ -60,23 +65,49 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   });
   state_.displacements = u_n_;
   choose_unknown_tools({});
+  if (body_contacts_.empty())
+    return;
+  for (auto &contact : contacts_)
+    contact.update(state_.displacements);
+  for (auto &contact : body_contacts_)
+    contact->update(state_.displacements, 0.);
+  check_freedom();
+  build_matrix();
 }
 
 void QuasiStatic::build_matrix() {
   const auto &owned = discretization_.owned_dofs();
-  dealii::TrilinosWrappers::SparsityPattern pattern(owned, owned, discretization_.relevant_dofs(),
-                                                    discretization_.communicator());
+  dealii::IndexSet written = discretization_.relevant_dofs();
+  for (auto &contact : body_contacts_)
+    contact->add_foreign_dofs(written);
+  dealii::TrilinosWrappers::SparsityPattern pattern(owned, owned, written, discretization_.communicator());
   dealii::DoFTools::make_sparsity_pattern(
       discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
+  for (auto &contact : body_contacts_)
+    contact->add_couplings(scene_.contact_tangent(), pattern);
   pattern.compress();
+  direct_.reset(); // it refers to the matrix
   matrix_.reinit(pattern);
+  direct_ = make_direct_solver(scene_.parameters().solver.linear_solver.value,
+                               !scene_.capabilities().unsymmetric_matrix, matrix_.trilinos_matrix(),
+                               discretization_.communicator());
+}
+
+void QuasiStatic::follow_couplings() {
+  bool is_known = direct_ != nullptr;
+  for (const auto &contact : body_contacts_)
+    is_known = is_known && !contact->has_new_couplings();
+  if (!body_contacts_.empty() && !all_ranks(is_known))
+    build_matrix();
 }
 
 std::vector<std::vector<ContactNodeReport>> QuasiStatic::report_contacts() const {
   std::vector<std::vector<ContactNodeReport>> reports;
   for (const auto &contact : contacts_)
     reports.push_back(contact.report());
+  for (const auto &contact : body_contacts_)
+    reports.push_back(contact->report());
   return reports;
 }
 
@@ -84,6 +115,8 @@ std::array<std::size_t, 2> QuasiStatic::history_sizes() const {
   std::array<std::size_t, 2> sizes = {{internal_.history_size(), 0}};
   for (const auto &contact : contacts_)
     sizes[1] += contact.history_size();
+  for (const auto &contact : body_contacts_)
+    sizes[1] += contact->history_size();
   for (auto &size : sizes)
     size = dealii::Utilities::MPI::sum(size, discretization_.communicator());
   return sizes;
@@ -136,6 +169,10 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
     contact.update(trial_ghosted_);
     contact.add_forces(raw_contact_);
   }
+  for (auto &contact : body_contacts_) {
+    contact->update(trial_ghosted_, duration_);
+    contact->add_forces(raw_contact_);
+  }
   raw_contact_.compress(dealii::VectorOperation::add);
 
   support_forces_ = raw_internal_;
@@ -167,6 +204,9 @@ bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
 }
 
 bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yield_slack) {
+  for (auto &contact : body_contacts_)
+    contact->update(trial_ghosted_, duration_);
+  follow_couplings();
   system.matrix = 0.;
   if (!all_ranks(internal_.assemble_tangent(trial_ghosted_, system, yield_slack)))
     return false;
@@ -174,6 +214,8 @@ bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yie
     contact.update(trial_ghosted_);
     contact.add_tangent(system);
   }
+  for (const auto &contact : body_contacts_)
+    contact->add_tangent(system, scene_.contact_tangent());
   system.matrix.compress(dealii::VectorOperation::add);
   assemble_tool_tangent();
   return direct_->factorize();
@@ -268,6 +310,7 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
     const Placement &now = state_.placements[contact.tool()];
     contact.start_step(now, now, 0.);
   }
+  duration_ = 0.;
   offsets_ = offsets_n_;
   Vector correction = discretization_.make_owned_vector(), rhs = correction;
   {
@@ -311,6 +354,7 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
 
 void QuasiStatic::start_step(const double t) {
   time_ = t;
+  duration_ = t - state_.time;
   for (auto &contact : contacts_) {
     const std::size_t tool = contact.tool();
     contact.start_step(state_.placements[tool], place(tool, t, offsets_[tool]), t - state_.time);
@@ -419,6 +463,12 @@ void QuasiStatic::commit(const double t) {
     contact.commit();
   }
   state_.energies.contact = 0.;
+  for (std::size_t i = 0; i < body_contacts_.size(); ++i) {
+    state_.body_pair_loads[i] = body_contacts_[i]->compute_load();
+    state_.energies.contact += state_.body_pair_loads[i].stored_energy;
+    state_.energies.friction += state_.body_pair_loads[i].dissipation;
+    body_contacts_[i]->commit();
+  }
   for (std::size_t i = 0; i < state_.tool_loads.size(); ++i) {
     const ContactLoad &load = state_.tool_loads[i];
     Placement &placement = state_.placements[i];
@@ -611,8 +661,7 @@ void QuasiStatic::remove_tools(const double t) {
       body_failure_ = describe_freedom(body, removed);
 }
 
-std::string QuasiStatic::describe_freedom(const std::size_t body,
-                                          const std::set<std::string> &removed) const {
+std::optional<RigidMotion> QuasiStatic::find_freedom(const std::size_t body) const {
   std::vector<Resistance> resistances;
   for (const auto &entry : collect_held_nodes(scene_, discretization_)) {
     dealii::Tensor<1, 3> position = entry.second.position;
@@ -625,6 +674,8 @@ std::string QuasiStatic::describe_freedom(const std::size_t body,
   for (const auto &contact : contacts_)
     if (contact.body() == body)
       contact.add_resistances(resistances);
+  for (const auto &contact : body_contacts_)
+    contact->add_resistances(body, resistances);
 
   // Those of all ranks, in the same order on each, so that all find the same.
   std::vector<double> numbers;
@@ -645,7 +696,23 @@ std::string QuasiStatic::describe_freedom(const std::size_t body,
   // Of what holds the body: where that is but a point, turns about it are free.
   const double size =
       resistances.empty() ? 1. : std::max((box.high - box.low).norm(), 1e-6 * discretization_.radius());
-  const auto motion = find_free_motion(resistances, 0.5 * (box.low + box.high), size);
+  return find_free_motion(resistances, 0.5 * (box.low + box.high), size);
+}
+
+void QuasiStatic::check_freedom() const {
+  for (std::size_t body = 0; body < scene_.bodies().size(); ++body)
+    if (const auto motion = find_freedom(body))
+      throw InputError(
+          scene_.parameters().bodies[body].origin +
+          ": the body is without support: at the start neither supports, nor symmetry planes, "
+          "nor tools or bodies that it touches hold its rigid motion with " +
+          print(*motion) +
+          ". Allowed in a static scene: none that is free; hold it, or let it touch at the start");
+}
+
+std::string QuasiStatic::describe_freedom(const std::size_t body,
+                                          const std::set<std::string> &removed) const {
+  const auto motion = find_freedom(body);
   if (!motion)
     return "";
   std::ostringstream message;

@@ -38,8 +38,12 @@ FacetContactSettings make_settings(const FacetMethod method, const FrictionLaw &
 }
 
 FacetContact make_contact(MPI_Comm communicator, const FacetContactSettings &settings, const Part &part) {
-  return {communicator, settings, part.node_keys, part.facets,
-          std::vector<ContactStiffness>(part.nodes.size(), penalty)};
+  return {communicator,
+          settings,
+          part.node_keys,
+          part.facets,
+          std::vector<ContactStiffness>(part.nodes.size(), penalty),
+          std::vector<double>(part.nodes.size(), 0.1)};
 }
 
 Part everything(const Surface &surface) {
@@ -183,7 +187,8 @@ void check_impact(const FacetMethod method, const std::string &name) {
     return sum_up(x, p);
   };
   FacetContact contact(MPI_COMM_SELF, make_settings(method, Frictionless(), false), part.node_keys,
-                       part.facets, std::vector<ContactStiffness>(x.size(), {1e5, 1e5}));
+                       part.facets, std::vector<ContactStiffness>(x.size(), {1e5, 1e5}),
+                       std::vector<double>(x.size(), 0.1));
   const double energy = kinetic(), dt = 1e-3;
   const Sums before = momentum();
   double most_stored = 0.;

@@ -5,13 +5,17 @@
 #include "billet/contact/contact_load.h"
 #include "billet/contact/facet_contact.h"
 #include "billet/discretization/local_nodes.h"
+#include "billet/discretization/supports.h"
+#include "billet/scene/rigid_motions.h"
+
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <memory>
 
 namespace billet {
 
-/// Contact of a scene's two bodies, or of one with itself, for schemes without a matrix: FacetContact on the
-/// boundary facets and nodes of this rank.
+/// Contact of a scene's two bodies, or of one with itself: FacetContact on the boundary facets and nodes of
+/// this rank.
 class BodyContact {
 public:
   BodyContact(const Scene &scene, std::size_t pair, const LocalNodes &nodes);
@@ -21,6 +25,26 @@ public:
   /// [force/length]. Collective.
   void add_forces(const NodalVectors &displacements, double duration, NodalVectors &forces,
                   NodalVectors &bounds);
+
+  // The same for schemes with a matrix:
+
+  /// Computes gaps and tractions at `displacements` (ghosted), `duration` after those of the last commit().
+  /// Collective.
+  void update(const Vector &displacements, double duration);
+  /// Adds −F_c [force] to `residual` (additive vector), after update().
+  void add_forces(Vector &residual) const;
+  /// Adds −∂F_c/∂u [force/length], after update(). Collective.
+  void add_tangent(const TangentSystem &system, ContactTangent kind) const;
+  /// Whether add_tangent() has entries of this rank that the last add_couplings() did not name.
+  bool has_new_couplings() const { return contact_->has_new_couplings(); }
+  /// Adds the dofs whose rows add_tangent() writes to.
+  void add_foreign_dofs(dealii::IndexSet &dofs);
+  /// Adds the entries that add_tangent() writes. Both after update(). Collective.
+  void add_couplings(ContactTangent kind, dealii::TrilinosWrappers::SparsityPattern &pattern);
+
+  /// Adds what the other body does where it touches this one on this rank; none of a body that touches
+  /// itself.
+  void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const;
 
   /// Throws InputError, with the largest overlap and where it is, if the undeformed bodies are deeper in each
   /// other than the scene allows. Collective.
@@ -41,6 +65,8 @@ public:
 private:
   void collect();
   std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
+  template <class DisplacementOf> void update(const DisplacementOf &displacement_of, double duration);
+  void find_ghost_dofs();
 
   const BodyPair &pair_;
   const LocalNodes &nodes_;
@@ -53,6 +79,7 @@ private:
   FacetContact::Positions positions_n_, positions_;
   FacetContact::Positions forces_; ///< of one step, as row_sums_
   std::vector<double> row_sums_;
+  std::vector<std::array<DofIndex, 3>> all_dofs_; ///< of surface nodes and ghosts, after find_ghost_dofs()
 };
 
 } // namespace billet

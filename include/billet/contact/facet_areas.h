@@ -9,16 +9,17 @@ namespace billet {
 /// A slave node's share of one of its own facets, ∫ N_a <−ν·n> dξdη: the facet's area seen along the normal n
 /// of what the node touches, weighted by the shape function of its corner a; ν = x,ξ × x,η, by 2 × 2 Gauss
 /// points. A facet that does not face what the node touches has no share.
-class FacetAreas {
+template <class Number> class FacetAreasOf {
 public:
-  explicit FacetAreas(const facet::Expansion &surface);
+  explicit FacetAreasOf(const facet::ExpansionOf<Number> &surface);
 
   /// [length²]; `normal` is a unit vector.
-  double share(unsigned int corner, const dealii::Tensor<1, 3> &normal) const;
+  Number share(unsigned int corner, const dealii::Tensor<1, 3, Number> &normal) const;
 
 private:
-  dealii::Tensor<1, 3> constant_, along_xi_, along_eta_; ///< ν = constant + ξ along_xi + η along_eta
+  dealii::Tensor<1, 3, Number> constant_, along_xi_, along_eta_; ///< ν = constant + ξ along_xi + η along_eta
 };
+using FacetAreas = FacetAreasOf<double>;
 
 } // namespace billet
 

@@ -3,10 +3,15 @@
 #define BILLET_CONTACT_FACET_CONTACT_H
 
 #include "billet/contact/edge_contact.h"
+#include "billet/contact/facet_overlaps.h"
 #include "billet/contact/facet_sharing.h"
 #include "billet/contact/slave_traction.h"
 #include "billet/contact/surface_exchange.h"
+#include "billet/geometry/bilinear_facet.h"
 
+#include <deal.II/lac/full_matrix.h>
+
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,8 +21,31 @@ namespace billet {
 enum class FacetMethod {
   planed,   ///< PlanedFacet: no iteration
   mean_gap, ///< MeanGapFacet
-  bilinear  ///< BilinearFacet: without friction, forces at a fixed area have a potential
+  bilinear, ///< BilinearFacet: without friction, forces at a fixed area have a potential
+  overlap   ///< FacetOverlapOf: no nodes, but facets touch, on their common polygon
 };
+
+/// The facets of FacetMethod::overlap, of which no node is projected.
+struct OverlapFacet {};
+
+/// Calls f(type), type::type being what a facet is to this method.
+template <class Type> struct FacetType { using type = Type; };
+template <class Function> void visit_method(const FacetMethod method, const Function &f) {
+  switch (method) {
+  case FacetMethod::planed:
+    f(FacetType<PlanedFacet>());
+    break;
+  case FacetMethod::mean_gap:
+    f(FacetType<MeanGapFacet>());
+    break;
+  case FacetMethod::bilinear:
+    f(FacetType<BilinearFacet>());
+    break;
+  case FacetMethod::overlap:
+    f(FacetType<OverlapFacet>());
+    break;
+  }
+}
 
 /// What contact between surfaces is made of.
 struct FacetContactSettings {
@@ -34,6 +62,10 @@ struct FacetContactSettings {
   bool edges = false;
   double flat_edge = 0.99; ///< EdgeContact's largest alignment of normals
   double edge_depth = 5.;  ///< and its depth, relative to the facets' reach
+  /// A node that is before a facet by no more than this part of its facets' size, now and at the start of the
+  /// step, counts as touching it, without pressure: its stiffness may be all that holds a body at rest. < 0:
+  /// none does.
+  double touching_gap = -1.;
 };
 
 /// What contact between surfaces does in one step, over all ranks.
@@ -55,6 +87,10 @@ struct FacetContactLoad {
 /// node is its traction times its share of its own facets' area; the facet's corners take the reaction, which
 /// balances force and moment.
 ///
+/// With overlaps, facet against facet: the gap of a slave node a is the mean over all polygons of its facets,
+/// weighted by its function, g_a = Σ ∫ φ_a g dA/A_a with A_a = Σ ∫ φ_a dA; its traction t_a acts by the same
+/// functions, F_b = Σ_a t_a ∫ φ_a φ_b dA on the slave's nodes and −Σ_a t_a ∫ φ_a ψ_I dA on the target's.
+///
 /// Plain arrays in and out: nodes and facets are those of this rank, facets of other ranks come by
 /// SurfaceExchange. A node that several ranks have is a slave on each, with the area of that rank's facets;
 /// its state is the same on all of them. Forces on it are to be summed over these ranks, as forces of
@@ -63,16 +99,33 @@ class FacetContact {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// `node_keys` and `facets` as SurfaceExchange wants them; `stiffness`: full penalties of each node as a
-  /// slave.
+  /// `node_keys` and `facets` as SurfaceExchange wants them; of each node the full penalties as a slave, and
+  /// the size of the facets around it.
   FacetContact(MPI_Comm communicator, const FacetContactSettings &settings,
                std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
-               std::vector<ContactStiffness> stiffness);
+               std::vector<ContactStiffness> stiffness, std::vector<double> sizes);
 
   /// Adds contact forces at `positions` to `forces`; `positions_n` are those of the last commit(), and
   /// `duration` is the time in between. All are of this rank's nodes.
   void add_forces(const Positions &positions_n, const Positions &positions, double duration,
                   Positions &forces);
+
+  /// Called with nodes i, j, ... of this rank and ghosts, and the matrix −∂F_c,i/∂x_j, three rows and columns
+  /// a node [force/length].
+  using AddTangent =
+      std::function<void(const std::vector<unsigned int> &, const dealii::FullMatrix<double> &)>;
+  /// The tangent of the last add_forces(): of each slave that touches, the part of this rank's area. Kinds as
+  /// of compute_traction(); all but the exact and the numerical ones hold normals, areas and weights.
+  void visit_tangents(ContactTangent kind, const AddTangent &add) const;
+
+  /// Calls add(nodes) with the nodes of each block that visit_tangents() may call with until coupling facets
+  /// change, and takes note of it.
+  void visit_couplings(ContactTangent kind,
+                       const std::function<void(const std::vector<unsigned int> &)> &add);
+  /// Whether visit_tangents() has blocks of this rank that the last visit_couplings() did not name.
+  bool has_new_couplings() const;
+  /// To bring data of own nodes to ghosts, and sums back.
+  const SurfaceExchange &exchange() const { return exchange_; }
 
   /// Adds to each of this rank's nodes what bounds the time step, after add_forces(): the sum Σ_j |K_ij| of
   /// its row of the contact stiffness, 2 k A for a slave and 2 w_I k A for a facet's corner [force/length].
@@ -96,6 +149,14 @@ public:
   /// The state of the last add_forces() becomes the start of the next step.
   void commit();
 
+  /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
+  template <class Visit> void visit_touching(const Visit &visit) const {
+    for (std::size_t s = 0; s < slaves_.size(); ++s)
+      if (states_[s].presses())
+        visit(positions_[slaves_[s].node], states_[s].contact.normal, slaves_[s].surface,
+              search_.facets()[states_[s].touched.facet].surface);
+  }
+
   /// State of a slave node, for output.
   struct NodeReport {
     ContactStatus status = ContactStatus::open;
@@ -118,8 +179,9 @@ private:
     SlaveTraction traction;
     double own_area = 0.; ///< of this rank's facets
     double area = 0.;     ///< of all
+    bool rests = false;   ///< touches without pressing
 
-    bool presses() const { return touched.exists() && contact.gap < 0.; }
+    bool presses() const { return touched.exists() && (contact.gap < 0. || rests); }
   };
 
   void update_search(const Positions &positions_n, const Positions &positions);
@@ -127,8 +189,38 @@ private:
   /// States of the slaves, and their forces in nodal_forces_.
   template <class Facet, class Law> void evaluate(const Law &law, double duration);
   /// What slave s touches, or is near, and with which areas.
-  template <class Facet> void find_contact(std::size_t s, double duration);
+  template <class Facet> void find_contact(std::size_t s);
+  void find_overlaps(std::size_t s);
+  /// What slave s holds against a share's facet: itself, or a point of its own facet.
+  dealii::Tensor<1, 3> slave_point(std::size_t s, const FacetShare &share, const Positions &positions) const {
+    return share.slave_facet == FacetShare::none
+               ? positions[slaves_[s].node]
+               : facet::interpolate(share.slave_weights,
+                                    corners_of(search_.facets()[share.slave_facet], positions));
+  }
+  /// This rank's part of the area with which a share counts.
+  double area_of(const SlaveState &state, const FacetShare &share) const {
+    if (share.slave_facet == FacetShare::none)
+      return share.share * state.own_area;
+    return share.slave_facet < exchange_.n_own_facets() ? share.share * state.area : 0.;
+  }
+  /// Whether slave s was before this facet by no more than `on_it` at the start of the step, or behind it.
+  bool is_resting(const TouchedFacet &below, std::size_t s, double on_it) const;
   SlaveMotion compute_motion(std::size_t s, double duration) const;
+  /// The nodes on whose positions the forces of slave s depend, itself first.
+  std::vector<unsigned int> collect_nodes(std::size_t s, bool with_own_facets) const;
+  template <class Law>
+  void add_closed_tangent(const Law &law, ContactTangent kind, std::size_t s, const AddTangent &add) const;
+  /// Forces of slave s on these nodes, with the facets and the branches of its state, from their positions
+  /// x_n and x.
+  template <class Facet, class Law, class Number>
+  std::vector<dealii::Tensor<1, 3, Number>>
+  follow_forces(const Law &law, std::size_t s, const std::vector<unsigned int> &nodes,
+                const std::vector<dealii::Tensor<1, 3, Number>> &x) const;
+  template <class Facet, class Law>
+  void add_exact_tangent(const Law &law, std::size_t s, const AddTangent &add) const;
+  template <class Facet, class Law>
+  void add_numerical_tangent(const Law &law, std::size_t s, const AddTangent &add) const;
   void compute_areas(const SlaveNode &slave, SlaveState &state) const;
   /// Calls visit(share, force on the slave, reaction on the corners) for each facet that slave s touches.
   template <class Visit> void visit_forces(std::size_t s, const Visit &visit) const;
@@ -147,16 +239,22 @@ private:
   FacetSearch search_;
   double largest_reach_ = 0.;
   std::vector<SlaveNode> slaves_;
+  std::vector<double> sizes_;               ///< of slaves
   std::vector<ContactStiffness> stiffness_; ///< of slaves, in one of the passes
   Positions positions_n_, positions_;       ///< with ghosts
   MovedFacets moved_{search_, positions_};
   std::vector<TouchedFacet> touched_n_;
+  bool has_started_ = false; ///< commit() has been called
+  double duration_ = 0.;     ///< of the last add_forces()
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only
+  std::optional<FacetOverlaps> overlaps_;
   std::optional<EdgeContact> edges_;
   std::vector<double> edge_stiffness_; ///< full normal penalties of nodes, if there are edges
   std::vector<EdgeContact::Crossing> crossings_;
+  /// Keys of the facets that a slave was coupled to by the last visit_couplings(), sorted.
+  std::vector<std::vector<std::uint64_t>> coupled_;
   Positions nodal_forces_; ///< with ghosts, of one step
   std::vector<double> nodal_sums_;
 };

@@ -11,17 +11,19 @@ namespace billet {
 /// with r_I = x_I − ¼ Σ x_J. The weights alone balance a force along x − Σ w_I x_I, such as a pressure; the
 /// second term, of no resultant and the least there is, is the moment of friction across the gap. The facet
 /// must have an area, and the weights the sum 1.
-class FacetReaction {
+template <class Number> class FacetReactionOf {
 public:
-  explicit FacetReaction(const facet::Expansion &surface);
+  explicit FacetReactionOf(const facet::ExpansionOf<Number> &surface);
 
-  FacetCorners operator()(const std::array<double, 4> &weights, const dealii::Tensor<1, 3> &x,
-                          const dealii::Tensor<1, 3> &force) const;
+  FacetCornersOf<Number> operator()(const std::array<Number, 4> &weights,
+                                    const dealii::Tensor<1, 3, Number> &x,
+                                    const dealii::Tensor<1, 3, Number> &force) const;
 
 private:
-  facet::Expansion surface_;
-  dealii::Tensor<2, 3> inverse_second_moment_;
+  facet::ExpansionOf<Number> surface_;
+  dealii::Tensor<2, 3, Number> inverse_second_moment_;
 };
+using FacetReaction = FacetReactionOf<double>;
 
 } // namespace billet
 

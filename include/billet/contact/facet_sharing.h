@@ -3,30 +3,77 @@
 #define BILLET_CONTACT_FACET_SHARING_H
 
 #include "billet/contact/facet_choice.h"
+#include "billet/geometry/facet_overlap.h"
 
 namespace billet {
 
 /// A facet's part in the contact of a node.
-struct FacetShare {
+template <class Number> struct FacetShareOf {
+  static constexpr unsigned int none = static_cast<unsigned int>(-1);
+
   unsigned int facet;
-  double share; ///< >= 0; their sum is 1
-  FacetProjection projection;
+  Number share; ///< >= 0; their sum is 1
+  FacetProjectionOf<Number> projection;
+  /// Where facets touch as a whole: the slave's, and the weights of its corners in what is projected. Else
+  /// the slave node itself is.
+  unsigned int slave_facet = none;
+  std::array<Number, 4> slave_weights{};
 };
+using FacetShare = FacetShareOf<double>;
 
 /// Normal and gap of a node with all facets that share it.
-struct SharedGap {
-  dealii::Tensor<1, 3> normal; ///< unit
-  double gap;                  ///< [length]
+template <class Number> struct SharedGapOf {
+  dealii::Tensor<1, 3, Number> normal; ///< unit
+  Number gap;                          ///< [length]
 };
+using SharedGap = SharedGapOf<double>;
 
 /// Whether facets with these unit normals share a node on their border: at less than 60 degrees.
 bool meet_smoothly(const dealii::Tensor<1, 3> &normal, const dealii::Tensor<1, 3> &other);
 
+/// The part of an overlap that belongs to a corner of the slave facet: its `share` is the area.
+template <class Number>
+FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, const unsigned int corner,
+                                      const unsigned int slave_facet, const unsigned int target) {
+  FacetShareOf<Number> result;
+  result.facet = target;
+  result.share = overlap.areas[corner];
+  if (!(result.share > 0.))
+    return result;
+  result.projection.exists = true;
+  result.projection.normal = overlap.normal;
+  result.projection.gap = overlap.gaps[corner] / result.share;
+  result.slave_facet = slave_facet;
+  for (unsigned int i = 0; i < 4; ++i) {
+    result.slave_weights[i] = overlap.slave_parts[corner][i] / result.share;
+    result.projection.weights[i] = overlap.target_parts[corner][i] / result.share;
+  }
+  return result;
+}
+
+/// With the parts s_f of facets, those of `shares` from index `first` on, which are made to have the sum 1,
+///   n = Σ s_f n_f/|Σ s_f n_f|,   g = Σ s_f g_f/|Σ s_f n_f|
+/// which has the gradient n for fixed parts: the gap to the mean of the planes.
+template <class Number>
+SharedGapOf<Number> combine(std::vector<FacetShareOf<Number>> &shares, const std::size_t first) {
+  Number sum = 0.;
+  for (std::size_t i = first; i < shares.size(); ++i)
+    sum += shares[i].share;
+  SharedGapOf<Number> result{dealii::Tensor<1, 3, Number>(), 0.};
+  for (std::size_t i = first; i < shares.size(); ++i) {
+    shares[i].share /= sum;
+    result.normal += shares[i].share * shares[i].projection.normal;
+    result.gap += shares[i].share * shares[i].projection.gap;
+  }
+  const Number length = result.normal.norm();
+  result.normal /= length;
+  result.gap /= length;
+  return result;
+}
+
 /// Appends to `shares` the facets that share a node at x which touches `touched`: that one, and, within the
 /// zone of its border, those around its nearest corner which meet it smoothly and within whose zones the node
-/// is. With their parts s_f, FacetProjection::share made to have the sum 1,
-///   n = Σ s_f n_f/|Σ s_f n_f|,   g = Σ s_f g_f/|Σ s_f n_f|
-/// which has the gradient n for fixed parts: the gap to the mean of the planes. The result does not jump
+/// is. Their parts in combine() are FacetProjection::share. The result does not jump
 /// where the node slides from one facet to the next, nor depend on which of them was chosen, as long as
 /// neighbours differ less than twofold in size; its gap may be >= 0, though that of `touched` is not. A node
 /// well inside a facet costs nothing.

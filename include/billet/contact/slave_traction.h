@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_SLAVE_TRACTION_H
 
 #include "billet/contact/traction.h"
+#include "billet/geometry/derivative.h"
 #include "billet/geometry/facet_projection.h"
 #include "billet/geometry/frame.h"
 
@@ -22,65 +23,110 @@ struct SlaveHistory {
 };
 
 /// How a slave node and the facet that it touches moved over a step.
-struct SlaveMotion {
+template <class Number> struct SlaveMotionOf {
   /// Of the node, relative to the facet's material point that now is below it, as an observer sees it who
   /// turns with the facet: (x − x̂) − R (x_n − x̂_n), x̂ = Σ w_I x_I. 0 if both move as one rigid body.
-  dealii::Tensor<1, 3> displacement;
-  dealii::Tensor<2, 3> rotation; ///< R, of the facet
-  double duration;               ///< [time]; 0 in a step that takes no time
+  dealii::Tensor<1, 3, Number> displacement;
+  dealii::Tensor<2, 3, Number> rotation; ///< R, of the facet
+  double duration;                       ///< [time]; 0 in a step that takes no time
 };
+using SlaveMotion = SlaveMotionOf<double>;
 
 /// `_n` marks the start of the step; the weights are those of the projection at its end.
-SlaveMotion compute_slave_motion(const FacetCorners &corners_n, const FacetCorners &corners,
-                                 const std::array<double, 4> &weights, const dealii::Tensor<1, 3> &x_n,
-                                 const dealii::Tensor<1, 3> &x, double duration);
+template <class Number>
+SlaveMotionOf<Number>
+compute_slave_motion(const FacetCorners &corners_n, const FacetCornersOf<Number> &corners,
+                     const std::array<Number, 4> &weights, const dealii::Tensor<1, 3, Number> &x_n,
+                     const dealii::Tensor<1, 3, Number> &x, double duration);
 
 /// What a facet does to a slave node, per area.
-struct SlaveTraction {
+template <class Number> struct SlaveTractionOf {
   ContactStatus status = ContactStatus::open;
-  double pressure = 0.;          ///< [stress]
-  dealii::Tensor<1, 3> traction; ///< on the slave node [stress]
-  double slip = 0.;              ///< in this step [length]
-  double dissipation = 0.;       ///< by friction in this step [energy/length²]
-  double stored_energy = 0.;     ///< in the penalty springs [energy/length²]
+  double pressure = 0.;                  ///< [stress]
+  dealii::Tensor<1, 3, Number> traction; ///< on the slave node [stress]
+  double slip = 0.;                      ///< in this step [length]
+  double dissipation = 0.;               ///< by friction in this step [energy/length²]
+  double stored_energy = 0.;             ///< in the penalty springs [energy/length²]
 };
+using SlaveTraction = SlaveTractionOf<double>;
 
 /// Without friction; `gap` < 0.
-SlaveTraction compute_slave_traction(const Frictionless &law, double normal_stiffness,
-                                     const dealii::Tensor<1, 3> &normal, double gap);
+template <class Number>
+SlaveTractionOf<Number> compute_slave_traction(const Frictionless & /*law*/, const double normal_stiffness,
+                                               const dealii::Tensor<1, 3, Number> &normal,
+                                               const Number &gap) {
+  SlaveTractionOf<Number> result;
+  result.status = ContactStatus::slip;
+  const Number pressure = -normal_stiffness * gap;
+  result.pressure = value_of(pressure);
+  result.traction = pressure * normal;
+  result.stored_energy = -0.5 * result.pressure * value_of(gap);
+  return result;
+}
+
+/// −∂t/∂x of the traction t on a node by its motion, normal and facet held, from the tangent in its frame
+/// [stress/length].
+template <class Number>
+dealii::Tensor<2, 3> to_space(const FrameOf<Number> &frame, const FrameTraction &traction) {
+  const std::array<dealii::Tensor<1, 3>, 3> axes{frame.q, frame.r, frame.n};
+  dealii::Tensor<2, 3> tangent;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      tangent += traction.tangent[i][j] * dealii::outer_product(axes[i], axes[j]);
+  return tangent;
+}
 
 /// Friction in the contact frame, eqs. (4), (5), (32)-(40) of Bittencourt & Creus (1998) as in
 /// contact/traction.h. The frame of the last step's end goes along with the facet's rotation and is turned
 /// onto the new normal, so that a pair that sticks and rotates keeps its traction components and creates
 /// none. A node that has come through the facet within the step slides for the part φ = g/(g − g_n) of it
 /// only. `gap` < 0; `history` becomes the state at the end of the step, and may be what `history_n` is.
-template <class Law>
-SlaveTraction compute_slave_traction(const Law &law, const ContactStiffness &stiffness,
-                                     const dealii::Tensor<1, 3> &normal, const double gap,
-                                     const SlaveMotion &motion, const SlaveHistory &history_n,
-                                     SlaveHistory &history) {
+///
+/// With Derivative as Number the traction has its exact derivatives; the rest, and `history`, is of the
+/// values. `tangent`, where it is asked for, becomes −∂t/∂x of the kind of tangent that is named, as
+/// to_space().
+template <class Law, class Number>
+SlaveTractionOf<Number> compute_slave_traction(const Law &law, const ContactStiffness &stiffness,
+                                               const dealii::Tensor<1, 3, Number> &normal, const Number &gap,
+                                               const SlaveMotionOf<Number> &motion,
+                                               const SlaveHistory &history_n, SlaveHistory &history,
+                                               const ContactTangent kind = ContactTangent::consistent,
+                                               dealii::Tensor<2, 3> *tangent = nullptr) {
   static_assert(!std::is_same_v<Law, Frictionless>, "nothing is kept for it");
-  const Frame frame =
-      history_n.is_active ? history_n.frame.transported(motion.rotation, normal) : Frame::from_normal(normal);
-  TangentialIncrement increment{{motion.displacement * frame.q, motion.displacement * frame.r}};
+  const FrameOf<Number> frame = history_n.is_active ? history_n.frame.transported(motion.rotation, normal)
+                                                    : FrameOf<Number>::from_normal(normal);
+  const Number gap_n = gap - motion.displacement * normal;
+  const Number fraction = !history_n.is_active && gap_n > 0. ? Number(gap / (gap - gap_n)) : Number(1.);
+  const std::array<Number, 2> slid{fraction * (motion.displacement * frame.q),
+                                   fraction * (motion.displacement * frame.r)};
+  TangentialIncrement increment{{value_of(slid[0]), value_of(slid[1])}};
   increment.per_time = motion.duration > 0. ? 1. / motion.duration : 0.;
   increment.rate = history_n.slip_rate;
-  const double gap_n = gap - motion.displacement * normal;
-  const double fraction = !history_n.is_active && gap_n > 0. ? gap / (gap - gap_n) : 1.;
-  const FrameTraction t = compute_traction(law, {stiffness.normal, fraction * stiffness.tangential},
-                                           ContactTangent::consistent, gap, history_n.tangential, increment);
+  const FrameTraction t =
+      compute_traction(law, stiffness, kind, value_of(gap), history_n.tangential, increment);
 
-  SlaveTraction result;
+  SlaveTractionOf<Number> result;
   result.status = t.status;
   result.pressure = t.pressure;
-  result.traction = t.tangential[0] * frame.q + t.tangential[1] * frame.r + t.pressure * frame.n;
-  result.slip = fraction * std::hypot(t.slip[0], t.slip[1]);
-  result.dissipation = -fraction * (t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]);
+  // The value, and by the derivatives of the return map those of what goes into it: the differences are 0.
+  const std::array<Number, 3> change{slid[0] - increment.value[0], slid[1] - increment.value[1],
+                                     gap - value_of(gap)};
+  std::array<Number, 3> components{t.tangential[0], t.tangential[1], t.pressure};
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      components[i] -= t.tangent[i][j] * change[j];
+  result.traction = components[0] * frame.q + components[1] * frame.r + components[2] * frame.n;
+  result.slip = std::hypot(t.slip[0], t.slip[1]);
+  result.dissipation = -(t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]);
   result.stored_energy =
-      0.5 * stiffness.normal * gap * gap +
+      0.5 * stiffness.normal * value_of(gap) * value_of(gap) +
       0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) / stiffness.tangential;
-  const double slip_rate = increment.per_time > 0. ? result.slip * increment.per_time : history_n.slip_rate;
-  history = {true, frame, t.tangential, history_n.slip + result.slip, slip_rate};
+  if constexpr (std::is_same_v<Number, double>) {
+    if (tangent != nullptr)
+      *tangent = to_space(frame, t);
+    const double slip_rate = increment.per_time > 0. ? result.slip * increment.per_time : history_n.slip_rate;
+    history = {true, frame, t.tangential, history_n.slip + result.slip, slip_rate};
+  }
   return result;
 }
 

@@ -22,6 +22,13 @@ public:
   FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
                           const std::array<double, 2> &start = {}) const;
 
+  /// The projection that `found` becomes when corners and node move by a little: one more iteration, which
+  /// with Derivative as Number gives its exact derivatives.
+  template <class Number>
+  static FacetProjectionOf<Number> follow(const facet::ExpansionOf<Number> &surface,
+                                          const dealii::Tensor<1, 3, Number> &x, const FacetLimits &limits,
+                                          const FacetProjection &found);
+
 private:
   /// From the point x = e_0 − arm to that of the surface.
   dealii::Tensor<1, 3> difference(const std::array<double, 2> &at, const dealii::Tensor<1, 3> &arm) const {

@@ -12,7 +12,8 @@ namespace billet {
 
 /// Corners of a facet at (ξ, η) = (−1, −1), (1, −1), (−1, 1), (1, 1), deal.II's order, such that the area
 /// vector ∂x/∂ξ × ∂x/∂η points out of the body.
-using FacetCorners = std::array<dealii::Tensor<1, 3>, 4>;
+template <class Number> using FacetCornersOf = std::array<dealii::Tensor<1, 3, Number>, 4>;
+using FacetCorners = FacetCornersOf<double>;
 
 namespace facet {
 
@@ -23,42 +24,49 @@ inline constexpr std::array<std::array<double, 2>, 4> signs{{{-1., -1.}, {1., -1
 inline constexpr std::array<unsigned int, 4> around{0, 1, 3, 2};
 
 /// Bilinear shape functions; their sum is 1 anywhere, and they are >= 0 inside.
-inline std::array<double, 4> weights(const std::array<double, 2> &parameters) {
-  std::array<double, 4> w{};
+template <class Number> std::array<Number, 4> weights(const std::array<Number, 2> &parameters) {
+  std::array<Number, 4> w{};
   for (unsigned int a = 0; a < 4; ++a)
     w[a] = 0.25 * (1. + signs[a][0] * parameters[0]) * (1. + signs[a][1] * parameters[1]);
   return w;
 }
 
+inline std::array<double, 4> weights(const std::array<double, 2> &parameters) {
+  return weights<double>(parameters);
+}
+
 /// Σ w_I x_I
-inline dealii::Tensor<1, 3> interpolate(const std::array<double, 4> &weights,
-                                        const std::array<dealii::Tensor<1, 3>, 4> &values) {
+template <class Number>
+dealii::Tensor<1, 3, Number> interpolate(const std::array<Number, 4> &weights,
+                                         const FacetCornersOf<Number> &values) {
   return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2] + weights[3] * values[3];
 }
 
 /// The bilinear surface through the corners, X(ξ, η) = e_0 + ξ e_1 + η e_2 + ξη e_3.
-struct Expansion {
-  Expansion(const FacetCorners &x) // NOLINT(google-explicit-constructor): the same surface
+template <class Number> struct ExpansionOf {
+  ExpansionOf(const FacetCornersOf<Number> &x) // NOLINT(google-explicit-constructor): the same surface
       : e_0(0.25 * (x[0] + x[1] + x[2] + x[3])), e_1(0.25 * ((x[3] - x[0]) - (x[2] - x[1]))),
         e_2(0.25 * ((x[3] - x[0]) + (x[2] - x[1]))), e_3(0.25 * ((x[0] - x[1]) + (x[3] - x[2]))) {}
 
   /// The mean of the area vectors ∂X/∂ξ × ∂X/∂η, an eighth of the cross product of the diagonals.
-  dealii::Tensor<1, 3> mean_area_vector() const { return dealii::cross_product_3d(e_1, e_2); }
+  dealii::Tensor<1, 3, Number> mean_area_vector() const { return dealii::cross_product_3d(e_1, e_2); }
   /// Else the facet has no normal.
   bool has_area() const {
     // What rounding of the corners' coordinates may leave of a facet that is a line.
     constexpr double least = 1e-12;
-    return 2. * mean_area_vector().norm() >
-           least * std::max((e_1 + e_2).norm_square(), (e_1 - e_2).norm_square());
+    const Number size = 2. * mean_area_vector().norm();
+    return size > least * (e_1 + e_2).norm_square() && size > least * (e_1 - e_2).norm_square();
   }
 
-  dealii::Tensor<1, 3> e_0, e_1, e_2, e_3;
+  dealii::Tensor<1, 3, Number> e_0, e_1, e_2, e_3;
 };
+using Expansion = ExpansionOf<double>;
 
 /// One edge's factor of FacetProjection::share; `distance` from it is positive inside.
-inline double share_at(const double distance, const double zone) {
-  const double share = 0.5 * (distance / zone + 1.), positive = share > 0. ? share : 0.;
-  return positive < 1. ? positive : 1.; // so written there is no jump, which nodes on a seam would mislead
+template <class Number> Number share_at(const Number &distance, const double zone) {
+  const Number share = 0.5 * (distance / zone + 1.), positive = share > 0. ? share : Number(0.);
+  return positive < 1. ? positive
+                       : Number(1.); // so written there is no jump, which nodes on a seam would mislead
 }
 
 } // namespace facet
@@ -75,22 +83,23 @@ struct FacetLimits {
 };
 
 /// A node x before a facet or behind it.
-struct FacetProjection {
+template <class Number> struct FacetProjectionOf {
   /// The node is straight above or below the facet, within its limits. Else there may be no weights, and, if
   /// the facet has no area, nothing at all.
   bool exists = false;
-  dealii::Tensor<1, 3> normal; ///< unit, out of the body
-  double gap = 0.;             ///< along the normal, negative where the node has penetrated [length]
+  dealii::Tensor<1, 3, Number> normal; ///< unit, out of the body
+  Number gap = 0.;                     ///< along the normal, negative where the node has penetrated [length]
   /// Of the facet's corners. Their sum is 1, and, where `exists`, x − Σ w_I x_I is parallel to the normal: a
   /// force along it at x and −w_I times that force at the corners balance, and so do their moments.
-  std::array<double, 4> weights{};
-  std::array<double, 2> parameters{}; ///< (ξ, η), where a search for the next projection starts
+  std::array<Number, 4> weights{};
+  std::array<Number, 2> parameters{}; ///< (ξ, η), where a search for the next projection starts
   /// How far the projection lies beyond the border, as FacetLimits::tolerance; 0 inside.
   double excess = std::numeric_limits<double>::infinity();
   /// The facet's part, not normalised, of a node that it shares with those around it: the product over its
   /// edges of (distance + zone)/(2 zone), cut off at 0 and 1. 1 well inside; the sum over a regular grid.
-  double share = 0.;
+  Number share = 0.;
 };
+using FacetProjection = FacetProjectionOf<double>;
 
 } // namespace billet
 

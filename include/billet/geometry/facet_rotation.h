@@ -9,7 +9,10 @@ namespace billet {
 /// The rotation that a facet's corners made from `from` to `to`: it takes the mean normal (18) onto the mean
 /// normal and, about it, turns the corners as near as possible (least squares) to where they are. Exact for
 /// a rigid motion by any angle. The identity if either of the two has no area.
-dealii::Tensor<2, 3> facet_rotation(const FacetCorners &from, const FacetCorners &to);
+///
+/// Number: double, or Derivative.
+template <class Number>
+dealii::Tensor<2, 3, Number> facet_rotation(const FacetCorners &from, const FacetCornersOf<Number> &to);
 
 } // namespace billet
 

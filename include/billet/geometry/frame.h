@@ -13,21 +13,26 @@ inline dealii::Tensor<2, 3> projector_across(const dealii::Tensor<1, 3> &n) {
 }
 
 /// Contact reference system (CRS): right-handed, q × r = n.
-struct Frame {
-  dealii::Tensor<1, 3> q, r, n;
+///
+/// Number: double, or Derivative.
+template <class Number> struct FrameOf {
+  using Vector = dealii::Tensor<1, 3, Number>;
+
+  Vector q, r, n;
   /// How the frame spins about n when n turns by δn:
   ///   δq = −(q·δn) n + (spin·δn) r,  δr = −(r·δn) n − (spin·δn) q.
-  dealii::Tensor<1, 3> spin;
+  Vector spin;
 
   /// Any frame about the unit vector `n`; the same for the same n.
-  static Frame from_normal(const dealii::Tensor<1, 3> &n) {
+  static FrameOf from_normal(const Vector &n) {
+    using std::abs;
     unsigned int least = 0;
     for (unsigned int i = 1; i < 3; ++i)
-      if (std::abs(n[i]) < std::abs(n[least]))
+      if (abs(n[i]) < abs(n[least]))
         least = i;
-    dealii::Tensor<1, 3> axis;
+    Vector axis;
     axis[least] = 1.;
-    Frame frame;
+    FrameOf frame;
     frame.n = n;
     frame.q = dealii::cross_product_3d(n, axis);
     frame.q /= frame.q.norm();
@@ -41,26 +46,29 @@ struct Frame {
   /// Where the normal has turned onto q* the frame follows r instead. With δr across r in the plane of
   /// δn × q*,
   ///   spin = −(q*·n)/(q*·q) r,  or, following r* = R r,  (r*·n)/(r*·r) q.
-  Frame transported(const dealii::Tensor<2, 3> &rotation, const dealii::Tensor<1, 3> &n_new) const {
-    Frame frame;
+  template <class Result>
+  FrameOf<Result> transported(const dealii::Tensor<2, 3, Result> &rotation,
+                              const dealii::Tensor<1, 3, Result> &n_new) const {
+    FrameOf<Result> frame;
     frame.n = n_new;
-    const dealii::Tensor<1, 3> q_carried = rotation * q;
+    const dealii::Tensor<1, 3, Result> q_carried = rotation * q;
     frame.r = dealii::cross_product_3d(n_new, q_carried);
-    const double length = frame.r.norm();
+    const Result length = frame.r.norm();
     if (length > 0.5) {
       frame.r /= length;
       frame.q = dealii::cross_product_3d(frame.r, n_new);
-      frame.spin = -(q_carried * n_new) / (q_carried * frame.q) * frame.r;
+      frame.spin = Result(-(q_carried * n_new) / (q_carried * frame.q)) * frame.r;
     } else { // |n × q*|² + |n × r*|² ≥ 1: one of the two is always usable
-      const dealii::Tensor<1, 3> r_carried = rotation * r;
+      const dealii::Tensor<1, 3, Result> r_carried = rotation * r;
       frame.q = dealii::cross_product_3d(r_carried, n_new);
       frame.q /= frame.q.norm();
       frame.r = dealii::cross_product_3d(n_new, frame.q);
-      frame.spin = (r_carried * n_new) / (r_carried * frame.r) * frame.q;
+      frame.spin = Result((r_carried * n_new) / (r_carried * frame.r)) * frame.q;
     }
     return frame;
   }
 };
+using Frame = FrameOf<double>;
 
 } // namespace billet
 

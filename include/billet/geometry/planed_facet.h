@@ -29,79 +29,84 @@ namespace billet {
 /// w_3 += α, w_0 −= α, w_2 += β, w_1 −= β with α d_0 + β d_1 = x_P − Σ w_I x_I. They may then be negative.
 ///
 /// A facet with two coincident corners is a triangle; one without area has no projection.
-class PlanedFacet {
+///
+/// Number: double, or Derivative where derivatives by the corners and the node are wanted.
+template <class Number> class PlanedFacetOf {
 public:
-  explicit PlanedFacet(const facet::Expansion &surface);
+  using Vector = dealii::Tensor<1, 3, Number>;
+  explicit PlanedFacetOf(const facet::ExpansionOf<Number> &surface);
 
   /// Mean of the corners.
-  const dealii::Tensor<1, 3> &centre() const { return centre_; }
+  const Vector &centre() const { return centre_; }
   /// Unit, out of the body; 0 if the facet has no area.
-  const dealii::Tensor<1, 3> &normal() const { return normal_; }
+  const Vector &normal() const { return normal_; }
 
   /// Of a circle around the corners.
   double radius() const { return std::sqrt(square_of_radius_); }
 
   /// The whole surface between the corners, however warped, and continued by `tolerance` beyond its border,
   /// is behind the point. Quicker to tell than a projection, as is_aside().
-  bool is_before(const dealii::Tensor<1, 3> &x, const double tolerance) const {
+  bool is_before(const Vector &x, const double tolerance) const {
     return (x - centre_) * normal_ > std::abs(warp_) * (1. + 2. * tolerance) * (1. + 2. * tolerance);
   }
   /// The point is neither above nor below that surface nor within `tolerance` of its border, wherever its
   /// normals point.
-  bool is_aside(const dealii::Tensor<1, 3> &x, double tolerance) const;
+  bool is_aside(const Vector &x, double tolerance) const;
 
   /// Nothing is searched for, so that a start is of no use.
-  FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
-                          const std::array<double, 2> & /*start*/ = {}) const {
+  FacetProjectionOf<Number> project(const Vector &x, const FacetLimits &limits,
+                                    const std::array<double, 2> & /*start*/ = {}) const {
     return project(x, limits, warp_);
   }
   /// The same with the gap ḡ.
-  FacetProjection project_to_mean_plane(const dealii::Tensor<1, 3> &x, const FacetLimits &limits) const {
-    return project(x, limits, 0.);
+  FacetProjectionOf<Number> project_to_mean_plane(const Vector &x, const FacetLimits &limits) const {
+    return project(x, limits, Number(0.));
   }
 
 private:
   /// Components along two unit vectors of the plane, from the centre.
-  using InPlane = std::array<double, 2>;
+  using InPlane = std::array<Number, 2>;
 
-  static double cross(const InPlane &a, const InPlane &b) { return a[0] * b[1] - a[1] * b[0]; }
+  static Number cross(const InPlane &a, const InPlane &b) { return a[0] * b[1] - a[1] * b[0]; }
   /// ξ e_1 + η e_2 + ξη e_3
-  InPlane at(const double xi, const double eta) const {
+  InPlane at(const Number &xi, const Number &eta) const {
     return {xi * e_1_[0] + eta * e_2_[0] + xi * eta * e_3_[0],
             xi * e_1_[1] + eta * e_2_[1] + xi * eta * e_3_[1]};
   }
   /// `warp`: by how much corners 0 and 3 are taken to be above the plane, and the others below.
-  FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits, double warp) const;
+  FacetProjectionOf<Number> project(const Vector &x, const FacetLimits &limits, const Number &warp) const;
   /// Excess and share.
-  void locate(const InPlane &x, double zone, FacetProjection &projection) const;
-  std::array<double, 2> compute_parameters(const InPlane &x) const;
+  void locate(const InPlane &x, double zone, FacetProjectionOf<Number> &projection) const;
+  std::array<Number, 2> compute_parameters(const InPlane &x) const;
 
   /// Distance from a border, relative to the facet's extent across it, is along·x + offset; positive inside.
   struct Border {
     InPlane along;
-    double offset;
+    Number offset;
   };
 
-  dealii::Tensor<1, 3> centre_, normal_;
-  std::array<dealii::Tensor<1, 3>, 2> directions_; ///< normal to each other and to the normal
-  InPlane e_1_{}, e_2_{}, e_3_{};                  ///< of the corners as they project onto the plane
-  double double_area_ = 0.;                        ///< of these; 0 if the facet has no normal
-  double warp_ = 0.;                               ///< height of corners 0 and 3
+  Vector centre_, normal_;
+  std::array<Vector, 2> directions_; ///< normal to each other and to the normal
+  InPlane e_1_{}, e_2_{}, e_3_{};    ///< of the corners as they project onto the plane
+  Number double_area_ = 0.;          ///< of these; 0 if the facet has no normal
+  Number warp_ = 0.;                 ///< height of corners 0 and 3
   double square_of_radius_ = 0.;
   std::array<Border, 4> borders_{};
 };
+using PlanedFacet = PlanedFacetOf<double>;
 
 /// The planed contact element as published: the gap is ḡ, the weights are those of the bilinear surface.
 /// Where nodes of both sides lie on the same seams of a curved surface, it can pump energy into the warping
 /// of facets: in a case that a chamber holds, by an e-fold each 5 µs, until a run stops.
-class MeanGapFacet : public PlanedFacet {
+template <class Number> class MeanGapFacetOf : public PlanedFacetOf<Number> {
 public:
-  using PlanedFacet::PlanedFacet;
-  FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
-                          const std::array<double, 2> & /*start*/ = {}) const {
-    return project_to_mean_plane(x, limits);
+  using PlanedFacetOf<Number>::PlanedFacetOf;
+  FacetProjectionOf<Number> project(const dealii::Tensor<1, 3, Number> &x, const FacetLimits &limits,
+                                    const std::array<double, 2> & /*start*/ = {}) const {
+    return this->project_to_mean_plane(x, limits);
   }
 };
+using MeanGapFacet = MeanGapFacetOf<double>;
 
 } // namespace billet
 

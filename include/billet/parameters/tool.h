@@ -61,7 +61,7 @@ struct ContactPair {
   Located<std::string> tool;        ///< empty if the pair is of two bodies
   Located<std::string> second_body; ///< empty if the pair is of a body and a tool
   Located<std::vector<unsigned int>> second_boundary_ids;
-  enum class Facets { planed, mean_gap, bilinear };
+  enum class Facets { planed, mean_gap, bilinear, overlap };
   enum class PenaltyOf { stiffer, series };
   Located<Facets> facets;
   bool two_passes, edges;

@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_QUASI_STATIC_H
 #define BILLET_SOLVE_QUASI_STATIC_H
 
+#include "billet/contact/body_contact.h"
 #include "billet/contact/rigid_contact.h"
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/direct_solver.h"
@@ -12,6 +13,7 @@
 #include <Epetra_Vector.h>
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -44,6 +46,7 @@ public:
   std::string method() const override { return direct_->name(); }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
+  const BodyContact &body_contact(const std::size_t pair) const { return *body_contacts_[pair]; }
   const Supports &supports() const { return supports_; }
 
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
@@ -54,6 +57,8 @@ public:
 
 private:
   void build_matrix();
+  /// Matrix and solver anew, if contact couples what it did not before.
+  void follow_couplings();
   // First guesses of a step, into trial_. The last state, where nothing drives the bodies on; false where
   // something does:
   bool stay_at_rest(double t);
@@ -89,9 +94,12 @@ private:
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
   double fading(double t, std::size_t tool) const;
   void remove_tools(double t);
-  /// A message if the supports and the contacts that are left do not hold a body, else empty. Tools of these
-  /// names were `removed`. On all ranks.
+  /// A rigid motion of the body that supports and contacts do not hold, if there is one. On all ranks.
+  std::optional<RigidMotion> find_freedom(std::size_t body) const;
+  /// A message if those that are left do not hold a body, else empty. Tools of these names were `removed`.
   std::string describe_freedom(std::size_t body, const std::set<std::string> &removed) const;
+  /// Bodies that others may hold have to be held, or to touch them, at the start.
+  void check_freedom() const;
   /// Folds forces on constrained dofs into those that they depend on, and empties them.
   void condense(Vector &forces) const;
 
@@ -100,6 +108,8 @@ private:
   Supports supports_;
   InternalForces internal_;
   std::vector<RigidContact> contacts_;
+  std::unique_ptr<LocalNodes> nodes_; ///< only with contact between bodies
+  std::vector<std::unique_ptr<BodyContact>> body_contacts_;
 
   Matrix matrix_;
   std::unique_ptr<DirectSolver> direct_;
@@ -110,6 +120,7 @@ private:
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0.;
 
   double time_ = 0.;                        ///< end of the step that is tried
+  double duration_ = 0.;                    ///< of that step; 0 while its first guess is made
   std::vector<double> offsets_, offsets_n_; ///< of all tools, beyond their prescribed motion
   std::vector<double> last_offset_increments_;
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_OVERLAPS_H
+#define BILLET_CONTACT_FACET_OVERLAPS_H
+
+#include "billet/contact/facet_search.h"
+#include "billet/geometry/facet_overlap.h"
+
+namespace billet {
+
+/// The overlaps of the facets of a search with each other, made anew for new positions.
+class FacetOverlaps {
+public:
+  using Positions = FacetSearch::Positions;
+
+  /// Up to this many times a target's reach a slave facet may be behind it.
+  static constexpr double depth = 4.;
+
+  /// Lists the pairs that may come to overlap before positions move by more than `margin` relative to each
+  /// other, for slave facets of surfaces for which `is_slave`. Pairs of one surface, which have to have no
+  /// node in common and no neighbour, only `with_self`.
+  void rebuild(const FacetSearch &search, const Positions &positions_n, const Positions &positions,
+               double margin, bool with_self, bool two_pass);
+
+  struct Overlap {
+    unsigned int slave, target; ///< facets
+    FacetOverlapOf<double> integrals;
+  };
+  /// Overlaps at these positions, with the slave's corners lowered by `lifts`, of nodes [length].
+  void update(const FacetSearch &search, const Positions &positions, const std::vector<double> &lifts);
+
+  /// Calls visit(overlap) for those of a slave facet, by rising keys of the targets.
+  template <class Visit> void visit(const unsigned int slave, const Visit &visit) const {
+    for (std::size_t i = first_[slave]; i < first_[slave + 1]; ++i)
+      visit(overlaps_[i]);
+  }
+  /// Calls visit(facet) for all that may come to overlap a slave facet.
+  template <class Visit> void visit_candidates(const unsigned int slave, const Visit &visit) const {
+    for (std::size_t i = first_candidate_[slave]; i < first_candidate_[slave + 1]; ++i)
+      visit(candidates_[i]);
+  }
+
+private:
+  std::vector<std::size_t> first_candidate_, first_; ///< by slave facet
+  std::vector<unsigned int> candidates_;             ///< targets
+  std::vector<Overlap> overlaps_;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_FACET_OVERLAP_H
+#define BILLET_GEOMETRY_FACET_OVERLAP_H
+
+#include "billet/geometry/facet_projection.h"
+
+namespace billet {
+
+/// Where a slave facet has come through a target facet, seen along the target's mean normal (18): integrals
+/// over the polygon P in which both overlap in the target's plane and the slave is behind, 0 > g >= −depth.
+///
+/// Both facets are drawn as four triangles around the mean of their corners, on which the functions φ_a of
+/// the slave's and ψ_I of the target's corners are linear, with the value ¼ in the middle. So everything on P
+/// is a polynomial and its integral exact, the functions sum up to 1, Σ φ_a x_a is the point itself, and the
+/// integral of φ_a over a flat facet, however distorted, is that of the bilinear shape function: a uniform
+/// pressure gives both sides the forces of a uniform stress, to round-off.
+///
+/// Number: double, or Derivative.
+template <class Number> struct FacetOverlapOf {
+  bool exists = false;
+  dealii::Tensor<1, 3, Number> normal;                 ///< unit, out of the target's body
+  std::array<Number, 4> areas{};                       ///< ∫ φ_a dA [length²]
+  std::array<Number, 4> gaps{};                        ///< ∫ φ_a g dA [length³]
+  std::array<std::array<Number, 4>, 4> slave_parts{};  ///< ∫ φ_a φ_b dA, as ...
+  std::array<std::array<Number, 4>, 4> target_parts{}; ///< ... ∫ φ_a ψ_I dA [length²]
+};
+
+/// `depth` > 0; the slave's corners count as so much lower as `lifts` says [length]. Facets without area, or
+/// which do not face each other, do not overlap.
+template <class Number>
+FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
+                                       const FacetCornersOf<Number> &target, double depth,
+                                       const std::array<double, 4> &lifts = {});
+
+} // namespace billet
+
+#endif

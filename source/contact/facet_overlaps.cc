@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/facet_overlaps.h"
+
+#include "billet/contact/moved_facets.h"
+#include "billet/geometry/box_tree.h"
+
+#include <algorithm>
+
+namespace billet {
+
+using dealii::Tensor;
+
+void FacetOverlaps::rebuild(const FacetSearch &search, const Positions &positions_n,
+                            const Positions &positions, const double margin, const bool with_self,
+                            const bool two_pass) {
+  const auto &facets = search.facets();
+  std::vector<BoundingBox> boxes(facets.size(), BoundingBox::empty());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (const unsigned int node : facets[f].nodes) {
+      boxes[f].add(positions_n[node]);
+      boxes[f].add(positions[node]);
+    }
+    boxes[f].enlarge(depth * facets[f].reach + margin);
+  }
+  const BoxTree tree(boxes);
+  const auto is_neighbour = [&](const unsigned int f, const unsigned int other) {
+    bool is_near = f == other;
+    for (const unsigned int node : facets[f].nodes)
+      search.visit_around(node, [&](const unsigned int beside) {
+        for (const unsigned int of_beside : facets[beside].nodes)
+          for (const unsigned int of_other : facets[other].nodes)
+            is_near = is_near || of_beside == of_other;
+      });
+    return is_near;
+  };
+  candidates_.clear();
+  first_candidate_.assign(facets.size() + 1, 0);
+  for (unsigned int f = 0; f < facets.size(); ++f) {
+    first_candidate_[f] = candidates_.size();
+    if (!two_pass && facets[f].surface != 0)
+      continue;
+    const Tensor<1, 3> middle = 0.5 * (boxes[f].low + boxes[f].high);
+    const double square = 0.25 * (boxes[f].high - boxes[f].low).norm_square();
+    tree.visit_near(middle, square, [&](const unsigned int target) {
+      if (!boxes[target].overlaps(boxes[f]))
+        return;
+      if (facets[target].surface == facets[f].surface && (!with_self || is_neighbour(f, target)))
+        return;
+      candidates_.push_back(target);
+    });
+    std::sort(candidates_.begin() + static_cast<std::ptrdiff_t>(first_candidate_[f]), candidates_.end(),
+              [&](const unsigned int a, const unsigned int b) { return facets[a].key < facets[b].key; });
+  }
+  first_candidate_[facets.size()] = candidates_.size();
+}
+
+void FacetOverlaps::update(const FacetSearch &search, const Positions &positions,
+                           const std::vector<double> &lifts) {
+  const auto &facets = search.facets();
+  overlaps_.clear();
+  first_.assign(facets.size() + 1, 0);
+  for (unsigned int f = 0; f < facets.size(); ++f) {
+    first_[f] = overlaps_.size();
+    if (first_candidate_[f] == first_candidate_[f + 1])
+      continue;
+    const FacetCorners slave = corners_of(facets[f], positions);
+    std::array<double, 4> lift{};
+    if (!lifts.empty())
+      for (unsigned int a = 0; a < 4; ++a)
+        lift[a] = lifts[facets[f].nodes[a]];
+    for (std::size_t i = first_candidate_[f]; i < first_candidate_[f + 1]; ++i) {
+      const unsigned int target = candidates_[i];
+      const auto overlap =
+          compute_overlap(slave, corners_of(facets[target], positions), depth * facets[target].reach, lift);
+      if (overlap.exists)
+        overlaps_.push_back({f, target, overlap});
+    }
+  }
+  first_[facets.size()] = overlaps_.size();
+}
+
+} // namespace billet

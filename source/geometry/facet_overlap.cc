@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/geometry/facet_overlap.h"
+
+#include "billet/geometry/derivative.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+template <class Number> using Point = std::array<Number, 2>;
+
+template <class Number> Number cross(const Point<Number> &a, const Point<Number> &b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+template <class Number> Point<Number> operator-(const Point<Number> &a, const Point<Number> &b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
+
+/// A convex polygon in the target's plane.
+template <class Number> struct Polygon {
+  std::array<Point<Number>, 9> corners;
+  unsigned int n = 0;
+
+  void add(const Point<Number> &corner) { corners[n++] = corner; }
+
+  /// Cuts off where the linear function `value` is < 0. A corner nearer to that line than `rounding` counts
+  /// as on it: where facets fit, edges lie on each other.
+  template <class Function> void clip(const Function &value, const double rounding) {
+    if (n == 0)
+      return;
+    std::array<Number, 9> values;
+    bool is_whole = true;
+    for (unsigned int i = 0; i < n; ++i) {
+      values[i] = value(corners[i]);
+      is_whole = is_whole && values[i] >= -rounding;
+    }
+    if (is_whole)
+      return;
+    Polygon rest;
+    for (unsigned int i = 0; i < n; ++i) {
+      const unsigned int next = i + 1 == n ? 0 : i + 1;
+      const bool is_in = values[i] >= -rounding, is_next_in = values[next] >= -rounding;
+      if (is_in)
+        rest.add(corners[i]);
+      if (is_in != is_next_in && (is_in ? values[i] : values[next]) > rounding) {
+        const Number part = values[i] / (values[i] - values[next]);
+        const Point<Number> edge = corners[next] - corners[i];
+        rest.add({corners[i][0] + part * edge[0], corners[i][1] + part * edge[1]});
+      }
+    }
+    *this = rest;
+    if (n < 3)
+      n = 0;
+  }
+};
+
+/// A facet as four triangles in the target's plane, around the middle, anticlockwise as its own side sees
+/// them; with heights above that plane.
+template <class Number> struct Fan {
+  std::array<Point<Number>, 4> corners; ///< in the order of FacetCorners
+  std::array<Number, 4> heights;
+  Point<Number> middle;
+  Number middle_height;
+
+  Fan(const FacetCornersOf<Number> &x, const Tensor<1, 3, Number> &origin,
+      const std::array<Tensor<1, 3, Number>, 3> &axes, const std::array<double, 4> &lifts) {
+    middle = {Number(0.), Number(0.)};
+    middle_height = 0.;
+    for (unsigned int a = 0; a < 4; ++a) {
+      const Tensor<1, 3, Number> arm = x[a] - origin;
+      corners[a] = {arm * axes[0], arm * axes[1]};
+      heights[a] = arm * axes[2] - lifts[a];
+      middle[0] += 0.25 * corners[a][0];
+      middle[1] += 0.25 * corners[a][1];
+      middle_height += 0.25 * heights[a];
+    }
+  }
+};
+
+/// A linear function on the plane.
+template <class Number> struct Linear {
+  Number constant, along_q, along_r;
+  Number operator()(const Point<Number> &x) const { return constant + along_q * x[0] + along_r * x[1]; }
+};
+
+/// One triangle of a fan: the functions of its facet's corners on it.
+template <class Number> class Triangle {
+public:
+  Triangle(const Fan<Number> &fan, const unsigned int edge)
+      : first_(facet::around[edge]), second_(facet::around[(edge + 1) % 4]), fan_(fan) {
+    const Point<Number> &a = fan.corners[first_], &b = fan.corners[second_], &c = fan.middle;
+    double_area = cross<Number>(a - c, b - c);
+    if (double_area == 0.)
+      return;
+    barycentric_ = {line(b, c), line(c, a), line(a, b)};
+  }
+
+  Number double_area; ///< signed: > 0 if anticlockwise
+  /// 0 on an edge and 1 at the corner that is opposite to it.
+  const std::array<Linear<Number>, 3> &barycentric() const { return barycentric_; }
+  std::array<Point<Number>, 3> corners() const {
+    return {fan_.corners[first_], fan_.corners[second_], fan_.middle};
+  }
+  Linear<Number> height() const {
+    Linear<Number> result{Number(0.), Number(0.), Number(0.)};
+    const std::array<Number, 3> values{fan_.heights[first_], fan_.heights[second_], fan_.middle_height};
+    for (unsigned int i = 0; i < 3; ++i) {
+      result.constant += values[i] * barycentric_[i].constant;
+      result.along_q += values[i] * barycentric_[i].along_q;
+      result.along_r += values[i] * barycentric_[i].along_r;
+    }
+    return result;
+  }
+  /// Of the facet's four corners.
+  std::array<Number, 4> functions(const Point<Number> &x) const {
+    const Number of_middle = 0.25 * barycentric_[2](x);
+    std::array<Number, 4> values{of_middle, of_middle, of_middle, of_middle};
+    values[first_] += barycentric_[0](x);
+    values[second_] += barycentric_[1](x);
+    return values;
+  }
+
+private:
+  /// 0 on the line from p to q, scaled by the triangle's area.
+  Linear<Number> line(const Point<Number> &p, const Point<Number> &q) const {
+    const Number along_q = -(q[1] - p[1]) / double_area, along_r = (q[0] - p[0]) / double_area;
+    return {Number(-(along_q * p[0] + along_r * p[1])), along_q, along_r};
+  }
+
+  unsigned int first_, second_;
+  const Fan<Number> &fan_;
+  std::array<Linear<Number>, 3> barycentric_;
+};
+
+template <class Number>
+void integrate(const Polygon<Number> &polygon, const Triangle<Number> &slave, const Triangle<Number> &target,
+               const Linear<Number> &gap, FacetOverlapOf<Number> &overlap) {
+  for (unsigned int i = 1; i + 1 < polygon.n; ++i) {
+    const std::array<Point<Number>, 3> x{polygon.corners[0], polygon.corners[i], polygon.corners[i + 1]};
+    using std::abs;
+    const Number third = abs(cross<Number>(x[1] - x[0], x[2] - x[0])) / 6.;
+    for (unsigned int j = 0; j < 3; ++j) { // the middles of the edges: exact for squares
+      const Point<Number> &a = x[j], &b = x[(j + 1) % 3];
+      const Point<Number> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+      const std::array<Number, 4> phi = slave.functions(middle), psi = target.functions(middle);
+      const Number g = gap(middle);
+      for (unsigned int k = 0; k < 4; ++k) {
+        const Number part = third * phi[k];
+        overlap.areas[k] += part;
+        overlap.gaps[k] += part * g;
+        for (unsigned int l = 0; l < 4; ++l) {
+          overlap.slave_parts[k][l] += part * phi[l];
+          overlap.target_parts[k][l] += part * psi[l];
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+template <class Number>
+FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
+                                       const FacetCornersOf<Number> &target, const double depth,
+                                       const std::array<double, 4> &lifts) {
+  FacetOverlapOf<Number> overlap;
+  const facet::ExpansionOf<Number> surface(target), slave_surface(slave);
+  if (!surface.has_area() || !slave_surface.has_area())
+    return overlap;
+  const Tensor<1, 3, Number> area_vector = surface.mean_area_vector();
+  overlap.normal = area_vector / area_vector.norm();
+  if (!(slave_surface.mean_area_vector() * overlap.normal < 0.))
+    return overlap;
+  const Tensor<1, 3, Number> q = surface.e_1 / surface.e_1.norm();
+  const std::array<Tensor<1, 3, Number>, 3> axes{q, dealii::cross_product_3d(overlap.normal, q),
+                                                 overlap.normal};
+  const Fan<Number> of_slave(slave, surface.e_0, axes, lifts), of_target(target, surface.e_0, axes, {});
+  constexpr double rounding = 1e-10; // of a facet's size, by which corners that fit may miss each other
+  const double height_rounding = rounding * depth;
+  for (unsigned int t = 0; t < 4; ++t) {
+    const Triangle<Number> below(of_target, t);
+    if (!(below.double_area > 0.)) // a triangle's tip
+      continue;
+    const Linear<Number> low = below.height();
+    for (unsigned int s = 0; s < 4; ++s) {
+      const Triangle<Number> above(of_slave, s);
+      if (!(above.double_area < 0.)) // it does not face the target
+        continue;
+      Polygon<Number> polygon;
+      for (const auto &corner : above.corners())
+        polygon.add(corner);
+      for (const auto &side : below.barycentric())
+        polygon.clip(side, rounding);
+      if (polygon.n == 0)
+        continue;
+      const Linear<Number> high = above.height();
+      const Linear<Number> gap{high.constant - low.constant, high.along_q - low.along_q,
+                               high.along_r - low.along_r};
+      polygon.clip([&](const Point<Number> &x) { return Number(-gap(x)); }, height_rounding);
+      polygon.clip([&](const Point<Number> &x) { return Number(depth + gap(x)); }, height_rounding);
+      integrate(polygon, above, below, gap, overlap);
+    }
+  }
+  for (const auto &area : overlap.areas)
+    overlap.exists = overlap.exists || area > 0.;
+  return overlap;
+}
+
+template FacetOverlapOf<double> compute_overlap(const FacetCorners &, const FacetCorners &, double,
+                                                const std::array<double, 4> &);
+template FacetOverlapOf<Derivative> compute_overlap(const FacetCornersOf<Derivative> &,
+                                                    const FacetCornersOf<Derivative> &, double,
+                                                    const std::array<double, 4> &);
+
+} // namespace billet
