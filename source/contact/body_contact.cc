@@ -286,10 +286,20 @@ void BodyContact::add_resistances(const std::size_t body, std::vector<Resistance
   });
 }
 
+void BodyContact::start_step(const double t_n, const double t) {
+  contact_->set_allowed_part(pair_.overlap.allowed_part(t_n), pair_.overlap.allowed_part(t));
+}
+
+void BodyContact::allow_overlap() {
+  if (pair_.overlap.is_allowed)
+    contact_->allow_initial_depths();
+}
+
 void BodyContact::check_overlap() const {
   const Discretization &discretization = nodes_.discretization();
   const MPI_Comm communicator = discretization.communicator();
-  if (pair_.is_self_contact) // its elements have nodes in common: the mesh is sound, or no mesh
+  if (pair_.is_self_contact ||
+      pair_.overlap.is_allowed) // its elements have nodes in common: the mesh is sound, or no mesh
     return;
   std::array<double, 2> sums{std::accumulate(areas_.begin(), areas_.end(), 0.),
                              static_cast<double>(areas_.size())};

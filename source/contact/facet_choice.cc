@@ -31,9 +31,9 @@ constexpr double one_plane = 0.99;
 template <class Facet> class Choice {
 public:
   Choice(const MovedFacets &facets, const unsigned int node, const FacetSearch::Positions &positions_n,
-         const ContactLimits &limits)
+         const ContactLimits &limits, const FacetLift &lift)
       : facets_(facets), search_(facets.search()), positions_n_(positions_n), limits_(limits), node_(node),
-        x_n_(positions_n[node]), x_(facets.position(node)) {}
+        x_n_(positions_n[node]), x_(facets.position(node)), lift_(lift) {}
 
   const TouchedFacet &best() const { return best_; }
 
@@ -44,7 +44,7 @@ public:
     if (!touched.exists() || !is_held(touched))
       return;
     if (meet_smoothly(last.projection.normal, touched.projection.normal))
-      touched.offset = std::min(last.offset, -touched.projection.gap);
+      touched.offset = std::min(last.offset, depth_of(touched));
     else if (!has_come_through(touched))
       return;
     if (faces(touched) && is_on_its_own_side(touched))
@@ -54,7 +54,7 @@ public:
   /// The one that the node touches.
   void consider_held(const TouchedFacet &last) {
     TouchedFacet touched = look_at(last.facet, last.projection.parameters);
-    touched.offset = std::min(last.offset, -touched.projection.gap);
+    touched.offset = std::min(last.offset, depth_of(touched));
     if (touched.exists() && is_held(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
@@ -90,7 +90,7 @@ public:
       if (!touched.projection.exists)
         return;
       ++n_near;
-      is_behind_all = is_behind_all && touched.projection.gap < 0. && is_held(touched) && faces(touched);
+      is_behind_all = is_behind_all && depth_of(touched) > 0. && is_held(touched) && faces(touched);
       if (touched.projection.excess < nearest.projection.excess)
         nearest = touched;
     };
@@ -98,7 +98,7 @@ public:
     search_.visit_ring(last.facet, add);
     if (n_near > 1 && is_behind_all) {
       best_ = nearest;
-      best_.offset = std::min(last.offset, -nearest.projection.gap);
+      best_.offset = std::min(last.offset, depth_of(nearest));
     }
   }
 
@@ -112,11 +112,13 @@ private:
   TouchedFacet look_at(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
     const PlanedFacet &plane = facets_.plane(facet);
-    if (plane.is_before(x_, tolerance) || plane.is_aside(x_, tolerance))
+    if (plane.is_before(x_ - lift_.now * plane.normal(), tolerance) || plane.is_aside(x_, tolerance))
       return {};
     const TouchedFacet touched{facet, project(facet, tolerance, start)};
-    return touched.projection.exists && touched.projection.gap < 0. ? touched : TouchedFacet();
+    return touched.projection.exists && depth_of(touched) > 0. ? touched : TouchedFacet();
   }
+
+  double depth_of(const TouchedFacet &touched) const { return lift_.now - touched.projection.gap; }
 
   const Tensor<1, 3> &normal() {
     if (!normal_)
@@ -140,10 +142,10 @@ private:
   bool has_come_through(TouchedFacet &touched) const {
     const SurfaceFacet &target = search_.facets()[touched.facet];
     const PlanedFacet plane(corners_of(target, positions_n_));
-    const double depth = -plane.project(x_n_, {}).gap;
+    const double depth = lift_.at_start - plane.project(x_n_, {}).gap;
     if (depth <= in_line * plane.radius())
       return true;
-    touched.offset = -touched.projection.gap;
+    touched.offset = depth_of(touched);
     return depth <= target.reach && !is_out(touched);
   }
 
@@ -204,6 +206,7 @@ private:
   const ContactLimits &limits_;
   const unsigned int node_;
   const Tensor<1, 3> x_n_, x_;
+  const FacetLift lift_;
   std::optional<Tensor<1, 3>> normal_; ///< of the node, once it has been asked for
   TouchedFacet best_;
 };
@@ -213,9 +216,9 @@ private:
 template <class Facet>
 TouchedFacet choose_facet(const MovedFacets &facets, const std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
-                          const ContactLimits &limits) {
+                          const ContactLimits &limits, const FacetLift &lift) {
   const FacetSearch &search = facets.search();
-  Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits);
+  Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits, lift);
   if (last.exists()) {
     choice.consider_held(last);
     if (!choice.best().exists())
@@ -257,7 +260,7 @@ Tensor<1, 3> compute_node_normal(const MovedFacets &facets, const unsigned int n
 #define BILLET_INSTANTIATE(Facet)                                                                            \
   template TouchedFacet choose_facet<Facet>(const MovedFacets &, std::size_t,                                \
                                             const FacetSearch::Positions &, const TouchedFacet &,            \
-                                            const ContactLimits &);
+                                            const ContactLimits &, const FacetLift &);
 BILLET_INSTANTIATE(PlanedFacet)
 BILLET_INSTANTIATE(MeanGapFacet)
 BILLET_INSTANTIATE(BilinearFacet)

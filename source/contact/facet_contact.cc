@@ -38,7 +38,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
   states_.resize(slaves_.size());
   if (!std::holds_alternative<Frictionless>(settings.friction))
     history_n_.resize(slaves_.size());
-  history_ = history_n_;
+  base_ = history_ = history_n_;
   if (settings.method == FacetMethod::overlap)
     overlaps_.emplace();
   if (settings.edges) {
@@ -112,7 +112,19 @@ void FacetContact::update_search(const Positions &positions_n, const Positions &
     rebuild();
   moved_.reset();
   if (overlaps_)
-    overlaps_->update(search_, positions_, {});
+    update_overlaps();
+}
+
+void FacetContact::update_overlaps() {
+  nodal_lifts_.clear();
+  // All ranks have lifts or none.
+  if (has_lifts_) {
+    nodal_lifts_.assign(exchange_.n_nodes(), 0.);
+    for (std::size_t s = 0; s < slaves_.size(); ++s)
+      nodal_lifts_[slaves_[s].node] = lift(s).now;
+    exchange_.update(nodal_lifts_);
+  }
+  overlaps_->update(search_, positions_, nodal_lifts_);
 }
 
 void FacetContact::find_overlaps(const std::size_t s) {
@@ -170,10 +182,11 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s) {
   state = SlaveState();
   state.first_share = shares_.size();
   if (search_.has_candidates(s) || touched_n_[s].exists())
-    state.touched = choose_facet<Facet>(moved_, s, positions_n_, touched_n_[s], settings_.limits);
+    state.touched = choose_facet<Facet>(moved_, s, positions_n_, touched_n_[s], settings_.limits, lift(s));
   if (state.touched.exists()) {
     state.contact =
         share_facets<Facet>(moved_, state.touched, positions_[slaves_[s].node], settings_.limits, shares_);
+    state.contact.gap -= lift(s).now;
     if (!(state.contact.gap < 0.)) {
       state.touched = TouchedFacet();
       shares_.resize(state.first_share);
@@ -244,7 +257,7 @@ template <class Facet, class Law> void FacetContact::evaluate(const Law &law, co
         state.traction = compute_slave_traction(law, stiffness_[s].normal, contact.normal, contact.gap);
     } else if (state.presses()) {
       state.traction = compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap,
-                                              compute_motion(s, duration), history_n_[s], history_[s]);
+                                              compute_motion(s, duration), base_[s], history_[s]);
     } else {
       history_[s] = SlaveHistory();
       history_[s].slip = history_n_[s].slip;
@@ -356,14 +369,18 @@ FacetContactLoad FacetContact::compute_load() const {
         load.force -= force;
     });
     load.absolute_force += state.own_area * state.traction.traction.norm();
-    load.stored_energy += state.own_area * state.traction.stored_energy;
+    // What augmented tractions hold is no stretch of a spring.
+    load.stored_energy += lifts_.empty()
+                              ? state.own_area * state.traction.stored_energy
+                              : 0.5 * state.own_area * stiffness_[s].normal *
+                                    (state.contact.gap + lifts_[s]) * (state.contact.gap + lifts_[s]);
     load.dissipation += state.own_area * state.traction.dissipation;
     load.area += state.own_area;
     load.n_touching += 1.;
     const FacetCorners corners = moved_.corners(state.touched.facet);
     const double size =
         std::sqrt(0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]).norm());
-    const double depth = state.touched.offset - state.contact.gap;
+    const double depth = state.touched.offset - state.contact.gap - lift(s).now;
     load.deepest = std::max(load.deepest, depth);
     load.deepest_relative = std::max(load.deepest_relative, depth / size);
   }
@@ -401,7 +418,47 @@ void FacetContact::commit() {
   has_started_ = true;
   for (std::size_t s = 0; s < slaves_.size(); ++s)
     touched_n_[s] = states_[s].touched;
-  history_n_ = history_;
+  base_ = history_n_ = history_;
+  lifts_n_ = lifts_;
+}
+
+void FacetContact::allow_initial_depths() {
+  has_lifts_ = true;
+  initial_depths_.assign(slaves_.size(), 0.);
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    if (states_[s].presses())
+      initial_depths_[s] = std::max(0., -states_[s].contact.gap);
+}
+
+void FacetContact::restart_augmentation() {
+  lifts_ = lifts_n_;
+  base_ = history_n_;
+}
+
+void FacetContact::augment() {
+  has_lifts_ = true;
+  lifts_.resize(slaves_.size());
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    lifts_[s] = states_[s].presses() ? states_[s].traction.pressure / stiffness_[s].normal : 0.;
+    // One that came in within the step does not go back to where it was before.
+    if (!base_.empty() && states_[s].presses() && history_n_[s].is_active)
+      base_[s].tangential = history_[s].tangential;
+  }
+}
+
+double FacetContact::augmentation_error() const {
+  double worst = 0.;
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    const SlaveState &state = states_[s];
+    if (!state.presses() || !(state.traction.pressure > 0.))
+      continue;
+    worst = std::max(worst, std::abs(state.contact.gap + (lifts_.empty() ? 0. : lifts_[s])) / sizes_[s]);
+    if (!base_.empty() && history_n_[s].is_active && state.traction.status == ContactStatus::stick)
+      worst = std::max(worst, std::hypot(history_[s].tangential[0] - base_[s].tangential[0],
+                                         history_[s].tangential[1] - base_[s].tangential[1]) /
+                                  (stiffness_[s].tangential * sizes_[s]));
+  }
+  return worst;
 }
 
 std::vector<FacetContact::NodeReport> FacetContact::report() const {
@@ -411,7 +468,7 @@ std::vector<FacetContact::NodeReport> FacetContact::report() const {
     const bool touches = state.presses();
     reports[slaves_[s].node] = {state.traction.status,
                                 state.traction.pressure,
-                                touches ? state.contact.gap - state.touched.offset : 0.,
+                                touches ? state.contact.gap - state.touched.offset + lift(s).now : 0.,
                                 history_.empty() ? 0. : history_[s].slip,
                                 touches ? state.area : 0.,
                                 state.traction.traction};

@@ -139,8 +139,8 @@ void FacetContact::add_closed_tangent(const Law &law, const ContactTangent kind,
   Tensor<2, 3> K = stiffness_[s].normal * dealii::outer_product(n, n);
   if constexpr (!std::is_same_v<Law, Frictionless>) {
     SlaveHistory ignored;
-    compute_slave_traction(law, stiffness_[s], n, state.contact.gap, compute_motion(s, duration_),
-                           history_n_[s], ignored, kind, &K);
+    compute_slave_traction(law, stiffness_[s], n, state.contact.gap, compute_motion(s, duration_), base_[s],
+                           ignored, kind, &K);
   } else
     (void)law, (void)kind;
   const std::vector<unsigned int> nodes = collect_nodes(s, false);
@@ -189,8 +189,9 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
       const auto corner = static_cast<unsigned int>(
           std::find(own.nodes.begin(), own.nodes.end(), slaves_[s].node) - own.nodes.begin());
       const auto corners = corners_now(share.slave_facet);
-      const auto overlap = follow_overlap<Number>(
-          corners, corners_now(share.facet), FacetOverlaps::depth * search_.facets()[share.facet].reach, {});
+      const auto overlap = follow_overlap<Number>(corners, corners_now(share.facet),
+                                                  FacetOverlaps::depth * search_.facets()[share.facet].reach,
+                                                  lifts_of(own.nodes));
       shares.push_back(share_of_overlap(overlap, corner, share.slave_facet, share.facet));
       points.push_back(facet::interpolate(shares.back().slave_weights, corners));
     }
@@ -212,7 +213,8 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
     contact = {shares[0].projection.normal, shares[0].projection.gap};
   } else
     contact = combine(shares, 0);
-  contact.gap += state.touched.offset;
+  if constexpr (!std::is_same_v<Facet, OverlapFacet>)
+    contact.gap += state.touched.offset - lift(s).now;
 
   Tensor<1, 3, Number> traction;
   if constexpr (std::is_same_v<Law, Frictionless>)
@@ -235,7 +237,7 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
     }
     SlaveHistory ignored;
     traction =
-        compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap, mean, history_n_[s], ignored)
+        compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap, mean, base_[s], ignored)
             .traction;
   }
   std::vector<Tensor<1, 3, Number>> forces(nodes.size());

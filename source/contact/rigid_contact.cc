@@ -24,7 +24,7 @@ constexpr double near_gap = 0.25, near_steps = 20.;
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
                            const ContactTangent tangent)
-    : pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
+    : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
       communicator_(discretization.communicator()), tangent_(tangent) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
   placement_n_ = placement_ = tool_.placement(0.);
@@ -36,6 +36,10 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
     const auto projection = tool_.surface().project(X);
     states_[i].position = nodes_[i].reference;
     states_[i].gap = nodes_[i].gap_n = projection.gap;
+    if (pair_.overlap.is_allowed && projection.exists && projection.gap < 0.) {
+      nodes_[i].initial_depth = -projection.gap;
+      states_[i].gap = nodes_[i].gap_n = 0.;
+    }
     nodes_[i].patch = projection.patch;
     if (!friction_n_.empty())
       friction_n_[i].tool_position = X;
@@ -126,7 +130,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   state.position = position;
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
   const auto projection = tool_.surface().project(on_tool, node.patch);
-  state.gap = projection.gap;
+  state.gap = projection.gap - lift_of(node);
   state.patch = projection.patch;
   // A node that starts on the tool counts as touching: its stiffness may be all that holds the body.
   const double on_it = touching_gap * node.size;
@@ -197,8 +201,9 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
       for (unsigned int j = 0; j < 3; ++j)
         increment.gradient[i][j] = gradient[i] * axes[j];
   }
-  const FrameTraction t =
-      compute_traction(law, stiffness, tangent_, state.gap, history_n.tangential, increment);
+  const auto i = static_cast<std::size_t>(&node - nodes_.data());
+  const FrameTraction t = compute_traction(law, stiffness, tangent_, state.gap,
+                                           base_.empty() ? history_n.tangential : base_[i], increment);
 
   state.status = t.status;
   state.pressure = t.pressure;
@@ -429,7 +434,43 @@ void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
 void RigidContact::commit() {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].gap_n = states_[i].gap;
+  for (auto &node : nodes_)
+    node.lift_n = node.lift;
+  base_.clear();
   friction_n_ = friction_;
+}
+
+void RigidContact::restart_augmentation() {
+  for (auto &node : nodes_)
+    node.lift = node.lift_n;
+  base_.clear();
+}
+
+void RigidContact::augment() {
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    nodes_[i].lift = states_[i].pressure / nodes_[i].stiffness.normal;
+  base_.clear();
+  for (std::size_t i = 0; i < friction_.size(); ++i)
+    base_.push_back(friction_n_[i].is_active ? friction_[i].tangential : friction_n_[i].tangential);
+}
+
+double RigidContact::augmentation_error() const {
+  double worst = 0.;
+  if (pair_.penetration_tolerance == 0.)
+    return worst;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node &node = nodes_[i];
+    if (!(states_[i].pressure > 0.))
+      continue;
+    worst = std::max(worst, std::abs(states_[i].gap + node.lift) / node.size);
+    if (states_[i].status != ContactStatus::stick || friction_.empty() || !friction_n_[i].is_active)
+      continue;
+    const auto &from = base_.empty() ? friction_n_[i].tangential : base_[i];
+    worst = std::max(worst,
+                     std::hypot(friction_[i].tangential[0] - from[0], friction_[i].tangential[1] - from[1]) /
+                         (node.stiffness.tangential * node.size));
+  }
+  return worst / pair_.penetration_tolerance;
 }
 
 void RigidContact::add_to_load(ContactLoad &load, const std::size_t i, const double area) const {
@@ -438,10 +479,12 @@ void RigidContact::add_to_load(ContactLoad &load, const std::size_t i, const dou
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  load.stored_energy +=
-      area * (0.5 * nodes_[i].stiffness.normal * state.gap * state.gap + state.tangential_energy);
+  // What augmented tractions hold is no stretch of a spring.
+  const double gap = state.gap + nodes_[i].lift; // but for what is allowed
+  load.stored_energy += area * (0.5 * nodes_[i].stiffness.normal * gap * gap +
+                                (pair_.penetration_tolerance > 0. ? 0. : state.tangential_energy));
   load.dissipation += area * state.dissipation;
-  load.deepest = std::max(load.deepest, -state.gap);
+  load.deepest = std::max(load.deepest, -gap);
 }
 
 ContactLoad RigidContact::local_load() const {
@@ -454,7 +497,7 @@ std::vector<ContactNodeReport> RigidContact::report() const {
   std::vector<ContactNodeReport> reports;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const NodeState &state = states_[i];
-    reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap,
+    reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap + lift_of(nodes_[i]),
                        friction_.empty() ? 0. : friction_[i].slip, 0., state.traction});
   }
   for_each_area([&](const unsigned int i, const double area) { reports[i].area += area; });

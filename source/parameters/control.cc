@@ -206,6 +206,8 @@ void Solver::declare(ParameterHandler &prm) {
                     "forces' work in the step.");
   prm.declare_entry("Most iterations", "60", Patterns::Integer(0),
                     "A step that needs more has failed; it is given up earlier if at its pace it would.");
+  prm.declare_entry("Most augmentations", "20", Patterns::Integer(0),
+                    "Of contact with a 'Penetration tolerance' in a step; one that needs more has failed.");
   prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
                     "energy: shorten a correction while the residual's work along it grows; in any case a "
                     "correction that turns an element "
@@ -228,6 +230,7 @@ void Solver::parse(Reader &reader) {
     reader.reject("Force tolerance", "a number > 0 and < 1");
   energy_tolerance = reader.positive("Energy tolerance");
   most_iterations = reader.count("Most iterations", 1);
+  most_augmentations = reader.count("Most augmentations", 1);
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
   predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
   linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));

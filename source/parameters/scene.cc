@@ -190,6 +190,9 @@ public:
     for (const auto &pair : scene_.pairs)
       if (pair.edges && !scene_.is_explicit())
         refuse_entry({"Contact pairs", pair.name}, "Edges");
+      else if (scene_.is_explicit())
+        for (const std::string key : {"Penetration tolerance", "Initial penetration"})
+          refuse({"Contact pairs", pair.name}, key);
   }
 
 private:

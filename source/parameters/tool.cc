@@ -237,8 +237,20 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "k_n > 0: pressure = k_n times penetration. [1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
-  prm.declare_entry("Allowed initial penetration", "1e-3", Patterns::Double(),
-                    "A body that starts deeper than this inside the tool is refused. [facet sizes]");
+  prm.declare_entry("Penetration tolerance", "0", Patterns::Double(),
+                    ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
+                    "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
+                    "slipped elastically by more. [facet sizes]");
+  prm.declare_entry(
+      "Allowed initial penetration", "1e-3", Patterns::Double(),
+      "A body that starts deeper than this inside the tool, or another body, is refused. [facet "
+      "sizes]");
+  prm.declare_entry("Initial penetration", "error", Patterns::Selection("error|shift|ramp"),
+                    "Where more than that is found. error: the scene is refused; shift, of implicit scenes: "
+                    "gaps are measured from where nodes start, without stress; ramp, of implicit scenes: the "
+                    "same at the start, but less and less until the 'Ramp time', as in a press fit.");
+  prm.declare_entry("Ramp time", "0", Patterns::Double(),
+                    "> 0: when an initial penetration is resolved. [time]");
 }
 
 namespace {
@@ -272,6 +284,12 @@ void ContactPair::parse(Reader &reader) {
       reader.reject("Tangential penalty", "no value: the pair has no friction");
     tangential_penalty = values[0];
   }
+  const std::string initial = reader.text("Initial penetration");
+  may_overlap = initial != "error";
+  ramp_time = reader.not_negative("Ramp time");
+  if ((initial == "ramp") != (ramp_time > 0.))
+    reader.reject("Ramp time", initial == "ramp" ? "a number > 0" : "no value: nothing is ramped");
+  penetration_tolerance = reader.not_negative("Penetration tolerance");
   allowed_penetration =
       reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
 }

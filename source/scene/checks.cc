@@ -147,6 +147,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
 
 void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
   for (const auto &pair : pairs_) {
+    if (pair.overlap.is_allowed)
+      continue;
     const Tool &tool = tools_[pair.tool];
     const Placement start = tool.placement(0.);
     double deepest = 0., size_there = 1.;

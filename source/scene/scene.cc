@@ -199,8 +199,17 @@ void Scene::make_pairs() {
     const std::size_t body = parameters_.body_index(pair);
     const bool is_factor = pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
     if (!pair.is_between_bodies()) {
-      pairs_.push_back({pair.name, &pair, body, pair.boundary_ids.value, parameters_.tool_index(pair),
-                        make_friction(pair), is_factor, pair.normal_penalty, pair.tangential_penalty});
+      pairs_.push_back({pair.name,
+                        &pair,
+                        body,
+                        pair.boundary_ids.value,
+                        parameters_.tool_index(pair),
+                        make_friction(pair),
+                        is_factor,
+                        pair.normal_penalty,
+                        pair.tangential_penalty,
+                        pair.penetration_tolerance,
+                        {pair.may_overlap, pair.ramp_time}});
       continue;
     }
     const std::size_t second = parameters_.second_body_index(pair);
@@ -219,7 +228,9 @@ void Scene::make_pairs() {
          pair.penalty_of,
          pair.normal_penalty,
          pair.tangential_penalty,
-         pair.search_margin});
+         pair.search_margin,
+         pair.penetration_tolerance,
+         {pair.may_overlap, pair.ramp_time}});
     const auto &ids = body_pairs_.back().boundary_ids;
     if (body == second && !second_ids.empty())
       for (const unsigned int id : ids[0])
@@ -247,6 +258,12 @@ void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) 
 
 std::vector<double> Scene::stops() const {
   std::vector<double> times;
+  const auto add_ramp = [&](const auto &pair) {
+    if (pair.overlap.ramp_time > 0. && pair.overlap.ramp_time < parameters_.time_stepping.end_time)
+      times.push_back(pair.overlap.ramp_time);
+  };
+  std::for_each(pairs_.begin(), pairs_.end(), add_ramp);
+  std::for_each(body_pairs_.begin(), body_pairs_.end(), add_ramp);
   for (const auto &tool : tools_)
     for (const double time : {tool.removal_time(), tool.removal_time() + tool.release_time()})
       if (time < parameters_.time_stepping.end_time)
@@ -294,7 +311,14 @@ void Scene::describe(std::ostream &stream) const {
   const auto describe_penalties = [](const auto &pair) {
     std::ostringstream text;
     text << ", penalties " << pair.normal_penalty << ", " << pair.tangential_penalty
-         << (pair.penalty_is_factor ? " E/h" : " (absolute)") << "\n";
+         << (pair.penalty_is_factor ? " E/h" : " (absolute)");
+    if (pair.penetration_tolerance > 0.)
+      text << ", augmented to " << pair.penetration_tolerance << " facet sizes";
+    if (pair.overlap.is_allowed)
+      text << ", initial overlap "
+           << (pair.overlap.ramp_time > 0. ? "resolved until time " + std::to_string(pair.overlap.ramp_time)
+                                           : std::string("kept"));
+    text << "\n";
     return text.str();
   };
   for (const auto &pair : pairs_)

@@ -69,8 +69,10 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     return;
   for (auto &contact : contacts_)
     contact.update(state_.displacements);
-  for (auto &contact : body_contacts_)
+  for (auto &contact : body_contacts_) {
     contact->update(state_.displacements, 0.);
+    contact->allow_overlap();
+  }
   check_freedom();
   build_matrix();
 }
@@ -309,7 +311,10 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
   for (auto &contact : contacts_) {
     const Placement &now = state_.placements[contact.tool()];
     contact.start_step(now, now, 0.);
+    contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(t_n));
   }
+  for (auto &contact : body_contacts_)
+    contact->start_step(t_n, t_n);
   duration_ = 0.;
   offsets_ = offsets_n_;
   Vector correction = discretization_.make_owned_vector(), rhs = correction;
@@ -355,9 +360,12 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
 void QuasiStatic::start_step(const double t) {
   time_ = t;
   duration_ = t - state_.time;
+  for (auto &contact : body_contacts_)
+    contact->start_step(state_.time, t);
   for (auto &contact : contacts_) {
     const std::size_t tool = contact.tool();
     contact.start_step(state_.placements[tool], place(tool, t, offsets_[tool]), t - state_.time);
+    contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(t));
   }
 }
 
@@ -390,9 +398,14 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   }
   Vector x = trial_;
   std::vector<double> offsets = offsets_;
+  for (auto &contact : contacts_)
+    contact.restart_augmentation();
+  for (auto &contact : body_contacts_)
+    contact->restart_augmentation();
   report = iterate(offsets, x);
   if (!needs_no_solution)
     report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
+  augment(report, offsets, x);
 
   // A tool that has gone too far is drawn back to where it presses with its stop force.
   std::vector<std::size_t> stopping;
@@ -401,11 +414,8 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!stopping.empty()) {
     pressing.insert(pressing.end(), stopping.begin(), stopping.end());
     choose_unknown_tools(pressing);
-    const NewtonReport again = iterate(offsets, x);
-    report.converged = again.converged;
-    report.failure = again.failure;
-    report.force = again.force;
-    report.iterations.insert(report.iterations.end(), again.iterations.begin(), again.iterations.end());
+    report.append(iterate(offsets, x));
+    augment(report, offsets, x);
   }
   if (report.converged) {
     // The line search may have looked further since: the histories have to be those of the accepted state.
@@ -418,6 +428,33 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
       stopped_[tool] = std::make_unique<Placement>(state_.placements[tool]);
   }
   return report;
+}
+
+void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
+  const unsigned int most = scene_.parameters().solver.most_augmentations;
+  for (unsigned int n = 0; report.converged; ++n) {
+    double error = 0.;
+    for (const auto &contact : contacts_)
+      error = std::max(error, contact.augmentation_error());
+    for (const auto &contact : body_contacts_)
+      error = std::max(error, contact->augmentation_error());
+    error = dealii::Utilities::MPI::max(error, discretization_.communicator());
+    if (error <= 1.)
+      return;
+    if (n == most) {
+      report.converged = false;
+      report.failure =
+          "after " + std::to_string(n) + " augmentations contact is still " + std::to_string(error) +
+          " times its 'Penetration tolerance' from what it should be: try a larger penalty or more "
+          "'Most augmentations'";
+      return;
+    }
+    for (auto &contact : contacts_)
+      contact.augment();
+    for (auto &contact : body_contacts_)
+      contact->augment();
+    report.append(iterate(offsets, displacements));
+  }
 }
 
 NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displacements) {

@@ -35,6 +35,18 @@ public:
   void add_forces(Vector &residual) const;
   /// Adds −∂F_c/∂u [force/length], after update(). Collective.
   void add_tangent(const TangentSystem &system, ContactTangent kind) const;
+  /// The next update() is at time t, after a step from t_n on: bodies that start in each other part as the
+  /// scene says.
+  void start_step(double t_n, double t);
+  /// Of the augmented Lagrangian, as FacetContact's. The error is on this rank, relative to what the pair
+  /// asks for; 0 if it asks for none.
+  void restart_augmentation() { contact_->restart_augmentation(); }
+  void augment() { contact_->augment(); }
+  double augmentation_error() const {
+    return pair_.penetration_tolerance > 0. ? contact_->augmentation_error() / pair_.penetration_tolerance
+                                            : 0.;
+  }
+
   /// Whether add_tangent() has entries of this rank that the last add_couplings() did not name.
   bool has_new_couplings() const { return contact_->has_new_couplings(); }
   /// Adds the dofs whose rows add_tangent() writes to.
@@ -45,6 +57,10 @@ public:
   /// Adds what the other body does where it touches this one on this rank; none of a body that touches
   /// itself.
   void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const;
+
+  /// If the scene allows the undeformed bodies to be in each other, takes note of how deep they are, after
+  /// update(). Collective.
+  void allow_overlap();
 
   /// Throws InputError, with the largest overlap and where it is, if the undeformed bodies are deeper in each
   /// other than the scene allows. Collective.

@@ -32,12 +32,17 @@ inline FacetLimits make_limits(const double tolerance, const ContactLimits &limi
 struct TouchedFacet {
   static constexpr unsigned int none = static_cast<unsigned int>(-1);
   unsigned int facet = none;
-  FacetProjection projection; ///< its gap is < 0
+  FacetProjection projection; ///< its gap is less than the lift
   /// How deep the node was when it was found behind the facet without having come through it, as one that
   /// comes in from beside: only what is deeper counts. It never grows, and is at most the depth [length].
   double offset = 0.;
 
   bool exists() const { return facet != none; }
+};
+
+/// By how much facets count as raised for a slave node [length].
+struct FacetLift {
+  double now = 0., at_start = 0.; ///< of the step
 };
 
 /// Chooses for a slave node, by index into search.slaves(), the facet that it touches, as a plane
@@ -58,10 +63,12 @@ struct TouchedFacet {
 /// better. Facets that lie nearly in one plane with it need not be looked at.
 ///
 /// Where facets meet smoothly, one is as good as the other: share_facets() makes the contact of both.
+///
+/// Facets count as raised by `lift`, as the pressure of an augmented Lagrangian wants it, or lowered.
 template <class Facet>
 TouchedFacet choose_facet(const MovedFacets &facets, std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
-                          const ContactLimits &limits);
+                          const ContactLimits &limits, const FacetLift &lift = {});
 
 /// The candidate that a node which touches none is straight above and before; the nearest, as a plane. Its
 /// gap is >= 0.

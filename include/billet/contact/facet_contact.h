@@ -149,6 +149,26 @@ public:
   /// The state of the last add_forces() becomes the start of the next step.
   void commit();
 
+  /// How deep nodes are in facets at the last add_forces(), before the first commit(), is allowed: only what
+  /// is deeper than a part of it counts from then on, at first all of it. Collective.
+  void allow_initial_depths();
+  /// That part at the start and the end of the step.
+  void set_allowed_part(const double at_start, const double at_end) {
+    allowed_part_n_ = at_start;
+    allowed_part_ = at_end;
+  }
+
+  // The augmented Lagrangian by Uzawa's method: pressure p = k <a − g>, where the lift a takes up p/k, and in
+  // the same way a sticking node's traction becomes what its spring starts from.
+
+  /// Back to what the last commit() left: of a step that is tried anew.
+  void restart_augmentation();
+  /// Lifts and tractions become those of the last add_forces().
+  void augment();
+  /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its
+  /// facets; after add_forces(). On this rank.
+  double augmentation_error() const;
+
   /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
   template <class Visit> void visit_touching(const Visit &visit) const {
     for (std::size_t s = 0; s < slaves_.size(); ++s)
@@ -191,6 +211,24 @@ private:
   /// What slave s touches, or is near, and with which areas.
   template <class Facet> void find_contact(std::size_t s);
   void find_overlaps(std::size_t s);
+  FacetLift lift(const std::size_t s) const {
+    FacetLift lift;
+    if (!lifts_.empty())
+      lift.now = lifts_[s];
+    if (!lifts_n_.empty())
+      lift.at_start = lifts_n_[s];
+    if (!initial_depths_.empty()) {
+      lift.now -= allowed_part_ * initial_depths_[s];
+      lift.at_start -= allowed_part_n_ * initial_depths_[s];
+    }
+    return lift;
+  }
+  std::array<double, 4> lifts_of(const std::array<unsigned int, 4> &nodes) const {
+    return nodal_lifts_.empty() ? std::array<double, 4>{}
+                                : std::array<double, 4>{nodal_lifts_[nodes[0]], nodal_lifts_[nodes[1]],
+                                                        nodal_lifts_[nodes[2]], nodal_lifts_[nodes[3]]};
+  }
+  void update_overlaps();
   /// What slave s holds against a share's facet: itself, or a point of its own facet.
   dealii::Tensor<1, 3> slave_point(std::size_t s, const FacetShare &share, const Positions &positions) const {
     return share.slave_facet == FacetShare::none
@@ -249,6 +287,12 @@ private:
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only
+  std::vector<SlaveHistory> base_;      ///< what this step's tractions start from: history_n_, or augmented
+  std::vector<double> lifts_n_, lifts_; ///< of slaves; empty as long as nothing is augmented
+  std::vector<double> initial_depths_;  ///< of slaves; empty if none is allowed
+  double allowed_part_ = 1., allowed_part_n_ = 1.;
+  bool has_lifts_ = false;          ///< augment() has been called
+  std::vector<double> nodal_lifts_; ///< the same, of nodes with ghosts, for overlaps
   std::optional<FacetOverlaps> overlaps_;
   std::optional<EdgeContact> edges_;
   std::vector<double> edge_stiffness_; ///< full normal penalties of nodes, if there are edges

@@ -30,11 +30,14 @@ public:
   RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization,
                ContactTangent tangent);
 
+  std::size_t pair() const { return index_; } ///< of Scene::pairs()
   std::size_t tool() const { return pair_.tool; }
   std::size_t body() const { return pair_.body; }
 
   /// The tool moves in this time from one placement to the other.
   void start_step(const Placement &from, const Placement &to, double duration);
+  /// The part of the initial penetration that counts as none at the end of the step.
+  void set_allowed_part(const double part) { allowed_part_ = part; }
   /// Changes where it moves to.
   void set_placement(const Placement &to) { placement_ = to; }
 
@@ -76,6 +79,13 @@ public:
   /// The state of the last update() becomes the start of the next step.
   void commit();
 
+  /// Of the augmented Lagrangian, as FacetContact's: back to the start of the step, ...
+  void restart_augmentation();
+  /// ... and on from the last update().
+  void augment();
+  /// Relative to what the pair asks for; 0 if it asks for none. On this rank.
+  double augmentation_error() const;
+
   /// On all ranks, after update().
   ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }
   /// What the facets of this rank contribute to it.
@@ -104,13 +114,15 @@ private:
     double size;            ///< of the facets around it
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
+    double lift = 0., lift_n = 0.; ///< of the tool's surface, by augmentation
+    double initial_depth = 0.;     ///< in the tool, if that is allowed
   };
   /// What follows from a node's position.
   struct NodeState {
     dealii::Tensor<1, 3> position;
     dealii::Tensor<1, 3> normal;
     dealii::Tensor<2, 3> turning; ///< ∂n/∂x
-    double gap = 0.;
+    double gap = 0.;              ///< to the surface raised by the lift
     unsigned int patch = 0;
     ContactStatus status = ContactStatus::open;
     double pressure = 0.;
@@ -142,6 +154,8 @@ private:
     std::array<dealii::Tensor<1, 3>, 4> normal_derivatives;
   };
 
+  /// By how much the tool's surface counts as raised for a node.
+  double lift_of(const Node &node) const { return node.lift - allowed_part_ * node.initial_depth; }
   /// Slave nodes, with their penalties, and facets.
   void collect_facets(const Discretization &discretization, double young_modulus);
   /// The state of node i at `position`; with friction, the history that goes with it.
@@ -163,6 +177,7 @@ private:
   void add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
 
+  const std::size_t index_;
   const ContactPair &pair_;
   const Tool &tool_;
   const MPI_Comm communicator_;
@@ -170,11 +185,14 @@ private:
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
+  std::vector<std::array<double, 2>>
+      base_; ///< what this step's friction starts from: that of friction_n_, or augmented
   std::vector<Facet> facets_;
   std::vector<unsigned int> local_nodes_; ///< of each slave node, after bind()
   std::vector<bool> is_owned_;            ///< as LocalNodes has it
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
+  double allowed_part_ = 1.;
   bool is_removed_ = false;
 };
 

@@ -73,6 +73,7 @@ struct Solver {
   ContactTangent contact_tangent;
   double force_tolerance, energy_tolerance;
   unsigned int most_iterations;
+  unsigned int most_augmentations; ///< in a step
   LineSearch line_search;
   Predictor predictor;
   Located<LinearSolver> linear_solver;

@@ -77,7 +77,10 @@ struct ContactPair {
   PenaltyUnit penalty_unit;
   double normal_penalty;
   double tangential_penalty;
+  double penetration_tolerance; ///< 0: no augmentation
   Located<double> allowed_penetration;
+  bool may_overlap; ///< at the start
+  double ramp_time; ///< in which that ceases; 0: never
 
   bool is_between_bodies() const { return tool.value.empty(); }
 

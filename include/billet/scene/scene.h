@@ -10,6 +10,7 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <iosfwd>
 #include <memory>
 #include <vector>
@@ -53,6 +54,15 @@ struct Body {
   std::vector<Expression> initial_velocity; ///< three, of the position
 };
 
+/// How deep a pair may be in each other at the start.
+struct InitialOverlap {
+  bool is_allowed = false;
+  double ramp_time = 0.; ///< in which that ceases; 0: never
+
+  /// The part of the initial depth that counts as none at time t.
+  double allowed_part(const double t) const { return ramp_time > 0. ? std::max(0., 1. - t / ramp_time) : 1.; }
+};
+
 /// Boundary faces of a body that may touch a tool.
 struct ContactPair {
   std::string name;
@@ -63,6 +73,8 @@ struct ContactPair {
   FrictionLaw friction;
   bool penalty_is_factor;
   double normal_penalty, tangential_penalty;
+  double penetration_tolerance; ///< [facet sizes]; 0: none, penalties alone
+  InitialOverlap overlap;
 
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
   /// k [force/length³] from the scene's number, for facets of size h on a body with Young's modulus E.
@@ -84,7 +96,9 @@ struct BodyPair {
   bool penalty_is_factor;
   parameters::ContactPair::PenaltyOf penalty_of;
   double normal_penalty, tangential_penalty;
-  double search_margin; ///< [facet sizes]
+  double search_margin;         ///< [facet sizes]
+  double penetration_tolerance; ///< [facet sizes]; 0: none, penalties alone
+  InitialOverlap overlap;
 
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
 };

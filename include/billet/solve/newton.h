@@ -38,6 +38,14 @@ struct NewtonReport {
   std::vector<NewtonIteration> iterations;
   double force = 0.;   ///< |R| / force scale at the end
   std::string failure; ///< why it did not converge
+
+  /// What came after it counts; its iterations are added.
+  void append(const NewtonReport &next) {
+    converged = next.converged;
+    failure = next.failure;
+    force = next.force;
+    iterations.insert(iterations.end(), next.iterations.begin(), next.iterations.end());
+  }
 };
 
 /// Newton's method by NOX. Starts from, and overwrites, `x`; `increment_norm` is |x − x_n| of the step, to

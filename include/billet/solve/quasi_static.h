@@ -91,6 +91,9 @@ private:
                         std::vector<double> &ds);
   double distance_to_touch(std::size_t tool) const;
   std::vector<std::size_t> tools_to_stop(double t) const;
+  /// The augmented Lagrangian: tractions are augmented and iterated anew until all pairs have what they ask
+  /// for. Continues `report`.
+  void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
   double fading(double t, std::size_t tool) const;
   void remove_tools(double t);
