@@ -17,7 +17,7 @@ namespace billet {
 
 namespace {
 
-/// Trilinos' interface to unsymmetric direct solvers.
+/// Trilinos' interface to direct solvers: KLU, which it always has.
 class AmesosSolver final : public DirectSolver {
 public:
   AmesosSolver(const std::string &amesos_name, const Epetra_CrsMatrix &matrix) : name_(amesos_name) {
@@ -32,7 +32,6 @@ public:
     Teuchos::ParameterList options;
     options.set("PrintTiming", false);
     options.set("PrintStatus", false);
-    options.sublist("mumps").set("ICNTL(14)", extra_memory_percent);
     solver_->SetParameters(options);
   }
 
@@ -62,22 +61,21 @@ public:
   std::string name() const override { return name_ + " (unsymmetric)"; }
 
 private:
-  static constexpr int extra_memory_percent = 60;
-
   std::string name_;
   Epetra_LinearProblem problem_;
   std::unique_ptr<Amesos_BaseSolver> solver_;
   bool is_analysed_ = false;
 };
 
-/// MUMPS itself in its symmetric indefinite form, which Amesos does not offer: LDLᵀ of the upper triangle.
-class SymmetricMumpsSolver final : public DirectSolver {
+/// MUMPS itself: in its symmetric indefinite form, LDLᵀ of the upper triangle, which Amesos does not offer, or
+/// LU of the whole, with more memory where its guess was too small, which Amesos does not do.
+class MumpsSolver final : public DirectSolver {
 public:
-  SymmetricMumpsSolver(const Epetra_CrsMatrix &matrix, MPI_Comm communicator)
-      : matrix_(matrix), communicator_(communicator) {
+  MumpsSolver(const bool is_symmetric, const Epetra_CrsMatrix &matrix, MPI_Comm communicator)
+      : is_symmetric_(is_symmetric), matrix_(matrix), communicator_(communicator) {
     MPI_Comm_rank(communicator, &rank_);
     mumps_.par = 1;
-    mumps_.sym = 2;
+    mumps_.sym = is_symmetric ? 2 : 0;
     mumps_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(communicator));
     call(job_initialize);
     for (const int output_stream : {1, 2, 3, 4})
@@ -90,9 +88,9 @@ public:
     for (std::size_t i = 1; i < counts_.size(); ++i)
       offsets_[i] = offsets_[i - 1] + counts_[i - 1];
   }
-  SymmetricMumpsSolver(const SymmetricMumpsSolver &) = delete;
-  SymmetricMumpsSolver &operator=(const SymmetricMumpsSolver &) = delete;
-  ~SymmetricMumpsSolver() override { call(job_end); }
+  MumpsSolver(const MumpsSolver &) = delete;
+  MumpsSolver &operator=(const MumpsSolver &) = delete;
+  ~MumpsSolver() override { call(job_end); }
 
   bool factorize() override {
     collect_values();
@@ -124,7 +122,7 @@ public:
     return success;
   }
 
-  std::string name() const override { return "MUMPS (symmetric)"; }
+  std::string name() const override { return is_symmetric_ ? "MUMPS (symmetric)" : "MUMPS (unsymmetric)"; }
 
 private:
   static constexpr int job_initialize = -1, job_end = -2, job_analyze = 1, job_factorize = 2, job_solve = 3;
@@ -148,7 +146,7 @@ private:
     return counts.data();
   }
 
-  template <class Function> void for_each_upper_entry(const Function &f) const {
+  template <class Function> void for_each_entry(const Function &f) const {
     for (int row = 0; row < matrix_.NumMyRows(); ++row) {
       int n = 0;
       double *values = nullptr;
@@ -157,14 +155,14 @@ private:
       const int global_row = matrix_.RowMap().GID(row);
       for (int k = 0; k < n; ++k) {
         const int global_column = matrix_.ColMap().GID(columns[k]);
-        if (global_column >= global_row)
+        if (!is_symmetric_ || global_column >= global_row)
           f(global_row, global_column, values[k]);
       }
     }
   }
 
   void collect_pattern() {
-    for_each_upper_entry([this](const int row, const int column, double) {
+    for_each_entry([this](const int row, const int column, double) {
       rows_.push_back(row + 1);
       columns_.push_back(column + 1);
     });
@@ -181,9 +179,10 @@ private:
 
   void collect_values() {
     std::size_t next = 0;
-    for_each_upper_entry([this, &next](int, int, const double value) { values_[next++] = value; });
+    for_each_entry([this, &next](int, int, const double value) { values_[next++] = value; });
   }
 
+  bool is_symmetric_;
   const Epetra_CrsMatrix &matrix_;
   MPI_Comm communicator_;
   int rank_ = 0;
@@ -204,8 +203,8 @@ std::unique_ptr<DirectSolver> make_direct_solver(const parameters::Solver::Linea
   if (kind == Kind::klu)
     return std::make_unique<AmesosSolver>("Amesos_Klu", matrix);
   if (kind == Kind::mumps_symmetric || (kind == Kind::automatic && symmetric))
-    return std::make_unique<SymmetricMumpsSolver>(matrix, communicator);
-  return std::make_unique<AmesosSolver>("Amesos_Mumps", matrix);
+    return std::make_unique<MumpsSolver>(true, matrix, communicator);
+  return std::make_unique<MumpsSolver>(false, matrix, communicator);
 }
 
 } // namespace billet
