@@ -171,7 +171,7 @@ void run_quasi_static(const Scene &scene, const Discretization &discretization) 
     }
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
     if (report.newton.converged) {
-      control.accept(static_cast<unsigned int>(report.newton.iterations.size()));
+      control.accept(static_cast<unsigned int>(report.newton.iterations.size()), problem.time_error());
       continued = report.length;
       report.step = control.n_steps();
       fail_together(discretization.communicator(), [&] {
