@@ -214,12 +214,14 @@ void Solver::declare(ParameterHandler &prm) {
                     "energy: shorten a correction while the residual's work along it grows; in any case a "
                     "correction that turns an element "
                     "inside out is shortened.");
-  prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
-                    "Where a step's iterations start. extrapolation: the last increment continued; tangent: "
-                    "a linear step into which the "
-                    "motion of tools and supports is put, as is done anyway at the start, after a cut, and "
-                    "where tools or supports change "
-                    "their pace.");
+  prm.declare_entry(
+      "Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
+      "Where a step's iterations start. extrapolation: the last increment continued, or in implicit "
+      "dynamics the motion at constant acceleration; tangent: "
+      "a linear step into which the "
+      "motion of tools and supports is put, as is done anyway at the start, after a cut, and "
+      "where tools or supports change "
+      "their pace.");
   prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
                     "Direct solvers. automatic: MUMPS, its symmetric form where the matrix is symmetric; KLU "
                     "runs on one rank at a time and is slow.");
