@@ -209,12 +209,11 @@ private:
                          "Hencky and hypoelastic");
       return;
     }
+    if (!scene_.is_dynamic())
+      refuse(path, "Initial velocity");
     refuse(path, "Element");
     refuse({path[0], path[1], "Material"}, "Kinematics");
-    if (scene_.is_dynamic())
-      return;
-    refuse(path, "Initial velocity");
-    if (!body.loads.empty())
+    if (!scene_.is_dynamic() && !body.loads.empty())
       throw InputError(file_.where({path[0], path[1], "Loads", body.loads.front().name}) +
                        ": found a load, allowed are loads in dynamic scenes");
   }

@@ -146,11 +146,17 @@ void ImplicitMotion::start_step(const double t_n, const double t, const Vector &
   held_ = find_held_rates(t, step_);
   if (scene_.capabilities().moving_supports)
     held_change_ = held_change(t_n, t);
-  // Ten times what the last bit of each displacement makes.
+  // Ten times what the last bit of each displacement, or offset, makes.
+  const double last_bit = 10. * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_);
   const double n_nodes = static_cast<double>(discretization_.dof_handler().n_dofs()) / 3.;
-  round_off_force_ = 10. * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_) *
-                     inertia_.total() / std::sqrt(n_nodes) *
-                     std::max(discretization_.radius(), displacements.linfty_norm());
+  round_off_force_ = last_bit * inertia_.total() / std::sqrt(n_nodes) *
+                     std::max(displacements.linfty_norm(), step_ * v_n_.linfty_norm());
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const double length =
+        scene_.tools()[i].control() == Tool::Control::moment ? 1. / discretization_.radius() : 1.;
+    round_off_force_ += last_bit * tools_[i].inertia * length *
+                        std::max(std::abs(tools_[i].offset), step_ * std::abs(tools_[i].rate));
+  }
 }
 
 void ImplicitMotion::extrapolate(Vector &displacements, std::vector<double> &offsets) const {

@@ -81,9 +81,7 @@ bool QuasiStatic::is_accurate(NewtonReport &report) {
     return true;
   report.converged = false;
   std::ostringstream message;
-  message << "the error of the step's time integration is " << time_error_
-          << " times what 'Error tolerance' in 'Implicit dynamics' allows; a larger tolerance or a shorter "
-             "'Smallest step' lets the run go on";
+  message << "the error of the step's time integration is " << time_error_ << " times the 'Error tolerance'";
   report.failure = message.str();
   return false;
 }

@@ -57,7 +57,7 @@ void StepControl::accept(const unsigned int n_iterations, const double error) {
     step_ = std::min(parameters_.largest_step, std::max(step_, taken) * parameters_.growth_factor);
   else if (n_iterations >= parameters_.many_iterations)
     step_ = std::max(parameters_.smallest_step, taken * parameters_.shrink_factor);
-  constexpr double safety = 0.9;
+  constexpr double safety = 0.8;
   if (error > 0.)
     step_ = std::max(parameters_.smallest_step, std::min(step_, safety / std::cbrt(error) * taken));
 }
