@@ -116,6 +116,27 @@ int main() {
     check(name + ": second order",
           std::abs(std::log2(final_error(integrator, 200) / final_error(integrator, 400)) - 2.), 0.03);
 
+    // What it takes: D of (I5) in closed form, with damping and over some steps.
+    {
+      const Oscillator o{3., 0.4};
+      const double dt = 0.8;
+      State s{1., 0.3, -o.k};
+      WorstError dissipation;
+      for (unsigned int n = 0; n < 20; ++n) {
+        const State next = advance(integrator, o, dt, s);
+        const double du = next.u - s.u, dv = next.v - s.v, da = next.a - s.a,
+                     dF = force(o, next) - force(o, s), mean_F = 0.5 * (force(o, next) + force(o, s)),
+                     mean_v = 0.5 * (next.v + s.v), mean_a = 0.5 * (next.a + s.a);
+        const double taken = (0.5 - integrator.alpha_f()) * du * dF +
+                             (1. - integrator.alpha_m() - integrator.gamma()) * du * da +
+                             dt * dt * (integrator.beta() - 0.5 * integrator.gamma()) * da *
+                                 (mean_a + (integrator.gamma() - 0.5) * da);
+        dissipation.add(std::abs(taken + mean_v * dv + mean_F * du));
+        s = next;
+      }
+      check(name + ": dissipation", dissipation.value(), 1e-13);
+    }
+
     // What rates from increments mean: Newmark's relations.
     const double dt = 0.3, u = 0.2, v = -1.1, a = 0.7, increment = 0.05;
     const auto v_rate = integrator.velocity(dt), a_rate = integrator.acceleration(dt);
