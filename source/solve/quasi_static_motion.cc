@@ -27,6 +27,10 @@ void QuasiStatic::start_motion() {
   state_.energies.elastic = energies.elastic;
   for (const auto &load : state_.tool_loads)
     state_.energies.contact += load.stored_energy;
+  for (std::size_t i = 0; i < body_contacts_.size(); ++i) {
+    state_.body_pair_loads[i] = body_contacts_[i]->compute_load();
+    state_.energies.contact += state_.body_pair_loads[i].stored_energy;
+  }
   motion_->update_state(state_);
   state_.energies.initial = state_.energies.total();
 }
