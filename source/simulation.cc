@@ -96,7 +96,9 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
   else
     message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step
-            << ": try a softer penalty, another 'Contact tangent', more 'Most iterations', or look at the "
+            << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
+                                        : ":")
+            << " try a softer penalty, another 'Contact tangent', more 'Most iterations', or look at the "
                "last picture for "
                "an unstable or torn mesh";
   message << ". What was computed until time " << from << " is in '" << parameters.output.folder.value
@@ -171,7 +173,7 @@ void run_quasi_static(const Scene &scene, const Discretization &discretization) 
     }
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
     if (report.newton.converged) {
-      control.accept(static_cast<unsigned int>(report.newton.iterations.size()));
+      control.accept(static_cast<unsigned int>(report.newton.iterations.size()), problem.time_error());
       continued = report.length;
       report.step = control.n_steps();
       fail_together(discretization.communicator(), [&] {

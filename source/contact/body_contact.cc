@@ -67,7 +67,7 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   std::vector<std::uint64_t> keys;
   for (const unsigned int node : local_nodes_)
     keys.push_back(nodes.dofs(node)[0]);
-  if (!scene.parameters().is_explicit())
+  if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
   contact_ =
       std::make_unique<FacetContact>(communicator, settings, keys, facets_, compute_stiffness(scene), sizes_);

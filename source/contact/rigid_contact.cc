@@ -25,7 +25,9 @@ constexpr double near_gap = 0.25, near_steps = 20.;
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
                            const ContactTangent tangent)
     : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
-      communicator_(discretization.communicator()), tangent_(tangent) {
+      communicator_(discretization.communicator()), tangent_(tangent),
+      touching_gap_(scene.parameters().is_dynamic() && !scene.parameters().is_explicit() ? 0.
+                                                                                         : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
   placement_n_ = placement_ = tool_.placement(0.);
   states_.resize(nodes_.size());
@@ -132,8 +134,9 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const auto projection = tool_.surface().project(on_tool, node.patch);
   state.gap = projection.gap - lift_of(node);
   state.patch = projection.patch;
-  // A node that starts on the tool counts as touching: its stiffness may be all that holds the body.
-  const double on_it = touching_gap * node.size;
+  // A node that starts on the tool counts as touching: its stiffness may be all that holds the body. Inertia
+  // holds it anyway, and a stiffness without a force would mislead Newton's method when it lifts off.
+  const double on_it = touching_gap_ * node.size;
   const bool touches = projection.exists && (state.gap < 0. || (state.gap <= on_it && node.gap_n <= on_it));
   if (touches) {
     state.normal = placement_.rotation * projection.normal;
@@ -184,7 +187,7 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
   // A node that enters within the step has slid along the tool for the part φ = g/(g − g_n) of it only.
   ContactStiffness stiffness = node.stiffness;
   double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ
-  if (!history_n.is_active && node.gap_n > touching_gap * node.size && state.gap < 0.) {
+  if (!history_n.is_active && node.gap_n > touching_gap_ * node.size && state.gap < 0.) {
     fraction = state.gap / (state.gap - node.gap_n);
     stiffness.tangential *= fraction;
     relative_slope = node.gap_n / (state.gap * (node.gap_n - state.gap));

@@ -4,6 +4,8 @@
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <algorithm>
 
 namespace billet {
@@ -112,6 +114,54 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
       force = (force * resistance.direction) * resistance.direction;
     add_vector(forces.data(), resistance.node, force);
   }
+}
+
+void ExternalLoads::add_tangent(const double t, const NodalVectors &displacements,
+                                const double damping_factor, const TangentSystem &system) const {
+  for (const auto &pressure : pressures_)
+    for (const auto &facet : pressure.facets)
+      add_pressure_tangent(facet, pressure.load->values[0].value(t, facet.centre), displacements, system);
+
+  dealii::FullMatrix<double> matrix(3, 3);
+  std::vector<DofIndex> dofs(3);
+  for (const auto &resistance : resistances_) {
+    const double factor = resistance.stiffness + damping_factor * resistance.damping;
+    for (unsigned int i = 0; i < 3; ++i) {
+      dofs[i] = nodes_.dofs(resistance.node)[i];
+      for (unsigned int j = 0; j < 3; ++j)
+        matrix(i, j) = factor * (resistance.has_direction ? resistance.direction[i] * resistance.direction[j]
+                                                          : (i == j ? 1. : 0.));
+    }
+    system.add(matrix, dofs);
+  }
+}
+
+void ExternalLoads::add_pressure_tangent(const PressedFacet &facet, const double pressure,
+                                         const NodalVectors &displacements,
+                                         const TangentSystem &system) const {
+  dealii::FullMatrix<double> matrix(12, 12);
+  std::vector<DofIndex> dofs(12);
+  std::array<Tensor<1, 3>, 4> positions;
+  for (unsigned int a = 0; a < 4; ++a) {
+    positions[a] = get_vector(nodes_.positions().data(), facet.nodes[a]) +
+                   get_vector(displacements.data(), facet.nodes[a]);
+    for (unsigned int i = 0; i < 3; ++i)
+      dofs[3 * a + i] = nodes_.dofs(facet.nodes[a])[i];
+  }
+  for (const auto &point : facet_points()) {
+    const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return positions[a]; });
+    for (unsigned int b = 0; b < 4; ++b)
+      for (unsigned int j = 0; j < 3; ++j) {
+        Tensor<1, 3> e;
+        e[j] = 1.;
+        const Tensor<1, 3> change = point.N_xi[b] * dealii::cross_product_3d(e, g_2) +
+                                    point.N_eta[b] * dealii::cross_product_3d(g_1, e);
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            matrix(3 * a + i, 3 * b + j) += pressure * point.N[a] * change[i];
+      }
+  }
+  system.add(matrix, dofs);
 }
 
 void ExternalLoads::add_bounds(NodalVectors &bounds) const {

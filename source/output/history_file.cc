@@ -23,7 +23,7 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
     : name_(folder + "/history.csv"), stream_(name_) {
   if (!stream_)
     throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be written");
-  const bool is_explicit = scene.parameters().is_explicit();
+  const bool is_explicit = scene.parameters().is_explicit(), is_dynamic = scene.parameters().is_dynamic();
   stream_ << "step,time,step_length"
           << (is_explicit ? "" : ",iterations,residual,total_iterations,total_cuts");
   for (const auto &tool : scene.tools())
@@ -34,12 +34,15 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
   for (const auto &pair : scene.body_pairs())
     for (const char *quantity : {"force_x", "force_y", "force_z", "contact_area", "deepest_penetration"})
       stream_ << "," << column_name(pair.name) << "." << quantity;
-  stream_ << (is_explicit ? ",kinetic_energy" : "")
+  stream_ << (is_dynamic ? ",kinetic_energy" : "")
           << ",elastic_energy,plastic_work,contact_energy,friction_dissipation"
-          << (is_explicit ? ",viscous_dissipation,hourglass_energy" : "") << ",external_work,energy_drift"
-          << (is_explicit ? ",momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
-                            "angular_momentum_z"
-                          : "")
+          << (is_explicit  ? ",viscous_dissipation,hourglass_energy"
+              : is_dynamic ? ",numerical_dissipation"
+                           : "")
+          << ",external_work,energy_drift"
+          << (is_dynamic ? ",momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
+                           "angular_momentum_z"
+                         : "")
           << "\n"
           << std::setprecision(15);
 }
@@ -50,8 +53,16 @@ void HistoryFile::write(const StepReport &report, const SolutionState &state) {
           << "," << report.total_cuts;
   write_loads(state);
   const EnergyLedger &energies = state.energies;
+  const bool is_dynamic = state.velocities.size() > 0;
+  if (is_dynamic)
+    stream_ << "," << energies.kinetic;
   stream_ << "," << energies.elastic << "," << energies.plastic << "," << energies.contact << ","
-          << energies.friction << "," << energies.external << "," << energies.drift();
+          << energies.friction;
+  if (is_dynamic)
+    stream_ << "," << energies.numerical;
+  stream_ << "," << energies.external << "," << energies.drift();
+  if (is_dynamic)
+    write_momenta(state);
   end_line();
 }
 
@@ -62,11 +73,15 @@ void HistoryFile::write(const unsigned int step, const double length, const Solu
   stream_ << "," << energies.kinetic << "," << energies.elastic << "," << energies.plastic << ","
           << energies.contact << "," << energies.friction << "," << energies.viscous << ","
           << energies.hourglass << "," << energies.external << "," << energies.drift();
+  write_momenta(state);
+  end_line();
+}
+
+void HistoryFile::write_momenta(const SolutionState &state) {
   for (unsigned int i = 0; i < 3; ++i)
     stream_ << "," << state.momentum[i];
   for (unsigned int i = 0; i < 3; ++i)
     stream_ << "," << state.angular_momentum[i];
-  end_line();
 }
 
 void HistoryFile::write_loads(const SolutionState &state) {

@@ -118,7 +118,7 @@ void Material::declare(ParameterHandler &prm) {
       "scenes; neo-Hookean: Simo's radial return, cheaper; hypoelastic: rates of stress and the "
       "final rotation of the step (Bittencourt & Creus 1998), cheapest.");
   prm.declare_entry("Density", "0", Patterns::Double(),
-                    "Of the undeformed body; explicit scenes need one > 0. [mass/length^3]");
+                    "Of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
   prm.declare_entry("Young modulus", "0", Patterns::Double(), "E > 0. [stress]");
   prm.declare_entry("Poisson ratio", "0.3", Patterns::Double(), "-1 < nu < 0.5.");
   prm.declare_entry("Hardening", "linear", Patterns::Selection("linear|Voce|power law|table"),
@@ -322,7 +322,7 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
       "mean dilatation: eight points with a common volumetric strain, as in implicit scenes; one point: "
       "with hourglass stabilisation, three to four times cheaper, explicit scenes only.");
   prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Of explicit scenes: three muParser expressions of the position x, y, z. [length/time]");
+                    "Of dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
                     "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or "
                     "with a normal and "

@@ -35,9 +35,10 @@ void Amplitude::parse(Reader &reader) {
 void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(), "The scene runs from time 0 to here. [time]");
   prm.declare_entry(
-      "Scheme", "quasi-static", Patterns::Selection("quasi-static|explicit"),
+      "Scheme", "quasi-static", Patterns::Selection("quasi-static|explicit|implicit dynamics"),
       "quasi-static: equilibrium at the end of each step, by Newton's method; explicit: motion by central "
-      "differences, in steps as short as elements and contact demand; bodies need a density.");
+      "differences, in steps as short as elements and contact demand; implicit dynamics: motion by Newton's "
+      "method, in steps as long as accuracy allows. What moves needs a density.");
   prm.declare_entry("Stops", "", Patterns::Anything(),
                     "Times at which steps end besides, separated by commas. [time]");
   prm.declare_entry(
@@ -66,7 +67,10 @@ void TimeStepping::parse(Reader &reader) {
   for (const double stop : stops)
     if (!(stop > 0. && stop <= end_time))
       reader.reject("Stops", "numbers > 0, not above the end time");
-  scheme = reader.text("Scheme") == "explicit" ? Scheme::explicit_dynamics : Scheme::quasi_static;
+  const std::string chosen = reader.text("Scheme");
+  scheme = chosen == "explicit"            ? Scheme::explicit_dynamics
+           : chosen == "implicit dynamics" ? Scheme::implicit_dynamics
+                                           : Scheme::quasi_static;
   if (scheme == Scheme::explicit_dynamics) {
     for (const std::string key :
          {"Step control", "Initial step", "Smallest step", "Largest step", "Few iterations",
@@ -212,12 +216,14 @@ void Solver::declare(ParameterHandler &prm) {
                     "energy: shorten a correction while the residual's work along it grows; in any case a "
                     "correction that turns an element "
                     "inside out is shortened.");
-  prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
-                    "Where a step's iterations start. extrapolation: the last increment continued; tangent: "
-                    "a linear step into which the "
-                    "motion of tools and supports is put, as is done anyway at the start, after a cut, and "
-                    "where tools or supports change "
-                    "their pace.");
+  prm.declare_entry(
+      "Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
+      "Where a step's iterations start. extrapolation: the last increment continued, or in implicit "
+      "dynamics the motion at constant acceleration; tangent: "
+      "a linear step into which the "
+      "motion of tools and supports is put, as is done anyway at the start, after a cut, and "
+      "where tools or supports change "
+      "their pace.");
   prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
                     "Direct solvers. automatic: MUMPS, its symmetric form where the matrix is symmetric; KLU "
                     "runs on one rank at a time and is slow.");

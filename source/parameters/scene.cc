@@ -61,6 +61,9 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
   prm.enter_subsection("Explicit dynamics");
   ExplicitDynamics::declare(prm);
   prm.leave_subsection();
+  prm.enter_subsection("Implicit dynamics");
+  ImplicitDynamics::declare(prm);
+  prm.leave_subsection();
   prm.enter_subsection("Solver");
   Solver::declare(prm);
   prm.leave_subsection();
@@ -165,6 +168,8 @@ public:
 
   void check() const {
     refuse_subsection({scene_.is_explicit() ? "Solver" : "Explicit dynamics"});
+    if (scene_.is_explicit() || !scene_.is_dynamic())
+      refuse_subsection({"Implicit dynamics"});
     if (!scene_.is_explicit())
       refuse({"Output"}, "History interval");
     constexpr double most_times = 1e7; // of output; more are a mistake that fills a disk
@@ -179,7 +184,7 @@ public:
       check(body, {"Bodies", body.name});
     for (const auto &tool : scene_.tools) {
       const SceneFile::Path path{"Tools", tool.name, "Motion"};
-      if (!scene_.is_explicit())
+      if (!scene_.is_dynamic())
         for (const std::string key : {"Mass", "Moment of inertia", "Initial speed"})
           refuse(path, key);
       else if (tool.motion.control == Motion::Control::force ||
@@ -197,8 +202,9 @@ public:
 
 private:
   void check(const Body &body, const SceneFile::Path &path) const {
-    if (scene_.is_explicit()) {
+    if (scene_.is_dynamic())
       require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
+    if (scene_.is_explicit()) {
       if (body.element.value == Body::ElementType::one_point &&
           body.material.kinematics.value == Material::Kinematics::neo_hookean)
         throw InputError(body.element.origin +
@@ -206,12 +212,13 @@ private:
                          "Hencky and hypoelastic");
       return;
     }
-    refuse(path, "Initial velocity");
+    if (!scene_.is_dynamic())
+      refuse(path, "Initial velocity");
     refuse(path, "Element");
     refuse({path[0], path[1], "Material"}, "Kinematics");
-    if (!body.loads.empty())
+    if (!scene_.is_dynamic() && !body.loads.empty())
       throw InputError(file_.where({path[0], path[1], "Loads", body.loads.front().name}) +
-                       ": found a load, allowed are loads in explicit scenes");
+                       ": found a load, allowed are loads in dynamic scenes");
   }
   void refuse(const SceneFile::Path &path, const std::string &key) const {
     if (file_.is_set(path, key))
@@ -224,7 +231,10 @@ private:
   [[noreturn]] void refuse_entry(const SceneFile::Path &path, const std::string &key) const {
     throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + ": found '" +
                      file_.value(path, key, "") + "', allowed is no value: 'Scheme' in 'Time stepping' is " +
-                     (scene_.is_explicit() ? "explicit" : "quasi-static"));
+                     name_of_scheme());
+  }
+  std::string name_of_scheme() const {
+    return scene_.is_explicit() ? "explicit" : scene_.is_dynamic() ? "implicit dynamics" : "quasi-static";
   }
   static std::string in(const SceneFile::Path &path) {
     std::string names;
@@ -235,8 +245,8 @@ private:
   void require(const bool is_there, const SceneFile::Path &path, const std::string &key) const {
     if (!is_there)
       throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + ": found '" +
-                       file_.value(path, key, "0") +
-                       "', allowed is a number > 0, since the scheme is explicit");
+                       file_.value(path, key, "0") + "', allowed is a number > 0, since the scheme is " +
+                       name_of_scheme());
   }
 
   const Scene &scene_;
@@ -271,6 +281,9 @@ Scene Scene::read(const std::string &file_name) {
   scene.pairs = parse_named<ContactPair>(reader, "Contact pairs");
   reader.in("Time stepping", [&] { scene.time_stepping.parse(reader); });
   reader.in("Explicit dynamics", [&] { scene.explicit_dynamics.parse(reader); });
+  reader.in("Implicit dynamics", [&] {
+    scene.implicit_dynamics.parse(reader, scene.time_stepping.control == TimeStepping::Control::fixed);
+  });
   reader.in("Solver", [&] { scene.solver.parse(reader); });
   reader.in("Output", [&] { scene.output.parse(reader); });
 

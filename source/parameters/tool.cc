@@ -38,13 +38,13 @@ void Motion::declare(ParameterHandler &prm) {
       "Expression of t and the names of amplitudes. Unless empty, the tool stops for good where it presses "
       "along the force direction with this force. [force]");
   prm.declare_entry("Mass", "0", Patterns::Double(),
-                    "Of a tool with a force, in explicit scenes: > 0. Without a force a heavy tool flies on: "
+                    "Of a tool with a force, in dynamic scenes: > 0. Without a force a heavy tool flies on: "
                     "'Force = 0'. [mass]");
   prm.declare_entry("Moment of inertia", "0", Patterns::Double(),
-                    "Of a tool with a moment, in explicit scenes: > 0, about its axis. [mass length^2]");
+                    "Of a tool with a moment, in dynamic scenes: > 0, about its axis. [mass length^2]");
   prm.declare_entry(
       "Initial speed", "0", Patterns::Double(),
-      "Of a tool with a force or moment, in explicit scenes: along the force direction, or about "
+      "Of a tool with a force or moment, in dynamic scenes: along the force direction, or about "
       "its axis, on top of its translation and rotation. [length/time, or radians/time]");
   prm.declare_entry(
       "Removed at", "", Patterns::Anything(),

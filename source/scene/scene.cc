@@ -192,6 +192,21 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
                      ": found 'MUMPS symmetric', but this scene's contact "
                      "tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, or a symmetrised 'Contact tangent'");
+  if (parameters.is_dynamic() && !parameters.is_explicit())
+    allow_for_pressure();
+}
+
+void Scene::allow_for_pressure() {
+  // The stiffness of a pressure that follows its faces is unsymmetric where it has a free border.
+  for (const auto &body : bodies_)
+    for (const auto &load : body.loads)
+      if (load.kind == Load::Kind::pressure) {
+        capabilities_.unsymmetric_matrix = true;
+        const auto &solver = parameters_.solver.linear_solver;
+        if (solver.value == parameters::Solver::LinearSolver::mumps_symmetric)
+          throw InputError(solver.origin + ": found 'MUMPS symmetric', but the pressure on body '" +
+                           body.name + "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU");
+      }
 }
 
 void Scene::make_pairs() {
@@ -251,7 +266,7 @@ void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) 
   }
   merge_bodies(pointers, mesh);
   check_boundary_ids(mesh, detail);
-  if (!parameters_.is_explicit())
+  if (!parameters_.is_dynamic())
     check_supports(mesh);
   check_initial_penetration(mesh);
 }
@@ -338,7 +353,9 @@ void Scene::describe(std::ostream &stream) const {
                                                                                 : ", fixed steps of ")
            << stepping.initial_step << "\n";
   stream << "Elements       " << n_elements << " in all, "
-         << (parameters_.is_explicit() ? "dynamic, explicit\n" : "quasi-static, implicit\n");
+         << (parameters_.is_explicit()  ? "dynamic, explicit\n"
+             : parameters_.is_dynamic() ? "dynamic, implicit\n"
+                                        : "quasi-static, implicit\n");
   stream << "Plasticity     " << yes_no(capabilities_.plasticity) << "\n";
   stream << "Contact        " << yes_no(capabilities_.contact) << "\n";
   stream << "Friction       " << yes_no(capabilities_.friction) << "\n";

@@ -65,16 +65,19 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   });
   state_.displacements = u_n_;
   choose_unknown_tools({});
-  if (body_contacts_.empty())
-    return;
-  for (auto &contact : contacts_)
-    contact.update(state_.displacements);
-  for (auto &contact : body_contacts_) {
-    contact->update(state_.displacements, 0.);
-    contact->allow_overlap();
+  if (!body_contacts_.empty()) {
+    for (auto &contact : contacts_)
+      contact.update(state_.displacements);
+    for (auto &contact : body_contacts_) {
+      contact->update(state_.displacements, 0.);
+      contact->allow_overlap();
+    }
+    if (!scene.parameters().is_dynamic())
+      check_freedom();
+    build_matrix();
   }
-  check_freedom();
-  build_matrix();
+  if (scene.parameters().is_dynamic())
+    start_motion();
 }
 
 void QuasiStatic::build_matrix() {
@@ -186,12 +189,16 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
   for (std::size_t tool = 0; tool < fading_forces_.size(); ++tool)
     if (fading_forces_[tool])
       total.add(fading(time_, tool), *fading_forces_[tool]);
+  if (motion_)
+    force_scale_ = std::max(force_scale_, motion_->add_loads(time_, trial_, total));
   support_forces_ = total;
+  if (motion_)
+    force_scale_ = std::max(force_scale_, motion_->complete(support_forces_n_, total));
   condense(total);
   const Epetra_Vector &values = as_epetra(total);
   std::copy(values.Values(), values.Values() + values.MyLength(), residual.Values());
   for (std::size_t k = 0; k < unknown_tools_.size(); ++k) {
-    const double excess = excess_load(unknown_tools_[k], time_) / unit_of(unknown_tools_[k]);
+    const double excess = imbalance(unknown_tools_[k], time_) / unit_of(unknown_tools_[k]);
     if (values.MyLength() + static_cast<int>(k) < residual.MyLength()) // on the rank that has it
       residual[values.MyLength() + static_cast<int>(k)] = excess;
   }
@@ -218,6 +225,8 @@ bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yie
   }
   for (const auto &contact : body_contacts_)
     contact->add_tangent(system, scene_.contact_tangent());
+  if (motion_)
+    motion_->add_tangent(time_, {supports_.homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
   assemble_tool_tangent();
   return direct_->factorize();
@@ -329,7 +338,7 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
   rhs *= -1.;
   std::vector<double> load_rhs, offset_changes(unknown_tools_.size());
   for (const std::size_t tool : unknown_tools_)
-    load_rhs.push_back(-excess_load(tool, t) / unit_of(tool));
+    load_rhs.push_back(-imbalance(tool, t) / unit_of(tool));
   Vector pushes = discretization_.make_additive_vector(), lift = pushes;
   for (const auto &contact : contacts_)
     contact.add_tool_push(place(contact.tool(), t, offsets_n_[contact.tool()]), pushes);
@@ -362,6 +371,8 @@ void QuasiStatic::start_step(const double t) {
   duration_ = t - state_.time;
   for (auto &contact : body_contacts_)
     contact->start_step(state_.time, t);
+  if (motion_)
+    motion_->start_step(state_.time, t, u_n_, offsets_n_);
   for (auto &contact : contacts_) {
     const std::size_t tool = contact.tool();
     contact.start_step(state_.placements[tool], place(tool, t, offsets_[tool]), t - state_.time);
@@ -383,11 +394,15 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
       pressing.push_back(i);
   }
   choose_unknown_tools(pressing);
+  const bool extrapolates =
+      scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;
   const bool needs_no_solution =
-      previous_step > 0. && (stay_at_rest(t) || (scene_.parameters().solver.predictor ==
-                                                     parameters::Solver::Predictor::extrapolation &&
-                                                 continue_increment(t, previous_step)));
+      motion_
+          ? extrapolates && extrapolate_motion(t)
+          : previous_step > 0. && (stay_at_rest(t) || (extrapolates && continue_increment(t, previous_step)));
   NewtonIteration linear_step{};
+  if (motion_)
+    motion_->start_step(state_.time, t, u_n_, offsets_n_);
   const bool has_guess = needs_no_solution || follow_tangent(t, linear_step);
   start_step(t);
   if (!has_guess) {
@@ -422,6 +437,8 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     const Epetra_Vector accepted = pack(x, offsets);
     Epetra_Vector residual(accepted);
     compute_residual(accepted, residual);
+    if (!is_accurate(report))
+      return report;
     commit(t);
     has_lost_pace_ = has_lost_pace_ || !stopping.empty();
     for (const std::size_t tool : stopping)
@@ -487,9 +504,13 @@ void QuasiStatic::commit(const double t) {
   internal_.commit();
 
   // Work of the supports and of the tools, by the trapezoidal rule.
-  Vector mean_support_forces = support_forces_;
-  mean_support_forces += support_forces_n_;
-  state_.energies.external += 0.5 * (mean_support_forces * last_increment_);
+  if (motion_)
+    motion_->commit(u_n_, last_increment_, support_forces_n_, support_forces_, state_.energies);
+  else {
+    Vector mean_support_forces = support_forces_;
+    mean_support_forces += support_forces_n_;
+    state_.energies.external += 0.5 * (mean_support_forces * last_increment_);
+  }
   support_forces_n_ = support_forces_;
 
   const std::vector<ContactLoad> loads_n = state_.tool_loads;
@@ -518,6 +539,8 @@ void QuasiStatic::commit(const double t) {
                (load.moment + loads_n[i].moment) * scene_.tools()[i].rotation_axis() * turn);
     state_.energies.contact += load.stored_energy;
     state_.energies.friction += load.dissipation;
+    if (motion_ && motion_->has_mass(i))
+      motion_->commit_tool(i, offsets_[i], excess_load(i, t), state_.energies);
   }
   state_.time = t;
   state_.displacements = u_n_;
@@ -525,6 +548,8 @@ void QuasiStatic::commit(const double t) {
   state_.energies.elastic = energies.elastic;
   state_.energies.plastic = energies.plastic;
   remove_tools(t);
+  if (motion_)
+    motion_->update_state(state_);
 }
 
 void QuasiStatic::choose_unknown_tools(const std::vector<std::size_t> &tools) {
@@ -580,6 +605,10 @@ double QuasiStatic::excess_load(const std::size_t tool, const double t) const {
          which.load(t);
 }
 
+double QuasiStatic::imbalance(const std::size_t tool, const double t) const {
+  return excess_load(tool, t) + (motion_ ? motion_->tool_inertia(tool, offsets_[tool]) : 0.);
+}
+
 void QuasiStatic::assemble_tool_tangent() {
   const std::size_t n = unknown_tools_.size();
   tool_columns_.assign(n, discretization_.make_owned_vector());
@@ -597,6 +626,9 @@ void QuasiStatic::assemble_tool_tangent() {
     tool_rows_[k] = row;
     condense(tool_columns_[k]);
     tool_block_(k, k) = dealii::Utilities::MPI::sum(slope, discretization_.communicator());
+    if (motion_)
+      tool_block_(k, k) +=
+          motion_->tool_slope(unknown_tools_[k]) / (unit_of(unknown_tools_[k]) * unit_of(unknown_tools_[k]));
   }
 }
 
@@ -674,6 +706,7 @@ double QuasiStatic::fading(const double t, const std::size_t tool) const {
 
 void QuasiStatic::remove_tools(const double t) {
   std::map<std::size_t, std::set<std::string>> let_go; // names of the tools that each body loses now
+  bool forces_jump = false;
   for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
     if (t < scene_.tools()[i].removal_time() || fading_forces_[i])
       continue;
@@ -692,9 +725,17 @@ void QuasiStatic::remove_tools(const double t) {
     state_.energies.external -= state_.tool_loads[i].stored_energy;
     state_.energies.contact -= state_.tool_loads[i].stored_energy;
     has_lost_pace_ = true;
+    if (motion_) {
+      state_.energies.external -= motion_->remove_tool(i);
+      const double jump = 1. - fading(t, i);
+      support_forces_n_.add(-jump, *fading_forces_[i]);
+      forces_jump = forces_jump || jump > 0.;
+    }
   }
+  if (forces_jump)
+    update_accelerations();
   for (const auto &[body, removed] : let_go)
-    if (body_failure_.empty())
+    if (body_failure_.empty() && !motion_)
       body_failure_ = describe_freedom(body, removed);
 }
 

@@ -43,7 +43,7 @@ double StepControl::end_on_grid() const { return grid_start_ + (n_on_grid_ + 1) 
 
 double StepControl::next_step() const { return next_time() - time_; }
 
-void StepControl::accept(const unsigned int n_iterations) {
+void StepControl::accept(const unsigned int n_iterations, const double error) {
   const double taken = next_step();
   time_ = next_time();
   ++n_steps_;
@@ -57,6 +57,9 @@ void StepControl::accept(const unsigned int n_iterations) {
     step_ = std::min(parameters_.largest_step, std::max(step_, taken) * parameters_.growth_factor);
   else if (n_iterations >= parameters_.many_iterations)
     step_ = std::max(parameters_.smallest_step, taken * parameters_.shrink_factor);
+  constexpr double safety = 0.8;
+  if (error > 0.)
+    step_ = std::max(parameters_.smallest_step, std::min(step_, safety / std::cbrt(error) * taken));
 }
 
 bool StepControl::reject() {

@@ -182,6 +182,7 @@ private:
   const Tool &tool_;
   const MPI_Comm communicator_;
   const ContactTangent tangent_;
+  const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;

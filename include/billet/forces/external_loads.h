@@ -3,6 +3,7 @@
 #define BILLET_FORCES_EXTERNAL_LOADS_H
 
 #include "billet/discretization/local_nodes.h"
+#include "billet/discretization/supports.h"
 
 #include <vector>
 
@@ -19,6 +20,12 @@ public:
   /// along a direction d.
   void add_forces(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                   NodalVectors &forces) const;
+
+  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v [force/length]. Of a pressure
+  ///   −∂F_a/∂x_b = ∫ p N_a (N_b,ξ [· × x,η] + N_b,η [x,ξ × ·]) dξdη,
+  /// which is symmetric only where the pressure is uniform and its border held, or none.
+  void add_tangent(double t, const NodalVectors &displacements, double damping_factor,
+                   const TangentSystem &system) const;
 
   /// Adds to bounds at the nodes: on the stiffness [force/length], component 0, and on the damping [force
   /// time/length], component 1.
@@ -45,6 +52,8 @@ private:
     double stiffness, damping; ///< [force/length], [force time/length]
   };
   void add_resistances(const Load &load, std::size_t body);
+  void add_pressure_tangent(const PressedFacet &facet, double pressure, const NodalVectors &displacements,
+                            const TangentSystem &system) const;
 
   const LocalNodes &nodes_;
   std::vector<double> masses_;

@@ -30,6 +30,7 @@ public:
 
 private:
   void write_loads(const SolutionState &state);
+  void write_momenta(const SolutionState &state);
   void end_line();
 
   std::string name_;

@@ -20,13 +20,13 @@ struct Amplitude {
 
 /// Subsection Time stepping.
 struct TimeStepping {
-  enum class Scheme { quasi_static, explicit_dynamics };
+  enum class Scheme { quasi_static, explicit_dynamics, implicit_dynamics };
   enum class Control { automatic, fixed };
 
   Scheme scheme;
   std::vector<double> stops;
   double end_time;
-  // Of quasi-static scenes:
+  // Of implicit scenes, quasi-static or dynamic:
   Control control = Control::automatic;
   double initial_step = 0., smallest_step = 0., largest_step = 0.;
   unsigned int few_iterations = 0, many_iterations = 0;

@@ -4,6 +4,7 @@
 
 #include "billet/parameters/body.h"
 #include "billet/parameters/control.h"
+#include "billet/parameters/implicit_dynamics.h"
 #include "billet/parameters/tool.h"
 
 #include <iosfwd>
@@ -21,6 +22,7 @@ struct Scene {
   std::vector<ContactPair> pairs;
   TimeStepping time_stepping;
   ExplicitDynamics explicit_dynamics;
+  ImplicitDynamics implicit_dynamics;
   Solver solver;
   Output output;
 
@@ -28,6 +30,8 @@ struct Scene {
   static Scene read(const std::string &file_name);
 
   bool is_explicit() const { return time_stepping.scheme == TimeStepping::Scheme::explicit_dynamics; }
+  /// Whether bodies have inertia, in either scheme.
+  bool is_dynamic() const { return time_stepping.scheme != TimeStepping::Scheme::quasi_static; }
   std::size_t body_index(const ContactPair &pair) const;
   std::size_t second_body_index(const ContactPair &pair) const;
   std::size_t tool_index(const ContactPair &pair) const;

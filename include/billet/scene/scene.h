@@ -142,6 +142,7 @@ public:
 
 private:
   void make_pairs();
+  void allow_for_pressure();
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;

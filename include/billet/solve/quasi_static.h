@@ -6,6 +6,7 @@
 #include "billet/contact/rigid_contact.h"
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/direct_solver.h"
+#include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
 #include "billet/solve/solution.h"
 
@@ -21,7 +22,7 @@ namespace billet {
 
 /// Equilibrium of all forces, R = F_int − F_c = 0, step by step: the sum of the parts as one nonlinear
 /// problem, with commit on acceptance and nothing to undo on failure, since the state at the start of a step
-/// is never written to.
+/// is never written to. In scenes of implicit dynamics an ImplicitMotion makes the equation of motion of it.
 class QuasiStatic final : public NonlinearProblem, public Solution {
 public:
   QuasiStatic(const Scene &scene, const Discretization &discretization);
@@ -30,6 +31,9 @@ public:
   /// is the length of the last accepted step if its increment may be continued, 0 else. Throws
   /// SolutionFailure, on all ranks, where the removal of tools has left a body free.
   NewtonReport step(double t, double previous_step);
+
+  /// Of the last step that was tried, in dynamic scenes: see ImplicitMotion::step_error().
+  double time_error() const { return time_error_; }
 
   /// Moves the tools to where they are at `t`; residuals and tangents are those of the step that ends there.
   void start_step(double t);
@@ -53,7 +57,9 @@ public:
   bool compute_tangent(const Epetra_Vector &x) override;
   bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx) override;
   double force_scale() const override { return force_scale_; }
-  double round_off_force() const override { return round_off_force_; }
+  double round_off_force() const override {
+    return round_off_force_ + (motion_ ? motion_->round_off_force() : 0.);
+  }
 
 private:
   void build_matrix();
@@ -67,6 +73,14 @@ private:
   // one linear step from the last state, into which the motion of tools and supports is put; false where it
   // has no solution:
   bool follow_tangent(double t, NewtonIteration &iteration);
+  // in dynamic scenes, the motion at constant acceleration; false where it leads farther from balance than to
+  // stay:
+  bool extrapolate_motion(double t);
+
+  // Of dynamic scenes; at the start, and where forces jump:
+  void start_motion();
+  void update_accelerations();
+  bool is_accurate(NewtonReport &report);
 
   bool assemble_tangent(const TangentSystem &system, double yield_slack = 0.);
   bool all_ranks(bool success) const;
@@ -82,6 +96,8 @@ private:
   double unit_of(std::size_t tool) const;
   /// What the tool exerts along its direction, or about its axis, less what it should: zero in equilibrium.
   double excess_load(std::size_t tool, double t) const;
+  /// With the inertia of a heavy tool.
+  double imbalance(std::size_t tool, double t) const;
   RigidContact::ToolRate rate_of(std::size_t tool) const;
   void assemble_tool_tangent();
   /// K du + B ds = r_u, C du + D ds = r_s by elimination of du. A tool that touches nothing goes on until it
@@ -113,6 +129,7 @@ private:
   std::vector<RigidContact> contacts_;
   std::unique_ptr<LocalNodes> nodes_; ///< only with contact between bodies
   std::vector<std::unique_ptr<BodyContact>> body_contacts_;
+  std::unique_ptr<ImplicitMotion> motion_; ///< none in statics
 
   Matrix matrix_;
   std::unique_ptr<DirectSolver> direct_;
@@ -124,6 +141,7 @@ private:
 
   double time_ = 0.;                        ///< end of the step that is tried
   double duration_ = 0.;                    ///< of that step; 0 while its first guess is made
+  double time_error_ = 0.;
   std::vector<double> offsets_, offsets_n_; ///< of all tools, beyond their prescribed motion
   std::vector<double> last_offset_increments_;
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step

@@ -21,9 +21,12 @@ struct EnergyLedger {
   double friction = 0.;  ///< dissipated
   double viscous = 0.;   ///< dissipated by bulk viscosity
   double hourglass = 0.; ///< stored in, and dissipated by, hourglass control
+  double numerical = 0.; ///< dissipated by implicit time integration
   double external = 0.;  ///< work of tools, prescribed displacements and loads
 
-  double total() const { return kinetic + elastic + plastic + contact + friction + viscous + hourglass; }
+  double total() const {
+    return kinetic + elastic + plastic + contact + friction + viscous + hourglass + numerical;
+  }
   double drift() const { return initial + external - total(); }
 };
 
@@ -31,12 +34,12 @@ struct EnergyLedger {
 struct SolutionState {
   double time = 0.;
   Vector displacements; ///< ghosted
-  Vector velocities;    ///< ghosted; of explicit scenes, else empty
+  Vector velocities;    ///< ghosted; of dynamic scenes, else empty
   std::vector<ContactLoad> tool_loads;
   std::vector<Placement> placements;
   std::vector<ContactLoad> body_pair_loads; ///< on the first body
   EnergyLedger energies;
-  dealii::Tensor<1, 3> momentum, angular_momentum; ///< of explicit scenes, about the origin
+  dealii::Tensor<1, 3> momentum, angular_momentum; ///< of dynamic scenes, about the origin
 };
 
 /// What output may ask of a scene that is being solved.

@@ -25,7 +25,9 @@ public:
   /// End of that step; exact where it is the end time or an output time.
   double next_time() const;
 
-  void accept(unsigned int n_iterations);
+  /// `error`: that of the step's time integration, as part of what is allowed; it falls with the third power
+  /// of the step. 0: does not count.
+  void accept(unsigned int n_iterations, double error = 0.);
 
   /// Cuts the step. False if that is not allowed: steps are fixed, or it would fall below the smallest one.
   bool reject();

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_ELEMENT_MASS_H
+#define BILLET_MECHANICS_ELEMENT_MASS_H
+
+#include "billet/mechanics/mean_dilatation.h"
+
+namespace billet {
+
+/// Row-major 8 × 8, the same for each of the three directions [mass].
+using ElementMass = std::array<double, std::size_t{n_element_nodes} * n_element_nodes>;
+
+/// The consistent mass matrix ρ ∫ N_a N_b dV of the undeformed element, by its 2 × 2 × 2 points: exact for
+/// parallelepipeds; its row sums ρ ∫ N_a dV are exact for every trilinear hexahedron.
+ElementMass compute_element_mass(const ReferenceElement &element, double density);
+
+/// Puts each row's sum on the diagonal: the masses of explicit dynamics.
+void lump(ElementMass &mass);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_IMPLICIT_DYNAMICS_H
+#define BILLET_PARAMETERS_IMPLICIT_DYNAMICS_H
+
+#include "billet/parameters/reader.h"
+
+namespace billet::parameters {
+
+/// Subsection Implicit dynamics.
+struct ImplicitDynamics {
+  enum class Method { newmark, hilber_hughes_taylor, generalised_alpha };
+  enum class Mass { consistent, lumped };
+
+  Method method;
+  double beta, gamma;     ///< of Newmark's method
+  double alpha;           ///< of Hilber, Hughes and Taylor's
+  double spectral_radius; ///< of the generalised-alpha method
+  Mass mass;
+  double error_tolerance;        ///< of a step, part of the displacement; 0: none
+  double reference_displacement; ///< 0: the largest so far
+
+  static void declare(dealii::ParameterHandler &prm);
+  /// `steps_are_fixed`: an error tolerance has no use.
+  void parse(Reader &reader, bool steps_are_fixed);
+};
+
+} // namespace billet::parameters
+
+#endif

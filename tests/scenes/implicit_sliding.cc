@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A block that slides on a rigid plane stops after v²/(2 μ g), and friction takes all of its kinetic energy;
+// the same on any number of ranks.
+#include "implicit_run.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdlib>
+#include <iomanip>
+
+using namespace billet;
+using billet::testing::SceneRun;
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  constexpr double friction = 0.25, gravity = 4000., full_weight = 2.5e-3;
+  SceneRun run(testing::read_test_scene("implicit_sliding.prm"));
+  const SolutionState &state = run.problem.state();
+  const double initial = state.energies.kinetic;
+  double start = 0., speed = 0., drift = 0.;
+  run.finish([&](const NewtonReport &) {
+    const auto u = testing::mean_of_body(run, state.displacements);
+    const auto v = testing::mean_of_body(run, state.velocities);
+    if (std::abs(state.time - full_weight) < 1e-9) {
+      start = u[0];
+      speed = v[0];
+    }
+    drift = std::max(drift, std::abs(state.energies.drift()) / initial);
+  });
+  const double way = testing::mean_of_body(run, state.displacements)[0] - start;
+  if (!testing::is_first_rank())
+    return testing::exit_code();
+  const auto check = [](const auto &...arguments) { testing::check(arguments...); };
+  if (std::getenv("SHOW") != nullptr)
+    std::cout << speed << " " << way << " " << way / (speed * speed / (2. * friction * gravity)) << " "
+              << state.energies.kinetic / initial << " " << state.energies.friction / initial << " "
+              << state.energies.numerical / initial << " " << drift << " " << run.n_iterations << std::endl;
+  check("slides fast where it is measured", speed > 3.);
+  check("way", std::abs(way / (speed * speed / (2. * friction * gravity)) - 1.), 0.005);
+  check("comes to rest", state.energies.kinetic / initial, 1e-3);
+  check("friction takes the energy", std::abs(state.energies.friction / initial - 1.), 0.005);
+  check("energy", drift, 5e-3);
+  std::cout << std::setprecision(6) << "way " << way << "\nfriction " << state.energies.friction
+            << "\nnumerical dissipation " << state.energies.numerical << std::endl;
+  return testing::exit_code();
+}

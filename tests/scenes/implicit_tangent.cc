@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The tangent of implicit dynamics against central differences of the residual: inertia, a pressure that
+// follows its faces, springs, dashpots, contact with friction on a heavy tool whose travel is unknown,
+// supports that move.
+#include "tangent_check.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+parameters::Load make_load(const parameters::Load::Kind kind, const unsigned int id) {
+  parameters::Load load{};
+  load.name = "load";
+  load.kind = kind;
+  load.boundary_ids.value = {id};
+  load.acceleration.value = {"0.1", "0", "-t"};
+  load.pressure.value = "20*t*(1 + x)";
+  load.coefficient = kind == parameters::Load::Kind::spring ? 300. : 30.;
+  return load;
+}
+
+parameters::Scene make_scene() {
+  parameters::Scene scene =
+      testing::make_curved({"sphere", "set Centre = 0.45, 0.55, -5\nset Radius = 5"}, 0.2);
+  scene.time_stepping.scheme = parameters::TimeStepping::Scheme::implicit_dynamics;
+  auto &body = scene.bodies[0];
+  body.material.density.value = 10.;
+  body.supports[0].displacement.value = {"0.04*t", "0.03*t^2 - 0.01*z*t", "-0.08*t"};
+  body.initial_velocity.value = {"0.04", "0", "-0.08*z"};
+  using Kind = parameters::Load::Kind;
+  body.loads.push_back(make_load(Kind::acceleration, 0));
+  body.loads.back().boundary_ids.value.clear();
+  body.loads.push_back(make_load(Kind::pressure, 0));
+  body.loads.push_back(make_load(Kind::spring, 1));
+  body.loads.push_back(make_load(Kind::spring, 2));
+  body.loads.back().direction = parameters::Load::Direction::normal;
+  body.loads.push_back(make_load(Kind::dashpot, 3));
+  body.loads.push_back(make_load(Kind::dashpot, 2));
+  body.loads.back().direction = parameters::Load::Direction::vector;
+  body.loads.back().vector = dealii::Tensor<1, 3>({0.6, 0., 0.8});
+  return scene;
+}
+
+void check_scene(const std::string &name, const parameters::Scene &scene) {
+  SceneRun run(scene);
+  check(name, testing::tangent_error(run, 0.75, 3), 1e-6);
+  bool touches = false;
+  for (const auto &node : run.problem.contacts()[0].report())
+    touches = touches || node.status != ContactStatus::open;
+  check("  touches", touches);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  parameters::Scene scene = make_scene();
+  check_scene("generalised-alpha", scene);
+  scene.implicit_dynamics.method = parameters::ImplicitDynamics::Method::hilber_hughes_taylor;
+  scene.implicit_dynamics.alpha = -0.2;
+  scene.implicit_dynamics.mass = parameters::ImplicitDynamics::Mass::lumped;
+  check_scene("HHT, lumped mass", scene);
+
+  auto &motion = scene.tools[0].motion;
+  motion.control = parameters::Motion::Control::force;
+  motion.load.value = "1 + 5*t";
+  motion.direction = dealii::Tensor<1, 3>({0., 0.6, 0.8});
+  motion.inertia = 3.;
+  check_scene("heavy tool with a force", scene);
+  motion.control = parameters::Motion::Control::moment;
+  motion.load.value = "0.3*t";
+  check_scene("heavy tool with a moment", scene);
+  return testing::exit_code();
+}
