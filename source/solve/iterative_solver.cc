@@ -13,6 +13,7 @@
 #include <ml_MultiLevelPreconditioner.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -115,7 +116,7 @@ public:
         }
         ++k;
       });
-      if (now > before * (1. + 1e-12)) {
+      if (before > 0. && now > before * (1. + 1e-12)) {
         ratio += (now - before) / before;
         n += 1.;
       }
@@ -332,9 +333,10 @@ bool IterativeSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const doub
   for (unsigned int attempt = 0; relative_residual_ > relative_tolerance && attempt < 3 && left > 0;
        ++attempt) {
     const double before = relative_residual_;
-    AztecOO solver(const_cast<Epetra_CrsMatrix *>(matrix_),
-                   &x,                               // NOLINT(cppcoreguidelines-pro-type-const-cast)
-                   const_cast<Epetra_Vector *>(&b)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    // Aztec takes non-const pointers, but changes neither the matrix nor the right-hand side.
+    auto *matrix = const_cast<Epetra_CrsMatrix *>(matrix_); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    auto *rhs = const_cast<Epetra_Vector *>(&b);            // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    AztecOO solver(matrix, &x, rhs);
     solver.SetAztecOption(AZ_output, AZ_none);
     solver.SetAztecOption(AZ_diagnostics, AZ_none);
     solver.SetPrecOperator(multigrid_.get());

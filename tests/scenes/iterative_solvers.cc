@@ -27,7 +27,8 @@ Result run(const parameters::Scene &parameters) {
     result.notes += report.note;
   });
   result.iterations = scene.n_iterations;
-  result.force = scene.load().force.norm();
+  result.force = scene.scene.tools().empty() ? scene.problem.state().body_pair_loads[0].force.norm()
+                                             : scene.load().force.norm();
   for (const auto dof : scene.discretization.owned_dofs())
     result.displacements.push_back(scene.problem.state().displacements(dof));
   return result;
@@ -93,5 +94,10 @@ int main(int argc, char *argv[]) {
   compare("billet, GMRES", billet, Kind::gmres);
   billet.pairs[0].friction_coefficient = 0.;
   compare("frictionless billet, CG", billet, Kind::conjugate_gradients);
+  // The dofs in contact as a block.
+  parameters::Scene blocks = parameters::Scene::read(std::string(SOURCE_DIR) + "/pressed_blocks.prm");
+  compare("two blocks, GMRES", blocks, Kind::gmres);
+  blocks.pairs[0].friction_coefficient = 0.;
+  compare("two blocks without friction, CG", blocks, Kind::conjugate_gradients);
   return billet::testing::exit_code();
 }
