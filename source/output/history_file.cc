@@ -25,7 +25,7 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
     throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be written");
   const bool is_explicit = scene.parameters().is_explicit(), is_dynamic = scene.parameters().is_dynamic();
   stream_ << "step,time,step_length"
-          << (is_explicit ? "" : ",iterations,residual,total_iterations,total_cuts");
+          << (is_explicit ? "" : ",iterations,residual,total_iterations,total_cuts,linear_iterations");
   for (const auto &tool : scene.tools())
     for (const char *quantity :
          {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "contact_area",
@@ -50,7 +50,7 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
 void HistoryFile::write(const StepReport &report, const SolutionState &state) {
   stream_ << report.step << "," << state.time << "," << report.length << ","
           << report.newton.iterations.size() << "," << report.newton.force << "," << report.total_iterations
-          << "," << report.total_cuts;
+          << "," << report.total_cuts << "," << report.newton.linear_iterations;
   write_loads(state);
   const EnergyLedger &energies = state.energies;
   const bool is_dynamic = state.velocities.size() > 0;

@@ -36,6 +36,7 @@ double Progress::elapsed() const {
 void Progress::start(const Discretization &discretization, const Solution &solution) {
   if (verbosity_ == Verbosity::quiet)
     return;
+  shows_linear_iterations_ = solution.solves_iteratively();
   const auto histories = solution.history_sizes();
   if (!scene_.parameters().title.empty())
     stream_ << scene_.parameters().title << "\n";
@@ -71,16 +72,20 @@ void Progress::accept(const StepReport &report, const SolutionState &state) {
   erase_bar();
   if (verbosity_ == Verbosity::iterations)
     show_iterations(report.newton);
+  stream_ << report.newton.note;
   if (n_lines_++ % 40 == 0) {
-    stream_ << "  step        time        step iter   residual";
+    stream_ << "  step        time        step iter" << (shows_linear_iterations_ ? " linear" : "")
+            << "   residual";
     for (const auto &tool : scene_.tools())
       stream_ << std::setw(14) << ("|F| " + tool.name()).substr(0, 13);
     stream_ << "   plastic work\n";
   }
   stream_ << std::setw(6) << report.step << std::setw(12) << std::setprecision(6) << state.time
           << std::setw(12) << std::setprecision(4) << report.length << std::setw(5)
-          << report.newton.iterations.size() << std::setw(11) << std::setprecision(2) << report.newton.force
-          << std::setprecision(7);
+          << report.newton.iterations.size();
+  if (shows_linear_iterations_)
+    stream_ << std::setw(7) << report.newton.linear_iterations;
+  stream_ << std::setw(11) << std::setprecision(2) << report.newton.force << std::setprecision(7);
   for (const auto &load : state.tool_loads)
     stream_ << std::setw(14) << load.force.norm();
   stream_ << std::setw(15) << state.energies.plastic << "\n";
@@ -121,6 +126,7 @@ void Progress::reject(const StepReport &report, const double from, const double 
   erase_bar();
   if (verbosity_ == Verbosity::iterations)
     show_iterations(report.newton);
+  stream_ << report.newton.note;
   stream_ << "       step from " << std::setprecision(6) << from << " to " << to << " failed ("
           << report.newton.failure << ", residual " << std::setprecision(2) << report.newton.force << ")"
           << std::endl;

@@ -188,7 +188,9 @@ const std::vector<std::pair<std::string, Solver::LinearSolver>> linear_solver_na
     {"automatic", Solver::LinearSolver::automatic},
     {"MUMPS symmetric", Solver::LinearSolver::mumps_symmetric},
     {"MUMPS", Solver::LinearSolver::mumps},
-    {"KLU", Solver::LinearSolver::klu}};
+    {"KLU", Solver::LinearSolver::klu},
+    {"CG", Solver::LinearSolver::conjugate_gradients},
+    {"GMRES", Solver::LinearSolver::gmres}};
 
 } // namespace
 
@@ -224,9 +226,20 @@ void Solver::declare(ParameterHandler &prm) {
       "motion of tools and supports is put, as is done anyway at the start, after a cut, and "
       "where tools or supports change "
       "their pace.");
-  prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
-                    "Direct solvers. automatic: MUMPS, its symmetric form where the matrix is symmetric; KLU "
-                    "runs on one rank at a time and is slow.");
+  prm.declare_entry(
+      "Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
+      "Direct: MUMPS, its symmetric form, KLU, which runs on one rank at a time and is slow. "
+      "Iterative, with multigrid: CG, for symmetric matrices, and GMRES. automatic: a direct one "
+      "for scenes that are small or yield, as long as the machine's memory lets it.");
+  prm.declare_entry(
+      "Forcing", "Eisenstat-Walker", Patterns::Selection("Eisenstat-Walker|fixed"),
+      "How exactly iterative solvers solve. Eisenstat-Walker: the closer the better Newton's "
+      "method goes (Eisenstat & Walker 1996, choice 2); fixed: always to the linear tolerance.");
+  prm.declare_entry("Linear tolerance", "1e-6", Patterns::Double(),
+                    "Of iterative solvers: residual over right-hand side, > 0 and < 1; with Eisenstat-Walker "
+                    "the smallest that is asked for.");
+  prm.declare_entry("Most linear iterations", "200", Patterns::Integer(0),
+                    "An iterative solver that needs more leaves the matrix to a direct one.");
 }
 
 void Solver::parse(Reader &reader) {
@@ -240,6 +253,16 @@ void Solver::parse(Reader &reader) {
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
   predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
   linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));
+  forcing = reader.text("Forcing") == "fixed" ? Forcing::fixed : Forcing::eisenstat_walker;
+  linear_tolerance = reader.positive("Linear tolerance");
+  if (linear_tolerance >= 1.)
+    reader.reject("Linear tolerance", "a number > 0 and < 1");
+  most_linear_iterations = reader.count("Most linear iterations", 1);
+  if (linear_solver.value == LinearSolver::mumps || linear_solver.value == LinearSolver::mumps_symmetric ||
+      linear_solver.value == LinearSolver::klu)
+    for (const std::string key : {"Forcing", "Linear tolerance", "Most linear iterations"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value: the linear solver is direct");
 }
 
 void Output::declare(ParameterHandler &prm) {

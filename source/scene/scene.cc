@@ -186,12 +186,14 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
       (contact_tangent_ == Tangent::exact || contact_tangent_ == Tangent::numerical ||
        (capabilities_.friction &&
         (contact_tangent_ == Tangent::consistent || contact_tangent_ == Tangent::continuum)));
+  using LinearSolver = parameters::Solver::LinearSolver;
+  const LinearSolver solver = parameters.solver.linear_solver.value;
   if (capabilities_.unsymmetric_matrix &&
-      parameters.solver.linear_solver.value == parameters::Solver::LinearSolver::mumps_symmetric)
-    throw InputError(parameters.solver.linear_solver.origin +
-                     ": found 'MUMPS symmetric', but this scene's contact "
-                     "tangent is unsymmetric; "
-                     "allowed are automatic, MUMPS, KLU, or a symmetrised 'Contact tangent'");
+      (solver == LinearSolver::mumps_symmetric || solver == LinearSolver::conjugate_gradients))
+    throw InputError(parameters.solver.linear_solver.origin + ": found '" +
+                     (solver == LinearSolver::conjugate_gradients ? "CG" : "MUMPS symmetric") +
+                     "', but this scene's contact tangent is unsymmetric; "
+                     "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
   if (parameters.is_dynamic() && !parameters.is_explicit())
     allow_for_pressure();
 }
@@ -203,9 +205,12 @@ void Scene::allow_for_pressure() {
       if (load.kind == Load::Kind::pressure) {
         capabilities_.unsymmetric_matrix = true;
         const auto &solver = parameters_.solver.linear_solver;
-        if (solver.value == parameters::Solver::LinearSolver::mumps_symmetric)
-          throw InputError(solver.origin + ": found 'MUMPS symmetric', but the pressure on body '" +
-                           body.name + "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU");
+        using Kind = parameters::Solver::LinearSolver;
+        if (solver.value == Kind::mumps_symmetric || solver.value == Kind::conjugate_gradients)
+          throw InputError(solver.origin + ": found '" +
+                           (solver.value == Kind::conjugate_gradients ? "CG" : "MUMPS symmetric") +
+                           "', but the pressure on body '" + body.name +
+                           "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU, GMRES");
       }
 }
 

@@ -18,7 +18,7 @@ namespace billet {
 namespace {
 
 /// Trilinos' interface to direct solvers: KLU, which it always has.
-class AmesosSolver final : public DirectSolver {
+class AmesosSolver final : public LinearSolver {
 public:
   AmesosSolver(const std::string &amesos_name, const Epetra_CrsMatrix &matrix) : name_(amesos_name) {
     // Amesos takes non-const pointers, but changes neither the matrix nor the right-hand side.
@@ -48,7 +48,7 @@ public:
     return true;
   }
 
-  bool solve(const Epetra_Vector &b, Epetra_Vector &x) override {
+  bool solve(const Epetra_Vector &b, Epetra_Vector &x, double) override {
     problem_.SetLHS(&x);
     problem_.SetRHS(const_cast<Epetra_Vector *>(&b)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
     if (solver_->Solve() != 0) {
@@ -69,7 +69,7 @@ private:
 
 /// MUMPS itself: in its symmetric indefinite form, LDLᵀ of the upper triangle, which Amesos does not offer, or
 /// LU of the whole, with more memory where its guess was too small, which Amesos does not do.
-class MumpsSolver final : public DirectSolver {
+class MumpsSolver final : public LinearSolver {
 public:
   MumpsSolver(const bool is_symmetric, const Epetra_CrsMatrix &matrix, MPI_Comm communicator)
       : is_symmetric_(is_symmetric), matrix_(matrix), communicator_(communicator) {
@@ -110,7 +110,7 @@ public:
     return false;
   }
 
-  bool solve(const Epetra_Vector &b, Epetra_Vector &x) override {
+  bool solve(const Epetra_Vector &b, Epetra_Vector &x, double) override {
     // The right-hand side is gathered on the first rank, which owns the first rows.
     std::vector<double> whole(rank_ == 0 ? static_cast<std::size_t>(matrix_.NumGlobalRows()) : 0);
     MPI_Gatherv(b.Values(), n_local_rows_, MPI_DOUBLE, whole.data(), counts_.data(), offsets_.data(),
@@ -123,6 +123,9 @@ public:
   }
 
   std::string name() const override { return is_symmetric_ ? "MUMPS (symmetric)" : "MUMPS (unsymmetric)"; }
+  double memory() const override {
+    return 1e6 * mumps_.infog[18];
+  } // INFOG(19): allocated on all ranks, in 1e6 bytes
 
 private:
   static constexpr int job_initialize = -1, job_end = -2, job_analyze = 1, job_factorize = 2, job_solve = 3;
@@ -196,7 +199,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<DirectSolver> make_direct_solver(const parameters::Solver::LinearSolver kind,
+std::unique_ptr<LinearSolver> make_direct_solver(const parameters::Solver::LinearSolver kind,
                                                  const bool symmetric, const Epetra_CrsMatrix &matrix,
                                                  MPI_Comm communicator) {
   using Kind = parameters::Solver::LinearSolver;

@@ -32,14 +32,16 @@ const Epetra_Vector &epetra(const NOX::Abstract::Vector &vector) {
 /// The problem as NOX sees it: a point x with what has been computed there.
 class Group final : public NOX::Abstract::Group {
 public:
-  Group(NonlinearProblem &problem, const Epetra_Vector &x)
-      : problem_(&problem), x_(rcp(new NOX::Epetra::Vector(x, NOX::DeepCopy))),
+  /// `force_tolerance`: a residual that is this part of the force scale is good enough.
+  Group(NonlinearProblem &problem, const double force_tolerance, const Epetra_Vector &x)
+      : problem_(&problem), force_tolerance_(force_tolerance),
+        x_(rcp(new NOX::Epetra::Vector(x, NOX::DeepCopy))),
         f_(rcp(new NOX::Epetra::Vector(x, NOX::ShapeCopy))),
         newton_(rcp(new NOX::Epetra::Vector(x, NOX::ShapeCopy))) {}
 
   Group(const Group &other, const NOX::CopyType type)
-      : NOX::Abstract::Group(), problem_(other.problem_), x_(rcp(new NOX::Epetra::Vector(*other.x_, type))),
-        f_(rcp(new NOX::Epetra::Vector(*other.f_, type))),
+      : NOX::Abstract::Group(), problem_(other.problem_), force_tolerance_(other.force_tolerance_),
+        x_(rcp(new NOX::Epetra::Vector(*other.x_, type))), f_(rcp(new NOX::Epetra::Vector(*other.f_, type))),
         newton_(rcp(new NOX::Epetra::Vector(*other.newton_, type))) {
     if (type == NOX::DeepCopy)
       copy_flags(other);
@@ -76,10 +78,14 @@ public:
       has_tangent_ = problem_->compute_tangent(x_->getEpetraVector());
     return has_tangent_ ? NOX::Abstract::Group::Ok : NOX::Abstract::Group::Failed;
   }
-  ReturnType computeNewton(Teuchos::ParameterList &) override {
+  ReturnType computeNewton(Teuchos::ParameterList &options) override {
     if (!has_newton_) {
+      // No closer than what would end the iterations (Kelley, Iterative Methods for Linear and Nonlinear
+      // Equations, 1995, eq. 6.20).
+      const double enough = f_->norm() > 0. ? 0.5 * force_tolerance_ * scale_ / f_->norm() : 0.;
+      const double tolerance = std::min(0.1, std::max(options.get("Tolerance", 0.), enough));
       has_newton_ = has_f_ && has_tangent_ &&
-                    problem_->solve_tangent(f_->getEpetraVector(), newton_->getEpetraVector());
+                    problem_->solve_tangent(f_->getEpetraVector(), newton_->getEpetraVector(), tolerance);
       newton_->scale(-1.);
     }
     return has_newton_ ? NOX::Abstract::Group::Ok : NOX::Abstract::Group::Failed;
@@ -112,6 +118,7 @@ private:
   }
 
   NonlinearProblem *problem_;
+  double force_tolerance_;
   RCP<NOX::Epetra::Vector> x_, f_, newton_;
   double scale_ = 0.;
   bool has_f_ = false, has_tangent_ = false, has_newton_ = false;
@@ -281,7 +288,20 @@ RCP<Teuchos::ParameterList> make_options(const parameters::Solver &settings) {
   options->sublist("Printing").set("Output Stream", silence);
   options->sublist("Printing").set("Error Stream", silence);
   options->sublist("Direction").set("Method", "Newton");
-  options->sublist("Direction").sublist("Newton").set("Rescue Bad Newton Solve", false);
+  auto &newton = options->sublist("Direction").sublist("Newton");
+  newton.set("Rescue Bad Newton Solve", false);
+  newton.sublist("Linear Solver").set("Tolerance", settings.linear_tolerance);
+  if (settings.forcing == parameters::Solver::Forcing::eisenstat_walker) {
+    // η_k = γ (|R_k| / |R_{k−1}|)^α, but not below γ η_{k−1}^α while that is above 0.1: Eisenstat & Walker,
+    // SIAM J. Sci. Comput. 17 (1996) 16–32, eq. (2.6). Contact wants a better start than their 0.5.
+    newton.set("Forcing Term Method", "Type 2");
+    newton.set("Forcing Term Initial Tolerance", largest_forcing_term);
+    newton.set("Forcing Term Maximum Tolerance", largest_forcing_term);
+    newton.set("Forcing Term Minimum Tolerance", settings.linear_tolerance);
+    newton.set("Forcing Term Alpha", 2.);
+    newton.set("Forcing Term Gamma", 0.9);
+  } else
+    newton.set("Forcing Term Method", "Constant");
   auto &line_search = options->sublist("Line Search");
   line_search.set("Method", "User Defined");
   RCP<NOX::LineSearch::UserDefinedFactory> factory =
@@ -295,7 +315,7 @@ RCP<Teuchos::ParameterList> make_options(const parameters::Solver &settings) {
 NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings,
                           const Epetra_Vector &x_n, Epetra_Vector &x) {
   NewtonReport report;
-  const RCP<Group> group = rcp(new Group(problem, x));
+  const RCP<Group> group = rcp(new Group(problem, settings.force_tolerance, x));
   if (group->computeF() != NOX::Abstract::Group::Ok) {
     report.failure = "the step's first guess is not admissible (det F <= 0 or not a number)";
     return report;

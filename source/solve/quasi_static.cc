@@ -19,7 +19,29 @@ namespace billet {
 
 namespace {
 
+/// Of the linear step that a step begins with, where the solver is iterative: the iterations mend the rest.
+constexpr double first_guess_tolerance = 1e-3;
+
 Epetra_Vector &as_epetra(Vector &vector) { return *vector.trilinos_vector()(0); }
+
+NodalGeometry collect_geometry(const Discretization &discretization, const Constraints &constraints) {
+  const auto &owned = discretization.owned_dofs();
+  NodalGeometry geometry;
+  geometry.positions.resize(owned.n_elements());
+  geometry.constrained.resize(owned.n_elements());
+  for (const auto &cell : discretization.dof_handler().active_cell_iterators())
+    if (!cell->is_artificial())
+      for (const unsigned int v : cell->vertex_indices())
+        for (unsigned int i = 0; i < 3; ++i) {
+          const DofIndex dof = cell->vertex_dof_index(v, i);
+          if (owned.is_element(dof))
+            geometry.positions[owned.index_within_set(dof)] = cell->vertex(v)[i];
+        }
+  for (const auto &line : constraints.get_lines())
+    if (owned.is_element(line.index))
+      geometry.constrained[owned.index_within_set(line.index)] = true;
+  return geometry;
+}
 
 } // namespace
 
@@ -92,15 +114,22 @@ void QuasiStatic::build_matrix() {
   for (auto &contact : body_contacts_)
     contact->add_couplings(scene_.contact_tangent(), pattern);
   pattern.compress();
-  direct_.reset(); // it refers to the matrix
+  if (linear_) {
+    linear_->release();
+    matrix_.reinit(pattern);
+    linear_->set_matrix(matrix_.trilinos_matrix());
+    return;
+  }
   matrix_.reinit(pattern);
-  direct_ = make_direct_solver(scene_.parameters().solver.linear_solver.value,
-                               !scene_.capabilities().unsymmetric_matrix, matrix_.trilinos_matrix(),
-                               discretization_.communicator());
+  linear_ =
+      std::make_unique<TangentSolver>(scene_.parameters().solver, !scene_.capabilities().unsymmetric_matrix,
+                                      matrix_.trilinos_matrix(), discretization_.communicator());
+  if (linear_->is_iterative())
+    undeformed_ = collect_geometry(discretization_, supports_.homogeneous());
 }
 
 void QuasiStatic::follow_couplings() {
-  bool is_known = direct_ != nullptr;
+  bool is_known = linear_ != nullptr;
   for (const auto &contact : body_contacts_)
     is_known = is_known && !contact->has_new_couplings();
   if (!body_contacts_.empty() && !all_ranks(is_known))
@@ -212,6 +241,28 @@ bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
   return assemble_tangent({supports_.homogeneous(), matrix_});
 }
 
+NodalGeometry QuasiStatic::nodal_geometry() const {
+  NodalGeometry geometry = undeformed_;
+  const Epetra_Vector &displacements = *trial_.trilinos_vector()(0);
+  for (std::size_t i = 0; i < geometry.positions.size(); ++i)
+    geometry.positions[i] += displacements[static_cast<int>(i)];
+  return geometry;
+}
+
+std::vector<int> QuasiStatic::touching_dofs() const {
+  Vector additive = discretization_.make_additive_vector(), forces = discretization_.make_owned_vector();
+  for (const auto &contact : body_contacts_)
+    contact->add_forces(additive);
+  additive.compress(dealii::VectorOperation::add);
+  forces = additive;
+  const Epetra_Vector &values = as_epetra(forces);
+  std::vector<int> dofs;
+  for (int i = 0; i < values.MyLength(); i += 3)
+    if (values[i] != 0. || values[i + 1] != 0. || values[i + 2] != 0.)
+      dofs.insert(dofs.end(), {i, i + 1, i + 2});
+  return dofs;
+}
+
 bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yield_slack) {
   for (auto &contact : body_contacts_)
     contact->update(trial_ghosted_, duration_);
@@ -223,16 +274,23 @@ bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yie
     contact.update(trial_ghosted_);
     contact.add_tangent(system);
   }
+  if (linear_->is_iterative() && !body_contacts_.empty()) {
+    system.matrix.compress(dealii::VectorOperation::add);
+    linear_->start_contact(touching_dofs());
+  }
   for (const auto &contact : body_contacts_)
     contact->add_tangent(system, scene_.contact_tangent());
   if (motion_)
     motion_->add_tangent(time_, {supports_.homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
   assemble_tool_tangent();
-  return direct_->factorize();
+  if (linear_->is_iterative())
+    linear_->set_geometry(nodal_geometry());
+  return linear_->factorize();
 }
 
-bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx) {
+bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx,
+                                const double relative_tolerance) {
   Vector r_u = discretization_.make_owned_vector(), du = r_u;
   Epetra_Vector &r_values = as_epetra(r_u);
   std::copy(residual.Values(), residual.Values() + r_values.MyLength(), r_values.Values());
@@ -241,7 +299,7 @@ bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx
     std::copy(residual.Values() + r_values.MyLength(), residual.Values() + residual.MyLength(), r_s.begin());
   if (!r_s.empty())
     r_s = dealii::Utilities::MPI::broadcast(discretization_.communicator(), r_s, 0);
-  if (!solve_with_tools(r_u, r_s, -1., du, ds)) // what Newton subtracts
+  if (!solve_with_tools(r_u, r_s, -1., relative_tolerance, du, ds)) // what Newton subtracts
     return false;
   const Epetra_Vector &values = as_epetra(du);
   std::copy(values.Values(), values.Values() + values.MyLength(), dx.Values());
@@ -354,7 +412,11 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
   lift.compress(dealii::VectorOperation::add);
   push = lift;
   rhs += push;
-  if (!solve_with_tools(rhs, load_rhs, 1., correction, offset_changes))
+  const parameters::Solver &solver = scene_.parameters().solver;
+  const double relative_tolerance = solver.forcing == parameters::Solver::Forcing::fixed
+                                        ? solver.linear_tolerance
+                                        : std::max(solver.linear_tolerance, first_guess_tolerance);
+  if (!solve_with_tools(rhs, load_rhs, 1., relative_tolerance, correction, offset_changes))
     return false;
   iteration = {1., std::abs(rhs * correction), 1.};
   change.distribute(correction);
@@ -383,6 +445,13 @@ void QuasiStatic::start_step(const double t) {
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
+  NewtonReport report = attempt_step(t, previous_step);
+  report.linear_iterations = linear_->take_iterations();
+  report.note = linear_->take_note();
+  return report;
+}
+
+NewtonReport QuasiStatic::attempt_step(const double t, const double previous_step) {
   NewtonReport report;
   time_ = t;
   tool_failure_.clear();
@@ -407,7 +476,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   start_step(t);
   if (!has_guess) {
     report.failure = !tool_failure_.empty()        ? tool_failure_
-                     : !direct_->failure().empty() ? direct_->failure()
+                     : !linear_->failure().empty() ? linear_->failure()
                                                    : "the first guess is not admissible";
     return report;
   }
@@ -633,14 +702,14 @@ void QuasiStatic::assemble_tool_tangent() {
 }
 
 bool QuasiStatic::solve_with_tools(const Vector &r_u, const std::vector<double> &r_s, const double sense,
-                                   Vector &du, std::vector<double> &ds) {
-  const auto solve = [this](const Vector &rhs, Vector &solution) {
-    if (!direct_->solve(*rhs.trilinos_vector()(0), as_epetra(solution)))
+                                   const double relative_tolerance, Vector &du, std::vector<double> &ds) {
+  const auto solve = [this](const Vector &rhs, const double relative_tolerance, Vector &solution) {
+    if (!linear_->solve(*rhs.trilinos_vector()(0), as_epetra(solution), relative_tolerance))
       return false;
     supports_.homogeneous().distribute(solution);
     return true;
   };
-  if (!solve(r_u, du))
+  if (!solve(r_u, relative_tolerance, du))
     return false;
   const std::size_t n = unknown_tools_.size();
   if (n == 0)
@@ -649,7 +718,8 @@ bool QuasiStatic::solve_with_tools(const Vector &r_u, const std::vector<double> 
   dealii::FullMatrix<double> S(tool_block_);
   dealii::Vector<double> rhs(n), solution(n);
   for (std::size_t j = 0; j < n; ++j) {
-    if (!solve(tool_columns_[j], Y[j]))
+    // Closer, since a tool may have far to go where the bodies' residual is small.
+    if (!solve(tool_columns_[j], 1e-2 * relative_tolerance, Y[j]))
       return false;
     for (std::size_t i = 0; i < n; ++i)
       S(i, j) -= tool_rows_[i] * Y[j];

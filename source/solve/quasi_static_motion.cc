@@ -42,11 +42,16 @@ void QuasiStatic::update_accelerations() {
   Vector rhs = motion_->driving_forces(support_forces_n_),
          accelerations = discretization_.make_owned_vector();
   condense(rhs);
-  if (!direct_->factorize() ||
-      !direct_->solve(*rhs.trilinos_vector()(0), *accelerations.trilinos_vector()(0))) {
+  if (linear_->is_iterative()) {
+    linear_->start_contact({}); // there is none in the mass
+    linear_->set_geometry(nodal_geometry());
+  }
+  constexpr double tolerance = 1e-10;
+  if (!linear_->factorize() ||
+      !linear_->solve(*rhs.trilinos_vector()(0), *accelerations.trilinos_vector()(0), tolerance)) {
     std::ostringstream message;
     message << scene_.parameters().file_name << ": at time " << state_.time
-            << " the mass matrix cannot be solved for the accelerations: " << direct_->failure()
+            << " the mass matrix cannot be solved for the accelerations: " << linear_->failure()
             << "; are the densities of the right unit?";
     throw SolutionFailure(message.str());
   }

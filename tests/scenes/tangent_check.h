@@ -47,7 +47,7 @@ inline double tangent_error(SceneRun &run, const double t, const unsigned int n_
         return 1.;
       difference.Update(weight / (12. * h), minus, 1.);
     }
-    if (!problem.compute_tangent(point) || !problem.solve_tangent(difference, solution))
+    if (!problem.compute_tangent(point) || !problem.solve_tangent(difference, solution, 1e-10))
       return 1.;
     solution.Update(-1., v, 1.);
     double wrong = 0., whole = 0.;

@@ -39,6 +39,7 @@ private:
   std::ostream &stream_;
   bool is_terminal_;
   bool has_bar_ = false;
+  bool shows_linear_iterations_ = false;
   unsigned int n_lines_ = 0;
   parameters::Output::Verbosity verbosity_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -68,7 +68,8 @@ enum class ContactTangent {
 struct Solver {
   enum class LineSearch { none, energy };
   enum class Predictor { tangent, extrapolation };
-  enum class LinearSolver { automatic, mumps_symmetric, mumps, klu };
+  enum class LinearSolver { automatic, mumps_symmetric, mumps, klu, conjugate_gradients, gmres };
+  enum class Forcing { eisenstat_walker, fixed };
 
   ContactTangent contact_tangent;
   double force_tolerance, energy_tolerance;
@@ -77,6 +78,9 @@ struct Solver {
   LineSearch line_search;
   Predictor predictor;
   Located<LinearSolver> linear_solver;
+  Forcing forcing;
+  double linear_tolerance; ///< |b − A x| / |b|; with Eisenstat and Walker the smallest that is asked for
+  unsigned int most_linear_iterations;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -18,8 +18,9 @@ public:
   virtual ~NonlinearProblem() = default;
   virtual bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) = 0;
   virtual bool compute_tangent(const Epetra_Vector &x) = 0;
-  /// dx = K⁻¹ residual
-  virtual bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx) = 0;
+  /// dx = K⁻¹ residual, so that |residual − K dx| <= relative_tolerance |residual| where the solver is
+  /// iterative.
+  virtual bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) = 0;
   /// What a residual is small against, at the last x [force].
   virtual double force_scale() const = 0;
   /// The residual of an exact solution, from round-off alone [force].
@@ -38,15 +39,22 @@ struct NewtonReport {
   std::vector<NewtonIteration> iterations;
   double force = 0.;   ///< |R| / force scale at the end
   std::string failure; ///< why it did not converge
+  unsigned int linear_iterations = 0;
+  std::string note; ///< of the linear solver, for the user; lines
 
   /// What came after it counts; its iterations are added.
   void append(const NewtonReport &next) {
     converged = next.converged;
     failure = next.failure;
     force = next.force;
+    linear_iterations += next.linear_iterations;
+    note += next.note;
     iterations.insert(iterations.end(), next.iterations.begin(), next.iterations.end());
   }
 };
+
+/// The loosest relative tolerance of a linear system.
+constexpr double largest_forcing_term = 1e-2;
 
 /// Newton's method by NOX. Starts from, and overwrites, `x`; `increment_norm` is |x − x_n| of the step, to
 /// make the energy tolerance relative, and is kept up by the caller's x_n.

@@ -5,10 +5,10 @@
 #include "billet/contact/body_contact.h"
 #include "billet/contact/rigid_contact.h"
 #include "billet/forces/internal_forces.h"
-#include "billet/solve/direct_solver.h"
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
 #include "billet/solve/solution.h"
+#include "billet/solve/tangent_solver.h"
 
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
@@ -47,7 +47,8 @@ public:
   }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
-  std::string method() const override { return direct_->name(); }
+  std::string method() const override { return linear_->name(); }
+  bool solves_iteratively() const override { return linear_->is_iterative(); }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
   const BodyContact &body_contact(const std::size_t pair) const { return *body_contacts_[pair]; }
@@ -55,7 +56,7 @@ public:
 
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
   bool compute_tangent(const Epetra_Vector &x) override;
-  bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx) override;
+  bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
   double force_scale() const override { return force_scale_; }
   double round_off_force() const override {
     return round_off_force_ + (motion_ ? motion_->round_off_force() : 0.);
@@ -83,6 +84,11 @@ private:
   bool is_accurate(NewtonReport &report);
 
   bool assemble_tangent(const TangentSystem &system, double yield_slack = 0.);
+  /// The nodes as they stand in the trial state.
+  NodalGeometry nodal_geometry() const;
+  /// Owned dofs, by local number, of all nodes on which other bodies act, after BodyContact::update().
+  std::vector<int> touching_dofs() const;
+  NewtonReport attempt_step(double t, double previous_step);
   bool all_ranks(bool success) const;
   void set_trial(const Epetra_Vector &x);
   void commit(double t);
@@ -103,8 +109,8 @@ private:
   /// K du + B ds = r_u, C du + D ds = r_s by elimination of du. A tool that touches nothing goes on until it
   /// does. `sense` is 1 where the solution is what is added to the unknowns, −1 where it is what is
   /// subtracted.
-  bool solve_with_tools(const Vector &r_u, const std::vector<double> &r_s, double sense, Vector &du,
-                        std::vector<double> &ds);
+  bool solve_with_tools(const Vector &r_u, const std::vector<double> &r_s, double sense,
+                        double relative_tolerance, Vector &du, std::vector<double> &ds);
   double distance_to_touch(std::size_t tool) const;
   std::vector<std::size_t> tools_to_stop(double t) const;
   /// The augmented Lagrangian: tractions are augmented and iterated anew until all pairs have what they ask
@@ -132,7 +138,8 @@ private:
   std::unique_ptr<ImplicitMotion> motion_; ///< none in statics
 
   Matrix matrix_;
-  std::unique_ptr<DirectSolver> direct_;
+  NodalGeometry undeformed_; ///< where the linear solver is iterative
+  std::unique_ptr<TangentSolver> linear_;
 
   Vector trial_, trial_ghosted_, u_n_, last_increment_;
   Vector raw_internal_, raw_contact_;        ///< additive

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_LINEAR_SOLVER_H
+#define BILLET_SOLVE_LINEAR_SOLVER_H
+
+#include <string>
+
+class Epetra_CrsMatrix;
+class Epetra_Vector;
+
+namespace billet {
+
+/// A x = b for a distributed sparse matrix whose values change, but not its pattern. All members are called,
+/// and answer, alike on all ranks.
+class LinearSolver {
+public:
+  virtual ~LinearSolver() = default;
+
+  /// Prepares solves with the matrix as it is now. False where that is impossible; see failure().
+  virtual bool factorize() = 0;
+
+  /// Solves with the matrix of the last factorize(), so that |b − A x| <= relative_tolerance |b|. A direct
+  /// solver is as exact as it can be. False on failure.
+  virtual bool solve(const Epetra_Vector &b, Epetra_Vector &x, double relative_tolerance) = 0;
+
+  virtual std::string name() const = 0;
+  /// That solves have taken since the last call; 0 of a direct solver.
+  virtual unsigned int take_iterations() { return 0; }
+  /// Of factors, or of what preconditions, on all ranks [bytes]; 0 where it is not known.
+  virtual double memory() const { return 0.; }
+  const std::string &failure() const { return failure_; }
+
+protected:
+  std::string failure_;
+};
+
+} // namespace billet
+
+#endif

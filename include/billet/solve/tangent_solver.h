@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_TANGENT_SOLVER_H
+#define BILLET_SOLVE_TANGENT_SOLVER_H
+
+#include "billet/solve/iterative_solver.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// The linear solver of a scene: a direct one, or an iterative one whose place a direct one takes for every
+/// matrix with which it stagnates.
+class TangentSolver {
+public:
+  /// `automatic` is resolved here. `matrix` must outlive the solver.
+  TangentSolver(const parameters::Solver &settings, bool symmetric, const Epetra_CrsMatrix &matrix,
+                MPI_Comm communicator);
+
+  /// To be called before the matrix goes, or gets another pattern; ...
+  void release();
+  /// ... after that, the next one.
+  void set_matrix(const Epetra_CrsMatrix &matrix);
+
+  bool is_iterative() const { return iterative_ != nullptr; }
+  /// Only of use where it is iterative; see IterativeSolver.
+  void set_geometry(NodalGeometry geometry);
+  void start_contact(const std::vector<int> &dofs);
+
+  /// Prepares solves with the matrix as it is now. False, as from solve(), on all ranks.
+  bool factorize();
+  /// |b − A x| <= relative_tolerance |b|
+  bool solve(const Epetra_Vector &b, Epetra_Vector &x, double relative_tolerance);
+
+  const std::string &name() const { return name_; }
+  const std::string &failure() const { return failure_; }
+  /// Of an iterative solver, since the last call.
+  unsigned int take_iterations();
+  /// What the user has to be told, since the last call: once how much memory an iterative solver takes, once
+  /// that a direct one had to help.
+  std::string take_note();
+
+private:
+  bool factorize_directly();
+  bool fall_back();
+
+  parameters::Solver::LinearSolver direct_kind_;
+  bool symmetric_;
+  const Epetra_CrsMatrix *matrix_;
+  MPI_Comm communicator_;
+  std::unique_ptr<IterativeSolver> iterative_;
+  std::unique_ptr<LinearSolver> direct_;
+  bool is_direct_now_;
+  unsigned int n_failures_ = 0; ///< of the iterative solver in succession
+  unsigned int pause_ = 0;      ///< matrices for which it is not tried
+  bool has_told_memory_ = false, has_told_fallback_ = false;
+  std::string name_, failure_, note_;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/tangent_solver.h"
+
+#include <Epetra_Comm.h>
+#include <Epetra_CrsMatrix.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+using Kind = parameters::Solver::LinearSolver;
+
+/// Of a direct solver, on one rank, more on many, as MUMPS took it for two blocks of 50 000 to 500 000 dofs
+/// [bytes]: doc/results/linear-solvers.md. Solids fill as n^(4/3).
+double direct_memory(const double n_dofs, const bool symmetric) {
+  return (symmetric ? 220. : 410.) * std::pow(n_dofs, 4. / 3.);
+}
+
+double machine_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+Kind choose(const Kind wanted, const bool symmetric, const Epetra_CrsMatrix &matrix) {
+  if (wanted != Kind::automatic)
+    return wanted;
+  const Kind direct = symmetric ? Kind::mumps_symmetric : Kind::mumps;
+  const double n_dofs = matrix.NumGlobalRows();
+  // The smallest machine of all ranks counts.
+  double memory = machine_memory(), least = memory;
+  matrix.Comm().MinAll(&memory, &least, 1);
+  constexpr double enough_dofs = 60e3, part_of_memory = 0.5;
+  if (n_dofs > enough_dofs || direct_memory(n_dofs, symmetric) > part_of_memory * least)
+    return symmetric ? Kind::conjugate_gradients : Kind::gmres;
+  return direct;
+}
+
+} // namespace
+
+TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symmetric,
+                             const Epetra_CrsMatrix &matrix, MPI_Comm communicator)
+    : symmetric_(symmetric), matrix_(&matrix), communicator_(communicator) {
+  const Kind kind = choose(settings.linear_solver.value, symmetric, matrix);
+  const bool is_iterative = kind == Kind::conjugate_gradients || kind == Kind::gmres;
+  direct_kind_ = is_iterative ? Kind::automatic : kind;
+  is_direct_now_ = !is_iterative;
+  if (is_iterative) {
+    IterativeSolver::Settings iterative;
+    iterative.method =
+        kind == Kind::gmres ? IterativeSolver::Method::gmres : IterativeSolver::Method::conjugate_gradients;
+    iterative.most_iterations = settings.most_linear_iterations;
+    iterative_ = std::make_unique<IterativeSolver>(iterative, matrix, communicator);
+    name_ = iterative_->name();
+  } else {
+    direct_ = make_direct_solver(direct_kind_, symmetric, matrix, communicator);
+    name_ = direct_->name();
+  }
+}
+
+void TangentSolver::release() {
+  if (iterative_)
+    iterative_->release();
+  direct_.reset();
+}
+
+void TangentSolver::set_matrix(const Epetra_CrsMatrix &matrix) {
+  matrix_ = &matrix;
+  if (iterative_)
+    iterative_->set_matrix(matrix);
+}
+
+void TangentSolver::set_geometry(NodalGeometry geometry) { iterative_->set_geometry(std::move(geometry)); }
+
+void TangentSolver::start_contact(const std::vector<int> &dofs) { iterative_->start_contact(dofs); }
+
+bool TangentSolver::factorize_directly() {
+  if (!direct_)
+    direct_ = make_direct_solver(direct_kind_, symmetric_, *matrix_, communicator_);
+  is_direct_now_ = true;
+  if (direct_->factorize())
+    return true;
+  failure_ = direct_->failure();
+  return false;
+}
+
+bool TangentSolver::factorize() {
+  failure_.clear();
+  if (!iterative_)
+    return factorize_directly();
+  if (pause_ > 0) {
+    --pause_;
+    return factorize_directly();
+  }
+  direct_.reset(); // the two together would take too much
+  is_direct_now_ = false;
+  if (!iterative_->factorize())
+    return fall_back();
+  if (!has_told_memory_) {
+    std::ostringstream text;
+    text.precision(3);
+    text << iterative_->name() << " takes " << 1e-6 * iterative_->memory() << " MB beside the matrix\n";
+    note_ += text.str();
+    has_told_memory_ = true;
+  }
+  return true;
+}
+
+bool TangentSolver::fall_back() {
+  iterative_->release();
+  // It is tried again, but more and more seldom where that does not help.
+  ++n_failures_;
+  pause_ = (1u << std::min(n_failures_ - 1, 5u)) - 1;
+  if (!has_told_fallback_) {
+    note_ += iterative_->failure() +
+             ": a direct solver takes over whenever that happens, which is said only once\n";
+    has_told_fallback_ = true;
+  }
+  return factorize_directly();
+}
+
+bool TangentSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const double relative_tolerance) {
+  if (!is_direct_now_) {
+    if (iterative_->solve(b, x, relative_tolerance)) {
+      n_failures_ = 0;
+      return true;
+    }
+    if (!fall_back())
+      return false;
+  }
+  if (direct_->solve(b, x, relative_tolerance))
+    return true;
+  failure_ = direct_->failure();
+  return false;
+}
+
+unsigned int TangentSolver::take_iterations() { return iterative_ ? iterative_->take_iterations() : 0; }
+
+std::string TangentSolver::take_note() {
+  std::string result;
+  result.swap(note_);
+  return result;
+}
+
+} // namespace billet

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Whole scenes by every linear solver: the same forces and displacements; Eisenstat and Walker's forcing
+// costs few iterations of Newton's method beside exact solves, and spares linear ones.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+using Kind = parameters::Solver::LinearSolver;
+
+namespace {
+
+struct Result {
+  unsigned int iterations = 0, linear_iterations = 0;
+  double force = 0.;
+  std::vector<double> displacements; ///< of this rank
+  std::string notes;
+};
+
+Result run(const parameters::Scene &parameters) {
+  SceneRun scene(parameters);
+  Result result;
+  scene.finish([&](const NewtonReport &report) {
+    result.linear_iterations += report.linear_iterations;
+    result.notes += report.note;
+  });
+  result.iterations = scene.n_iterations;
+  result.force = scene.scene.tools().empty() ? scene.problem.state().body_pair_loads[0].force.norm()
+                                             : scene.load().force.norm();
+  for (const auto dof : scene.discretization.owned_dofs())
+    result.displacements.push_back(scene.problem.state().displacements(dof));
+  return result;
+}
+
+double distance(const Result &a, const Result &b) {
+  double difference = 0., size = 0.;
+  for (std::size_t i = 0; i < a.displacements.size(); ++i) {
+    difference = std::max(difference, std::abs(a.displacements[i] - b.displacements[i]));
+    size = std::max(size, std::abs(b.displacements[i]));
+  }
+  return dealii::Utilities::MPI::max(difference, MPI_COMM_WORLD) /
+         dealii::Utilities::MPI::max(size, MPI_COMM_WORLD);
+}
+
+void compare(const std::string &name, const parameters::Scene &scene, const Kind iterative) {
+  parameters::Scene parameters = scene;
+  parameters.solver.force_tolerance = 1e-8;
+  parameters.solver.linear_solver.value = Kind::automatic;
+  const Result direct = run(parameters);
+  check(name + ", directly: no linear iterations, nothing to tell",
+        direct.linear_iterations == 0 && direct.notes.empty());
+  parameters.solver.linear_solver.value = iterative;
+  parameters.solver.forcing = parameters::Solver::Forcing::fixed;
+  parameters.solver.linear_tolerance = 1e-11;
+  const Result exact = run(parameters);
+  check(name + ", solved exactly: as many iterations of Newton's method",
+        exact.iterations == direct.iterations);
+  check(name + ", solved exactly: force", std::abs(exact.force / direct.force - 1.), 1e-8);
+  check(name + ", solved exactly: displacements", distance(exact, direct), 1e-8);
+  check(name + ", solved exactly: no direct solver", exact.notes.find("takes over") == std::string::npos);
+  parameters.solver.forcing = parameters::Solver::Forcing::eisenstat_walker;
+  parameters.solver.linear_tolerance = 1e-6;
+  const Result forced = run(parameters);
+  check(name + ", Eisenstat-Walker: force", std::abs(forced.force / direct.force - 1.), 1e-6);
+  check(name + ", Eisenstat-Walker: displacements", distance(forced, direct), 1e-6);
+  check(name + ", Eisenstat-Walker: at most half more iterations of Newton's method",
+        2 * forced.iterations <= 3 * direct.iterations);
+  check(name + ", Eisenstat-Walker: fewer linear iterations",
+        forced.linear_iterations < exact.linear_iterations);
+  parameters.solver.most_linear_iterations = 1;
+  const Result helped = run(parameters);
+  check(name + ", with a direct solver's help: force", std::abs(helped.force / direct.force - 1.), 1e-6);
+  const auto told = helped.notes.find("a direct solver takes over");
+  check(name + ", with a direct solver's help: told once",
+        told != std::string::npos &&
+            helped.notes.find("a direct solver takes over", told + 1) == std::string::npos);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::ostringstream silence;
+  if (!testing::is_first_rank())
+    std::cout.rdbuf(silence.rdbuf());
+  // Fine enough for multigrid to have two levels.
+  parameters::Scene billet = testing::read_shipped_scene("billet_upsetting.prm");
+  billet.bodies[0].mesh.refinements = 2;
+  billet.bodies[0].mesh.n_layers = 10;
+  billet.time_stepping.end_time = 0.16;
+  testing::set_fixed_steps(billet, 4);
+  compare("billet, GMRES", billet, Kind::gmres);
+  billet.pairs[0].friction_coefficient = 0.;
+  compare("frictionless billet, CG", billet, Kind::conjugate_gradients);
+  // The dofs in contact as a block.
+  parameters::Scene blocks = parameters::Scene::read(std::string(SOURCE_DIR) + "/pressed_blocks.prm");
+  compare("two blocks, GMRES", blocks, Kind::gmres);
+  blocks.pairs[0].friction_coefficient = 0.;
+  compare("two blocks without friction, CG", blocks, Kind::conjugate_gradients);
+  return billet::testing::exit_code();
+}

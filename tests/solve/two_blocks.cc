@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Two bodies tied by contact penalties: every linear solver finds the direct one's solution, iterative ones
+// say the true residual, in iterations that do not depend on the penalty, and say when they fail; other
+// patterns are taken over.
+#include "two_blocks.h"
+
+#include "billet/solve/tangent_solver.h"
+
+#include "../testing.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
+
+#include <sstream>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::TwoBlocks;
+using Kind = parameters::Solver::LinearSolver;
+using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+namespace {
+
+double distance(const Vector &a, const Vector &b) {
+  Vector difference = a;
+  difference -= b;
+  return difference.l2_norm() / b.l2_norm();
+}
+
+bool solve(LinearSolver &solver, const Vector &b, Vector &x, const double tolerance) {
+  return solver.factorize() && solver.solve(*b.trilinos_vector()(0), *x.trilinos_vector()(0), tolerance);
+}
+
+double true_residual(const TwoBlocks &blocks, const Vector &x, const Vector &b) {
+  Vector product = b;
+  blocks.matrix().vmult(product, x);
+  return distance(product, b);
+}
+
+struct Outcome {
+  bool success;
+  unsigned int iterations;
+};
+
+/// One solve of the blocks at this penalty, compared with `exact`.
+Outcome solve_and_check(const std::string &name, TwoBlocks &blocks, const double penalty,
+                        const TwoBlocks::Tie tie, const IterativeSolver::Settings &settings,
+                        const Vector &load, const Vector &exact) {
+  IterativeSolver solver(settings, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+  solver.set_geometry(blocks.geometry());
+  blocks.assemble_cubes();
+  solver.start_contact(blocks.contact_dofs());
+  blocks.add_contact(penalty, tie);
+  Vector solution = load;
+  constexpr double tolerance = 1e-10;
+  const bool success = solve(solver, load, solution, tolerance);
+  if (success) {
+    check(name + ": the direct solver's solution", distance(solution, exact), 1e-7);
+    check(name + ": the residual asked for", true_residual(blocks, solution, load), tolerance);
+    check(name + ": it says how much memory it takes",
+          solver.memory() > 8. * 6. * static_cast<double>(blocks.n_dofs()));
+  }
+  check(name + ": the residual is the one it says",
+        std::abs(true_residual(blocks, solution, load) - solver.relative_residual()),
+        1e-6 * solver.relative_residual() + 1e-15);
+  return {success, solver.take_iterations()};
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::ostringstream silence;
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+    std::cout.rdbuf(silence.rdbuf());
+
+  TwoBlocks blocks(MPI_COMM_WORLD, 6000., false);
+  const Vector load = blocks.make_load();
+  Vector exact = load, solution = load;
+  using Tie = TwoBlocks::Tie;
+  for (const Tie tie : {Tie::sticking, Tie::frictionless, Tie::sliding})
+    for (const double penalty : {1., 1e2, 1e4}) {
+      std::ostringstream name;
+      name << (tie == Tie::sticking  ? "sticking"
+               : tie == Tie::sliding ? "sliding"
+                                     : "frictionless")
+           << ", k " << penalty;
+      blocks.assemble_cubes();
+      blocks.add_contact(penalty, tie);
+      const auto direct = make_direct_solver(Kind::automatic, tie != Tie::sliding,
+                                             blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+      check(name.str() + ": directly",
+            solve(*direct, load, exact, 0.) && true_residual(blocks, exact, load) < 1e-9);
+
+      IterativeSolver::Settings settings;
+      const auto by_gmres =
+          solve_and_check(name.str() + ", GMRES", blocks, penalty, tie, settings, load, exact);
+      check(name.str() + ", GMRES: at most 45 iterations", by_gmres.success && by_gmres.iterations <= 45);
+      if (tie == Tie::sliding)
+        continue;
+      settings.method = IterativeSolver::Method::conjugate_gradients;
+      const auto by_cg = solve_and_check(name.str() + ", CG", blocks, penalty, tie, settings, load, exact);
+      check(name.str() + ", CG: at most 45 iterations", by_cg.success && by_cg.iterations <= 45);
+      if (penalty < 1e4)
+        continue;
+      settings.solve_contact = false;
+      settings.most_iterations = 1000;
+      const auto plain =
+          solve_and_check(name.str() + ", multigrid alone", blocks, penalty, tie, settings, load, exact);
+      check(name.str() + ": multigrid alone needs three times as many",
+            plain.iterations > 3 * by_cg.iterations);
+    }
+
+  {
+    IterativeSolver::Settings settings;
+    settings.most_iterations = 2;
+    const auto outcome =
+        solve_and_check("two iterations", blocks, 1., Tie::frictionless, settings, load, exact);
+    check("two iterations: do not do", !outcome.success && outcome.iterations == 2);
+  }
+
+  // A scene's solver, and another matrix in the middle.
+  TwoBlocks others(MPI_COMM_WORLD, 9000., true);
+  const Vector other_load = others.make_load();
+  Vector other_exact = other_load;
+  others.assemble_cubes();
+  others.add_contact(10., Tie::sticking);
+  {
+    const auto direct =
+        make_direct_solver(Kind::automatic, true, others.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+    check("another matrix: directly", solve(*direct, other_load, other_exact, 0.));
+  }
+  blocks.assemble_cubes();
+  blocks.add_contact(1., Tie::frictionless);
+  {
+    const auto direct =
+        make_direct_solver(Kind::automatic, true, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+    check("the first matrix: directly", solve(*direct, load, exact, 0.));
+  }
+  for (const Kind kind :
+       {Kind::automatic, Kind::mumps, Kind::mumps_symmetric, Kind::conjugate_gradients, Kind::gmres})
+    for (const unsigned int most_iterations : {200u, 1u}) {
+      const bool is_iterative = kind == Kind::conjugate_gradients || kind == Kind::gmres;
+      if (!is_iterative && most_iterations == 1)
+        continue;
+      parameters::Solver settings{};
+      settings.linear_solver.value = kind;
+      settings.most_linear_iterations = most_iterations;
+      TangentSolver solver(settings, true, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+      const std::string name = solver.name() + ", at most " + std::to_string(most_iterations) + " iterations";
+      check(name + ": of its kind", solver.is_iterative() == is_iterative);
+      const auto solve_it = [&](const TwoBlocks &system, const Vector &b, const Vector &reference) {
+        Vector x = b;
+        if (is_iterative) {
+          solver.set_geometry(system.geometry());
+          solver.start_contact({});
+        }
+        check(name + ": solves",
+              solver.factorize() && solver.solve(*b.trilinos_vector()(0), *x.trilinos_vector()(0), 1e-10));
+        check(name + ": the solution", distance(x, reference), 1e-7);
+      };
+      for (unsigned int i = 0; i < 3; ++i)
+        solve_it(blocks, load, exact);
+      const unsigned int iterations = solver.take_iterations();
+      // The first and the second matrix are tried iteratively, then one is left out.
+      check(name + ": iterations", !is_iterative          ? iterations == 0
+                                   : most_iterations == 1 ? iterations == 2
+                                                          : iterations > 20);
+      solver.release();
+      solver.set_matrix(others.matrix().trilinos_matrix());
+      solve_it(others, other_load, other_exact);
+      const std::string note = solver.take_note(), text = "a direct solver takes over";
+      const auto found = note.find(text);
+      check(name + ": tells of its memory",
+            (note.find(" MB beside the matrix") != std::string::npos) == is_iterative);
+      check(name + ": tells once that it failed",
+            (found != std::string::npos) == (most_iterations == 1) &&
+                (found == std::string::npos || note.find(text, found + 1) == std::string::npos));
+      check(name + ": has told", solver.take_note().empty() && solver.take_iterations() < 200);
+    }
+  return billet::testing::exit_code();
+}
