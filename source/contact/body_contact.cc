@@ -31,6 +31,7 @@ FacetMethod method_of(const parameters::ContactPair::Facets facets) {
     return FacetMethod::mean_gap;
   case Facets::bilinear:
     return FacetMethod::bilinear;
+  case Facets::automatic: // resolved by the scene
   case Facets::overlap:
     break;
   }

@@ -124,7 +124,7 @@ void FacetContact::update_overlaps() {
       nodal_lifts_[slaves_[s].node] = lift(s).now;
     exchange_.update(nodal_lifts_);
   }
-  overlaps_->update(search_, positions_, nodal_lifts_);
+  overlaps_->update(search_, positions_n_, positions_, nodal_lifts_);
 }
 
 void FacetContact::find_overlaps(const std::size_t s) {
@@ -137,7 +137,7 @@ void FacetContact::find_overlaps(const std::size_t s) {
     const auto corner =
         static_cast<unsigned int>(std::find(nodes.begin(), nodes.end(), slaves_[s].node) - nodes.begin());
     overlaps_->visit(f, [&](const FacetOverlaps::Overlap &overlap) {
-      shares_.push_back(share_of_overlap(overlap.integrals, corner, f, overlap.target));
+      shares_.push_back(share_of_overlap(overlap.integrals, corner, f, overlap.target, overlap.depth));
       const double area = shares_.back().share;
       if (!(area > 0.)) {
         shares_.pop_back();

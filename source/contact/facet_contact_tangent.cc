@@ -189,10 +189,9 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
       const auto corner = static_cast<unsigned int>(
           std::find(own.nodes.begin(), own.nodes.end(), slaves_[s].node) - own.nodes.begin());
       const auto corners = corners_now(share.slave_facet);
-      const auto overlap = follow_overlap<Number>(corners, corners_now(share.facet),
-                                                  FacetOverlaps::depth * search_.facets()[share.facet].reach,
-                                                  lifts_of(own.nodes));
-      shares.push_back(share_of_overlap(overlap, corner, share.slave_facet, share.facet));
+      const auto overlap =
+          follow_overlap<Number>(corners, corners_now(share.facet), share.depth, lifts_of(own.nodes));
+      shares.push_back(share_of_overlap(overlap, corner, share.slave_facet, share.facet, share.depth));
       points.push_back(facet::interpolate(shares.back().slave_weights, corners));
     }
   } else {

@@ -54,8 +54,8 @@ void FacetOverlaps::rebuild(const FacetSearch &search, const Positions &position
   first_candidate_[facets.size()] = candidates_.size();
 }
 
-void FacetOverlaps::update(const FacetSearch &search, const Positions &positions,
-                           const std::vector<double> &lifts) {
+void FacetOverlaps::update(const FacetSearch &search, const Positions &positions_n,
+                           const Positions &positions, const std::vector<double> &lifts) {
   const auto &facets = search.facets();
   overlaps_.clear();
   first_.assign(facets.size() + 1, 0);
@@ -70,10 +70,15 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
         lift[a] = lifts[facets[f].nodes[a]];
     for (std::size_t i = first_candidate_[f]; i < first_candidate_[f + 1]; ++i) {
       const unsigned int target = candidates_[i];
-      const auto overlap =
-          compute_overlap(slave, corners_of(facets[target], positions), depth * facets[target].reach, lift);
+      const facet::Expansion slave_n = corners_of(facets[f], positions_n),
+                             target_n = corners_of(facets[target], positions_n);
+      const Tensor<1, 3> area_vector = target_n.mean_area_vector();
+      const double half = 0.5 * depth * facets[target].reach,
+                   limit = (slave_n.e_0 - target_n.e_0) * area_vector > -half * area_vector.norm() ? 2. * half
+                                                                                                   : half;
+      const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift);
       if (overlap.exists)
-        overlaps_.push_back({f, target, overlap});
+        overlaps_.push_back({f, target, limit, overlap});
     }
   }
   first_[facets.size()] = overlaps_.size();

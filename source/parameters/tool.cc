@@ -196,17 +196,16 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "Boundary ids of the second body's faces. Empty, where it is the same body: the faces of "
                     "'Boundary ids' among themselves.");
   prm.declare_entry(
-      "Facets", "planed", Patterns::Selection("planed|mean gap|bilinear|overlap"),
+      "Facets", "automatic", Patterns::Selection("automatic|planed|mean gap|bilinear|overlap"),
       "Pairs of bodies: planed: the planed contact element, no iterations (Bittencourt & Creus "
       "1998), with the gap to the warped face; mean gap: to its mean plane, as published, which "
       "can create energy; bilinear: the closest point on the bilinear face, iterated; overlap: faces touch "
-      "as "
-      "a whole, in their common polygon on the planed face: a uniform pressure is exact, and edges are "
-      "seen.");
+      "as a whole, in their common polygon on the planed face: a uniform pressure is exact, and edges are "
+      "seen; automatic: planed in explicit scenes, overlap in implicit ones.");
   prm.declare_entry(
-      "Passes", "", Patterns::Selection("|one|two"),
+      "Passes", "automatic", Patterns::Selection("automatic|one|two"),
       "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
-      "half the penalty; one: those of 'Body' alone. Empty: one where faces overlap, else two.");
+      "half the penalty; one: those of 'Body' alone; automatic: one where faces overlap, else two.");
   prm.declare_entry("Edges", "false", Patterns::Bool(),
                     "Pairs of bodies: edges are kept out of edges, too, which nodes against facets miss.");
   prm.declare_entry(
@@ -214,8 +213,9 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Pairs of bodies, > 0: facets up to so far from a node are kept in mind for it; they are "
       "looked up anew when nodes have moved farther towards each other. Changes the cost, not the "
       "result. [smallest facet size]");
-  prm.declare_entry("Penalty of", "stiffer", Patterns::Selection("stiffer|series"),
-                    "Pairs of bodies, penalty as a factor: the E/h of the stiffer body, or both in series.");
+  prm.declare_entry("Penalty of", "automatic", Patterns::Selection("automatic|stiffer|series"),
+                    "Pairs of bodies, penalty as a factor: the E/h of the stiffer body, or both in series; "
+                    "automatic: of the stiffer one in explicit scenes, in series in implicit ones.");
   prm.declare_entry(
       "Friction law", "Coulomb",
       Patterns::Selection("Coulomb|shear limited|static-kinetic|pressure dependent"),
@@ -313,16 +313,20 @@ void ContactPair::parse_bodies(Reader &reader) {
   facets = reader.located("Facets", kind == "planed"     ? Facets::planed
                                     : kind == "mean gap" ? Facets::mean_gap
                                     : kind == "bilinear" ? Facets::bilinear
-                                                         : Facets::overlap);
-  const std::string passes = reader.text("Passes");
-  two_passes = passes.empty() ? facets.value != Facets::overlap : passes == "two";
-  if (passes == "one" && second_body.value == body.value)
+                                    : kind == "overlap"  ? Facets::overlap
+                                                         : Facets::automatic);
+  const std::string chosen_passes = reader.text("Passes");
+  passes = chosen_passes == "one" ? Passes::one : chosen_passes == "two" ? Passes::two : Passes::automatic;
+  if (passes == Passes::one && second_body.value == body.value)
     reader.reject("Passes", "two: of a body that touches itself, every node is kept out");
   edges = reader.flag("Edges");
   if (edges && facets.value == Facets::overlap)
     reader.reject("Edges", "no value: faces that overlap see edges");
   search_margin = reader.positive("Search margin");
-  penalty_of = reader.text("Penalty of") == "stiffer" ? PenaltyOf::stiffer : PenaltyOf::series;
+  const std::string chosen_penalty = reader.text("Penalty of");
+  penalty_of = chosen_penalty == "stiffer"  ? PenaltyOf::stiffer
+               : chosen_penalty == "series" ? PenaltyOf::series
+                                            : PenaltyOf::automatic;
 }
 
 void ContactPair::parse_friction(Reader &reader) {

@@ -121,6 +121,7 @@ std::string describe_facets(const parameters::ContactPair::Facets facets) {
     return "mean gap";
   case Facets::bilinear:
     return "bilinear";
+  case Facets::automatic: // resolved by the scene
   case Facets::overlap:
     break;
   }
@@ -232,6 +233,13 @@ void Scene::make_pairs() {
                         {pair.may_overlap, pair.ramp_time}});
       continue;
     }
+    using Pair = parameters::ContactPair;
+    Pair::Facets facets = pair.facets.value;
+    if (facets == Pair::Facets::automatic)
+      facets = parameters_.is_explicit() ? Pair::Facets::planed : Pair::Facets::overlap;
+    Pair::PenaltyOf penalty_of = pair.penalty_of;
+    if (penalty_of == Pair::PenaltyOf::automatic)
+      penalty_of = parameters_.is_explicit() ? Pair::PenaltyOf::stiffer : Pair::PenaltyOf::series;
     const std::size_t second = parameters_.second_body_index(pair);
     const auto &second_ids = pair.second_boundary_ids.value;
     body_pairs_.push_back(
@@ -240,12 +248,13 @@ void Scene::make_pairs() {
          {body, second},
          {pair.boundary_ids.value, second_ids.empty() ? pair.boundary_ids.value : second_ids},
          body == second && second_ids.empty(),
-         pair.facets.value,
-         pair.two_passes,
+         facets,
+         pair.passes == Pair::Passes::automatic ? facets != Pair::Facets::overlap
+                                                : pair.passes == Pair::Passes::two,
          pair.edges,
          make_friction(pair),
          is_factor,
-         pair.penalty_of,
+         penalty_of,
          pair.normal_penalty,
          pair.tangential_penalty,
          pair.search_margin,

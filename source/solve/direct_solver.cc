@@ -67,8 +67,8 @@ private:
   bool is_analysed_ = false;
 };
 
-/// MUMPS itself: in its symmetric indefinite form, LDLᵀ of the upper triangle, which Amesos does not offer, or
-/// LU of the whole, with more memory where its guess was too small, which Amesos does not do.
+/// MUMPS itself: in its symmetric indefinite form, LDLᵀ of the upper triangle, which Amesos does not offer,
+/// or LU of the whole, with more memory where its guess was too small, which Amesos does not do.
 class MumpsSolver final : public LinearSolver {
 public:
   MumpsSolver(const bool is_symmetric, const Epetra_CrsMatrix &matrix, MPI_Comm communicator)

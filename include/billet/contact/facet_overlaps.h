@@ -12,8 +12,10 @@ class FacetOverlaps {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// Up to this many times a target's reach a slave facet may be behind it.
-  static constexpr double depth = 4.;
+  /// Up to so many times a target's reach a slave facet may be behind it: within a step, and if its middle
+  /// was behind it by half of that already when the step began. So a wall is not glued to its own far side,
+  /// nor lost by a step's first guess that is far off.
+  static constexpr double depth = 10.;
 
   /// Lists the pairs that may come to overlap before positions move by more than `margin` relative to each
   /// other, for slave facets of surfaces for which `is_slave`. Pairs of one surface, which have to have no
@@ -23,10 +25,13 @@ public:
 
   struct Overlap {
     unsigned int slave, target; ///< facets
+    double depth;               ///< with which it was computed
     FacetOverlapOf<double> integrals;
   };
-  /// Overlaps at these positions, with the slave's corners lowered by `lifts`, of nodes [length].
-  void update(const FacetSearch &search, const Positions &positions, const std::vector<double> &lifts);
+  /// Overlaps at these positions, with the slave's corners lowered by `lifts`, of nodes [length]; `_n` as at
+  /// the start of the step.
+  void update(const FacetSearch &search, const Positions &positions_n, const Positions &positions,
+              const std::vector<double> &lifts);
 
   /// Calls visit(overlap) for those of a slave facet, by rising keys of the targets.
   template <class Visit> void visit(const unsigned int slave, const Visit &visit) const {

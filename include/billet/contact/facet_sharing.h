@@ -18,6 +18,7 @@ template <class Number> struct FacetShareOf {
   /// the slave node itself is.
   unsigned int slave_facet = none;
   std::array<Number, 4> slave_weights{};
+  double depth = 0.; ///< of the overlap
 };
 using FacetShare = FacetShareOf<double>;
 
@@ -34,7 +35,8 @@ bool meet_smoothly(const dealii::Tensor<1, 3> &normal, const dealii::Tensor<1, 3
 /// The part of an overlap that belongs to a corner of the slave facet: its `share` is the area.
 template <class Number>
 FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, const unsigned int corner,
-                                      const unsigned int slave_facet, const unsigned int target) {
+                                      const unsigned int slave_facet, const unsigned int target,
+                                      const double depth) {
   FacetShareOf<Number> result;
   result.facet = target;
   result.share = overlap.areas[corner];
@@ -44,6 +46,7 @@ FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, con
   result.projection.normal = overlap.normal;
   result.projection.gap = overlap.gaps[corner] / result.share;
   result.slave_facet = slave_facet;
+  result.depth = depth;
   for (unsigned int i = 0; i < 4; ++i) {
     result.slave_weights[i] = overlap.slave_parts[corner][i] / result.share;
     result.projection.weights[i] = overlap.target_parts[corner][i] / result.share;

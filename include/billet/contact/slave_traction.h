@@ -96,7 +96,8 @@ SlaveTractionOf<Number> compute_slave_traction(const Law &law, const ContactStif
   const FrameOf<Number> frame = history_n.is_active ? history_n.frame.transported(motion.rotation, normal)
                                                     : FrameOf<Number>::from_normal(normal);
   const Number gap_n = gap - motion.displacement * normal;
-  const Number fraction = !history_n.is_active && gap_n > 0. && gap < 0. ? Number(gap / (gap - gap_n)) : Number(1.);
+  const Number fraction =
+      !history_n.is_active && gap_n > 0. && gap < 0. ? Number(gap / (gap - gap_n)) : Number(1.);
   const std::array<Number, 2> slid{fraction * (motion.displacement * frame.q),
                                    fraction * (motion.displacement * frame.r)};
   TangentialIncrement increment{{value_of(slid[0]), value_of(slid[1])}};

@@ -61,10 +61,12 @@ struct ContactPair {
   Located<std::string> tool;        ///< empty if the pair is of two bodies
   Located<std::string> second_body; ///< empty if the pair is of a body and a tool
   Located<std::vector<unsigned int>> second_boundary_ids;
-  enum class Facets { planed, mean_gap, bilinear, overlap };
-  enum class PenaltyOf { stiffer, series };
+  enum class Facets { automatic, planed, mean_gap, bilinear, overlap };
+  enum class PenaltyOf { automatic, stiffer, series };
+  enum class Passes { automatic, one, two };
   Located<Facets> facets;
-  bool two_passes, edges;
+  Passes passes;
+  bool edges;
   PenaltyOf penalty_of;
   double search_margin;
   FrictionLaw friction_law;

@@ -46,8 +46,8 @@ public:
   /// Makes R of the sum of all forces, after add_loads(). Returns the norm of the inertia forces. Nothing at
   /// the start of the run.
   double complete(const Vector &forces_n, Vector &residual) const;
-  /// Adds ∂R/∂u of loads and inertia. The system's constraints are homogeneous: accelerations of held nodes do
-  /// not depend on u.
+  /// Adds ∂R/∂u of loads and inertia. The system's constraints are homogeneous: accelerations of held nodes
+  /// do not depend on u.
   void add_tangent(double t, const TangentSystem &system) const;
   /// The same for a tool's offset: what there is beside its excess, and the slope of that.
   double tool_inertia(std::size_t tool, double offset) const;

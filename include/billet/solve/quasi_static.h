@@ -146,8 +146,8 @@ private:
   Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0.;
 
-  double time_ = 0.;                        ///< end of the step that is tried
-  double duration_ = 0.;                    ///< of that step; 0 while its first guess is made
+  double time_ = 0.;     ///< end of the step that is tried
+  double duration_ = 0.; ///< of that step; 0 while its first guess is made
   double time_error_ = 0.;
   std::vector<double> offsets_, offsets_n_; ///< of all tools, beyond their prescribed motion
   std::vector<double> last_offset_increments_;
