@@ -14,7 +14,8 @@ int main(int argc, char *argv[]) {
   for (const bool two_passes : {true, false})
     for (const Facets facets : {Facets::planed, Facets::bilinear}) {
       parameters::Scene scene = testing::read_test_scene("expanding_rings.prm");
-      scene.pairs[0].two_passes = two_passes;
+      scene.pairs[0].passes =
+          two_passes ? parameters::ContactPair::Passes::two : parameters::ContactPair::Passes::one;
       scene.pairs[0].facets.value = facets;
       testing::ExplicitRun rings(scene);
       double made = 0., lost = 0., force = 0.;
