@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace billet {
 
@@ -21,13 +20,43 @@ Tensor<1, 3> unit_normal(const facet::Expansion &surface) {
   return size > 0. ? area_vector / size : Tensor<1, 3>();
 }
 
-/// Towards the ends of an edge, which are nodes that facets see, its part ceases without a jump.
-double fade(const double parameter) {
-  constexpr double zone = 0.1;
-  return std::min(1., std::min(parameter, 1. - parameter) / zone);
+/// Towards the ends of an edge, which are nodes that facets see, its part ceases; without a kink, and over
+/// all of its half, since steps have to resolve it. And its derivative by the parameter.
+std::array<double, 2> fade(const double parameter) {
+  const double z = 2. * std::min(parameter, 1. - parameter);
+  return {z * z * (3. - 2. * z), 12. * z * (1. - z) * (parameter < 0.5 ? 1. : -1.)};
+}
+
+/// With a, b the edges and d the difference, d·a = d·b = 0 at any positions. What nodes do adds δr to d at
+/// fixed s and t, and δa, δb to the edges; so
+///   a² δs − a·b δt = −(a·δr + d·δa),   a·b δs − b² δt = −(b·δr + d·δb).
+void set_area(const Tensor<1, 3> &a, const Tensor<1, 3> &b, EdgeContact::Crossing &crossing) {
+  const double aa = a * a, bb = b * b, ab = a * b, determinant = aa * bb - ab * ab;
+  const Tensor<1, 3> d = crossing.gap * crossing.normal;
+  const auto [f, f_s] = fade(crossing.weights[1]);
+  const auto [h, h_t] = fade(crossing.weights[3]);
+  crossing.full_area = 0.25 * std::sqrt(aa * bb);
+  crossing.area = crossing.full_area * f * h;
+  const double A_s = crossing.full_area * f_s * h / determinant,
+               A_t = crossing.full_area * f * h_t / determinant;
+  const Tensor<1, 3> by_difference = A_s * (ab * b - bb * a) + A_t * (aa * b - ab * a),
+                     by_a = -(A_s * bb + A_t * ab) * d + crossing.area / aa * a,
+                     by_b = (A_s * ab + A_t * aa) * d + crossing.area / bb * b;
+  const auto &w = crossing.weights;
+  crossing.area_gradients = {w[0] * by_difference - by_a, w[1] * by_difference + by_a,
+                             -w[2] * by_difference - by_b, -w[3] * by_difference + by_b};
 }
 
 } // namespace
+
+std::array<Tensor<1, 3>, 4> EdgeContact::Crossing::forces(const double stiffness) const {
+  std::array<Tensor<1, 3>, 4> forces;
+  for (unsigned int i = 0; i < 4; ++i)
+    forces[i] =
+        -stiffness * counted_gap() *
+        ((i < 2 ? weights[i] : -weights[i]) * area * normal + 0.5 * counted_gap() * area_gradients[i]);
+  return forces;
+}
 
 EdgeContact::EdgeContact(const FacetSearch::Partners partners, const double largest_alignment)
     : partners_(partners), largest_alignment_(largest_alignment) {}
@@ -41,7 +70,7 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
       if (a == b)
         continue;
       const auto found = edges.emplace(std::array<unsigned int, 2>{std::min(a, b), std::max(a, b)},
-                                       Edge{{a, b}, {f, none}, facets_[f].reach});
+                                       Edge{{a, b}, {f, none}, facets_[f].reach, {facets_[f].key, i}});
       if (found.second)
         continue;
       Edge &edge = found.first->second;
@@ -49,6 +78,7 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
       if (facets_[f].key < facets_[edge.facets[0]].key) {
         std::swap(edge.facets[0], edge.facets[1]);
         edge.nodes = {a, b}; // from the same facet on all ranks, so that they compute the same
+        edge.id = {facets_[f].key, i};
       }
       edge.reach = std::min(edge.reach, facets_[f].reach);
     }
@@ -118,8 +148,11 @@ void EdgeContact::rebuild(const std::vector<SurfaceFacet> &facets, const std::si
   }
 }
 
-std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &positions) const {
+std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &positions_n,
+                                                               const Positions &positions,
+                                                               const bool with_offsets) {
   std::vector<Crossing> crossings;
+  offsets_.clear();
   for (const auto &pair : pairs_) {
     const Edge &slave = edges_[pair[0]], &target = edges_[pair[1]];
     const Segment first{positions[slave.nodes[0]], positions[slave.nodes[1]]},
@@ -137,17 +170,36 @@ std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &
     normal /= normal.norm();
     if (!is_between_normals(target, normal, positions))
       normal *= -1.;
-    const double gap = closest.difference * normal;
-    if (!(gap < 0.) || gap < -depth_ * std::min(slave.reach, target.reach) ||
-        !is_between_normals(target, normal, positions) || !is_between_normals(slave, -normal, positions))
+    const double gap = closest.difference * normal, reach = std::min(slave.reach, target.reach);
+    if (!(gap < reach) || gap < -depth_ * reach || !is_between_normals(target, normal, positions) ||
+        !is_between_normals(slave, -normal, positions))
       continue;
     const double s = closest.parameters[0], t = closest.parameters[1];
-    crossings.push_back({{slave.nodes[0], slave.nodes[1], target.nodes[0], target.nodes[1]},
-                         {1. - s, s, 1. - t, t},
-                         normal,
-                         gap,
-                         0.25 * along_1.norm() * along_2.norm() * fade(s) * fade(t),
-                         {facets_[slave.facets[0]].surface, facets_[target.facets[0]].surface}});
+    Crossing crossing{{slave.nodes[0], slave.nodes[1], target.nodes[0], target.nodes[1]},
+                      {1. - s, s, 1. - t, t},
+                      normal,
+                      gap,
+                      0.,
+                      0.,
+                      0.,
+                      {},
+                      {facets_[slave.facets[0]].surface, facets_[target.facets[0]].surface}};
+    set_area(along_1, along_2, crossing);
+    const PairId id{slave.id, target.id};
+    if (gap < 0. && with_offsets) {
+      const auto found = offsets_n_.find(id);
+      if (found != offsets_n_.end())
+        crossing.offset = std::min(found->second, -gap);
+      else {
+        const SegmentPair before =
+            closest_points({positions_n[slave.nodes[0]], positions_n[slave.nodes[1]]},
+                           {positions_n[target.nodes[0]], positions_n[target.nodes[1]]});
+        if (!(before.difference * normal > 0.))
+          crossing.offset = -gap * (before.is_crossing ? 1. : crossing.area / crossing.full_area);
+      }
+    }
+    offsets_.emplace(id, crossing.offset);
+    crossings.push_back(crossing);
   }
   return crossings;
 }

@@ -4,6 +4,7 @@
 
 #include "billet/contact/facet_search.h"
 
+#include <map>
 #include <vector>
 
 namespace billet {
@@ -23,11 +24,27 @@ public:
     /// moments.
     std::array<double, 4> weights;
     dealii::Tensor<1, 3> normal; ///< unit, out of the second edge's body, across both edges
-    double gap;                  ///< [length]
-    /// A quarter of the product of both lengths, the share of a facet's corner between such sides; less near
-    /// the ends of the edges, and 0 there [length²]
+    double gap;                  ///< [length]; may be >= 0
+    /// Of a pair that is found to cross without having come through each other: only what is deeper counts.
+    /// It never grows, and is at most the depth [length].
+    double offset;
+    /// A quarter of the product of both lengths, the share of a facet's corner between such sides [length²],
+    double full_area;
+    /// and what is left of it towards the ends of the edges, all in the middle, 0 there [length²].
     double area;
+    /// Of that by the positions of the nodes [length]. The gap's are ± w_I n, since the difference stands on
+    /// both edges.
+    std::array<dealii::Tensor<1, 3>, 4> area_gradients;
     std::array<unsigned int, 2> surfaces;
+
+    /// What counts; < 0 where the edges press [length].
+    double counted_gap() const { return gap + offset; }
+
+    /// Minus the gradients of ½ k A g², g = counted_gap(): of the area, too, else an edge that slides towards
+    /// the end of another would make energy or lose it. Their sum is 0, and that of their moments, since
+    /// neither gap nor area depends on how all four nodes move or turn together. `stiffness`: k >= 0
+    /// [pressure/length].
+    std::array<dealii::Tensor<1, 3>, 4> forces(double stiffness) const;
   };
 
   /// Edges count where the scalar product of their facets' normals is below `largest_alignment`.
@@ -39,8 +56,17 @@ public:
   void rebuild(const std::vector<SurfaceFacet> &facets, std::size_t n_own_facets, const Positions &positions,
                double margin, double depth);
 
-  /// The pairs that cross at these positions, with gaps < 0.
-  std::vector<Crossing> find_crossings(const Positions &positions) const;
+  /// The pairs that cross at these positions, or are about to: with gaps less than the lesser reach of their
+  /// facets, which does not depend on the margin.
+  ///
+  /// A pair that the last commit() did not find, that crosses now and did not come through since
+  /// `positions_n`, is one that another rule kept apart: a normal out of bounds, an edge that was flat. It
+  /// gets an offset, the depth times A over the whole area: none where it has just come in over an end.
+  std::vector<Crossing> find_crossings(const Positions &positions_n, const Positions &positions,
+                                       bool with_offsets);
+
+  /// The pairs of the last find_crossings() are those of the step's start.
+  void commit() { offsets_n_ = offsets_; }
 
   std::size_t n_pairs() const { return pairs_.size(); }
 
@@ -50,7 +76,10 @@ private:
     std::array<unsigned int, 2> nodes;
     std::array<unsigned int, 2> facets; ///< that with the lower key first; none at a border
     double reach;
+    std::array<std::uint64_t, 2>
+        id; ///< key of the first facet, and which of its sides: the same on all ranks
   };
+  using PairId = std::array<std::array<std::uint64_t, 2>, 2>;
   std::vector<Edge> find_outward_edges(const Positions &positions) const;
   /// A unit vector lies between the normals of the edge's facets, or not far beside them.
   bool is_between_normals(const Edge &edge, const dealii::Tensor<1, 3> &normal,
@@ -62,6 +91,7 @@ private:
   std::vector<SurfaceFacet> facets_;
   std::vector<Edge> edges_;
   std::vector<std::array<std::size_t, 2>> pairs_; ///< slave and target
+  std::map<PairId, double> offsets_n_, offsets_;  ///< of the pairs that were found
 };
 
 } // namespace billet

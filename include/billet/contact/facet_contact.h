@@ -262,12 +262,12 @@ private:
   void compute_areas(const SlaveNode &slave, SlaveState &state) const;
   /// Calls visit(share, force on the slave, reaction on the corners) for each facet that slave s touches.
   template <class Visit> void visit_forces(std::size_t s, const Visit &visit) const;
-  /// k A of a crossing [force/length].
-  double edge_spring(const EdgeContact::Crossing &crossing) const {
+  /// k of a crossing [pressure/length].
+  double edge_stiffness(const EdgeContact::Crossing &crossing) const {
     double sum = 0.;
     for (const unsigned int node : crossing.nodes)
       sum += edge_stiffness_[node];
-    return 0.25 * crossing.area * sum;
+    return 0.25 * sum;
   }
   void add_edges(FacetContactLoad &load) const;
 
