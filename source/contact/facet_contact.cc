@@ -95,10 +95,8 @@ void FacetContact::update_search(const Positions &positions_n, const Positions &
   positions_ = positions;
   exchange_.update(positions_n_);
   exchange_.update(positions_);
-  bool is_outdated = search_.n_rebuilds() == 0;
-  if (!is_outdated) {
+  const auto over_all_ranks = [this](BoundingBox motion) {
     // One reduction for both ends of the box: the largest of −low and of high.
-    BoundingBox motion = search_.compute_motion(positions_);
     std::array<double, 6> ends{-motion.low[0], -motion.low[1], -motion.low[2],
                                motion.high[0], motion.high[1], motion.high[2]};
     MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_DOUBLE, MPI_MAX, communicator_);
@@ -106,9 +104,9 @@ void FacetContact::update_search(const Positions &positions_n, const Positions &
       motion.low[i] = -ends[i];
       motion.high[i] = ends[3 + i];
     }
-    is_outdated = search_.is_outdated(motion);
-  }
-  if (is_outdated)
+    return motion;
+  };
+  if (search_.is_outdated(positions_, over_all_ranks))
     rebuild();
   moved_.reset();
   if (overlaps_)
@@ -287,12 +285,13 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
       settings_.friction);
 
   if (edges_)
-    crossings_ = edges_->find_crossings(positions_);
-  for (const auto &crossing : crossings_) {
-    const Tensor<1, 3> force = -edge_spring(crossing) * crossing.gap * crossing.normal;
-    for (unsigned int i = 0; i < 4; ++i)
-      nodal_forces_[crossing.nodes[i]] += (i < 2 ? crossing.weights[i] : -crossing.weights[i]) * force;
-  }
+    crossings_ = edges_->find_crossings(positions_n_, positions_, has_started_);
+  for (const auto &crossing : crossings_)
+    if (crossing.counted_gap() < 0.) {
+      const auto crossing_forces = crossing.forces(edge_stiffness(crossing));
+      for (unsigned int i = 0; i < 4; ++i)
+        nodal_forces_[crossing.nodes[i]] += crossing_forces[i];
+    }
   exchange_.collect(nodal_forces_);
   for (std::size_t i = 0; i < exchange_.n_own_nodes(); ++i)
     forces[i] += nodal_forces_[i];
@@ -322,9 +321,18 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) {
       }
     }
   }
-  for (const auto &crossing : crossings_)
+  for (const auto &crossing : crossings_) {
+    // Of ½ k A g², but for the second derivatives of A and g, which count g/L less. The whole area, always:
+    // it changes fast where it fades.
+    const double k = edge_stiffness(crossing), depth = std::max(-crossing.counted_gap(), 0.);
+    double sum = 0.;
+    for (const auto &gradient : crossing.area_gradients)
+      sum += gradient.norm();
     for (unsigned int i = 0; i < 4; ++i)
-      all[crossing.nodes[i]] += 2. * crossing.weights[i] * edge_spring(crossing);
+      all[crossing.nodes[i]] +=
+          k * (2. * crossing.weights[i] * crossing.full_area +
+               depth * (crossing.weights[i] * sum + 2. * crossing.area_gradients[i].norm()));
+  }
   exchange_.collect(all);
   for (std::size_t i = 0; i < exchange_.n_own_nodes(); ++i)
     row_sums[i] += all[i];
@@ -332,20 +340,22 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) {
 
 void FacetContact::add_edges(FacetContactLoad &load) const {
   for (const auto &crossing : crossings_) {
-    const double spring = edge_spring(crossing);
-    const Tensor<1, 3> force = -spring * crossing.gap * crossing.normal;
-    Tensor<1, 3> between;
-    for (unsigned int i = 0; i < 4; ++i)
-      between += (i < 2 ? crossing.weights[i] : -crossing.weights[i]) * positions_[crossing.nodes[i]];
-    load.residual_moment += dealii::cross_product_3d(between, force);
-    load.absolute_force += force.norm();
-    if (crossing.surfaces[0] == 0)
-      load.force += force;
-    if (crossing.surfaces[1] == 0)
-      load.force -= force;
-    load.stored_energy += 0.5 * spring * crossing.gap * crossing.gap;
+    if (!(crossing.counted_gap() < 0.))
+      continue;
+    const double stiffness = edge_stiffness(crossing);
+    const auto forces = crossing.forces(stiffness);
+    for (unsigned int i = 0; i < 4; ++i) {
+      load.residual_force += forces[i];
+      load.residual_moment +=
+          dealii::cross_product_3d(positions_[crossing.nodes[i]] - positions_[crossing.nodes[0]], forces[i]);
+      if (crossing.surfaces[i / 2] == 0)
+        load.force += forces[i];
+    }
+    load.absolute_force += (forces[0] + forces[1]).norm();
+    load.stored_energy += 0.5 * stiffness * crossing.area * crossing.counted_gap() * crossing.counted_gap();
     load.deepest = std::max(load.deepest, -crossing.gap);
-    load.deepest_relative = std::max(load.deepest_relative, -0.5 * crossing.gap / std::sqrt(crossing.area));
+    load.deepest_relative =
+        std::max(load.deepest_relative, -0.5 * crossing.gap / std::sqrt(crossing.full_area));
   }
 }
 
@@ -420,6 +430,8 @@ void FacetContact::commit() {
     touched_n_[s] = states_[s].touched;
   base_ = history_n_ = history_;
   lifts_n_ = lifts_;
+  if (edges_)
+    edges_->commit();
 }
 
 void FacetContact::allow_initial_depths() {

@@ -46,6 +46,7 @@ void FacetSearch::set_surface(std::vector<SurfaceFacet> facets, std::vector<Slav
   for (std::size_t i = 0; i < n_nodes; ++i)
     std::sort(begin(i), begin(i + 1), by_key);
   built_at_.clear();
+  has_lists_ = false;
   candidates_.clear();
   first_candidate_.assign(slaves_.size() + 1, 0);
 }
@@ -57,7 +58,7 @@ BoundingBox FacetSearch::compute_motion(const Positions &positions) const {
   return motion;
 }
 
-bool FacetSearch::is_outdated(const BoundingBox &motion) const {
+bool FacetSearch::exceeds_margin(const BoundingBox &motion) const {
   return !((motion.high - motion.low).norm() <= margin_) && motion.low[0] <= motion.high[0];
 }
 
@@ -102,12 +103,8 @@ void FacetSearch::rebuild(const Positions &positions_n, const Positions &positio
   }
   first_candidate_[slaves_.size()] = candidates_.size();
   built_at_ = positions;
+  has_lists_ = true;
   ++n_rebuilds_;
-}
-
-void FacetSearch::update(const Positions &positions_n, const Positions &positions) {
-  if (built_at_.empty() || is_outdated(compute_motion(positions)))
-    rebuild(positions_n, positions);
 }
 
 } // namespace billet

@@ -62,7 +62,7 @@ void check_nothing_is_missed(const FacetSearch::Partners partners, const double 
   for (unsigned int step = 0; step < n_steps; ++step) {
     const Positions positions_n = positions;
     motion.advance(surface, slaves, positions, vector(0.3, -0.2, 0.1)); // far more than the margin
-    search.update(positions_n, positions);
+    update(search, positions_n, positions);
     Positions between = positions;
     for (std::size_t i = 0; i < positions.size(); ++i)
       between[i] = 0.5 * (positions_n[i] + positions[i]);
@@ -99,21 +99,21 @@ void check_motion() {
   FacetSearch search(FacetSearch::Partners::other_surfaces_and_self, 0.2);
   search.set_surface(surface.facets, surface.slaves());
   Positions x = surface.positions;
-  search.update(x, x);
+  update(search, x, x);
   for (unsigned int step = 0; step < 100; ++step) {
     for (auto &position : x)
       position += vector(1., 2., 3.);
-    search.update(x, x);
+    update(search, x, x);
   }
   check("what moves all together needs no new lists", search.n_rebuilds() == 1);
   x[4] += vector(0.19, 0., 0.);
-  search.update(x, x);
+  update(search, x, x);
   const std::size_t n_within = search.n_rebuilds();
   x[0] -= vector(0.02, 0., 0.);
-  search.update(x, x);
+  update(search, x, x);
   check("more than the margin apart does", n_within == 1 && search.n_rebuilds() == 2);
   search.set_surface({}, {});
-  search.update({}, {});
+  update(search, {}, {});
   check("nothing has no candidates", search.n_candidates() == 0);
 }
 
@@ -134,7 +134,7 @@ struct Probe {
     Positions positions_n = surface.positions, positions = surface.positions;
     positions_n.back() = from;
     positions.back() = to;
-    search.update(positions_n, positions);
+    update(search, positions_n, positions);
     return choose_facet<Facet>(MovedFacets(search, positions), 0, positions_n, last, limits);
   }
 };
@@ -232,7 +232,7 @@ void check_self_contact() {
   FacetSearch search(FacetSearch::Partners::other_surfaces_and_self, 0.02);
   const auto slaves = surface.slaves();
   search.set_surface(surface.facets, slaves);
-  search.update(surface.positions, surface.positions);
+  update(search, surface.positions, surface.positions);
   unsigned int n_front = 0;
   const MovedFacets facets(search, surface.positions);
   for (std::size_t s = 0; s < slaves.size(); ++s) {
@@ -253,7 +253,7 @@ void check_alignment() {
     });
     FacetSearch search(FacetSearch::Partners::other_surfaces, 0.02);
     search.set_surface(surface.facets, surface.slaves());
-    search.update(surface.positions, surface.positions);
+    update(search, surface.positions, surface.positions);
     const MovedFacets facets(search, surface.positions);
     unsigned int n_touching = 0;
     for (std::size_t s = 0; s < search.slaves().size(); ++s)

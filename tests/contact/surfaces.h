@@ -145,6 +145,13 @@ private:
   std::vector<Rates> rates_;
 };
 
+/// Makes lists if they are outdated, as contact on one rank does.
+inline void update(FacetSearch &search, const FacetSearch::Positions &positions_n,
+                   const FacetSearch::Positions &positions) {
+  if (search.is_outdated(positions, [](const BoundingBox &motion) { return motion; }))
+    search.rebuild(positions_n, positions);
+}
+
 } // namespace billet::testing
 
 #endif

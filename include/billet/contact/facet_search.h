@@ -51,17 +51,15 @@ public:
   /// Another surface than before: lists have to be made before they are looked up.
   void set_surface(std::vector<SurfaceFacet> facets, std::vector<SlaveNode> slaves);
 
-  /// The box of all displacements since lists were made, of the nodes at these positions.
-  BoundingBox compute_motion(const Positions &positions) const;
-  /// Whether lists are no longer right after these displacements, on one rank or joined over many.
-  bool is_outdated(const BoundingBox &motion) const;
+  /// Whether there are no lists, or they are no longer right at these positions. `join` makes the box of this
+  /// rank's displacements that of all ranks'; it is not called where there are no lists.
+  template <class Join> bool is_outdated(const Positions &positions, const Join &join) const {
+    return !has_lists_ || exceeds_margin(join(compute_motion(positions)));
+  }
 
   /// Makes lists. `positions_n` are those at the start of the step, of every node that facets and slaves
   /// name.
   void rebuild(const Positions &positions_n, const Positions &positions);
-
-  /// Makes lists if they are outdated, or there are none. To be called at every new position.
-  void update(const Positions &positions_n, const Positions &positions);
 
   const std::vector<SurfaceFacet> &facets() const { return facets_; }
   const std::vector<SlaveNode> &slaves() const { return slaves_; }
@@ -108,6 +106,9 @@ private:
     return facet.nodes[0] == node || facet.nodes[1] == node || facet.nodes[2] == node ||
            facet.nodes[3] == node;
   }
+  /// The box of all displacements since lists were made, of the nodes at these positions.
+  BoundingBox compute_motion(const Positions &positions) const;
+  bool exceeds_margin(const BoundingBox &motion) const;
   bool is_excluded(const SlaveNode &slave, const SurfaceFacet &facet) const;
 
   Partners partners_;
@@ -118,6 +119,7 @@ private:
   std::vector<std::size_t> first_around_;
   std::vector<unsigned int> around_;
   Positions built_at_;
+  bool has_lists_ = false;
   std::vector<std::size_t> first_candidate_;
   std::vector<unsigned int> candidates_;
   std::size_t n_rebuilds_ = 0;
