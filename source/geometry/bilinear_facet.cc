@@ -128,7 +128,7 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
   projection.weights = facet::weights(at);
   projection.share = facet::share_at(0.5 * (1. - std::abs(at[0])), limits.zone) *
                      facet::share_at(0.5 * (1. - std::abs(at[1])), limits.zone);
-  projection.exists = is_straight && projection.gap >= -limits.reach;
+  projection.exists = is_straight;
   return projection;
 }
 

@@ -112,7 +112,7 @@ FacetProjectionOf<Number> PlanedFacetOf<Number>::project(const Vector &x, const 
   projection.weights[1] -= beta;
   const auto &w = projection.weights;
   projection.gap -= warp * (w[0] + w[3] - w[1] - w[2]);
-  projection.exists = projection.gap >= -limits.reach;
+  projection.exists = true;
   return projection;
 }
 

@@ -76,8 +76,6 @@ struct FacetLimits {
   /// How far beyond an edge its projection may lie, relative to the facet's extent across that edge: so that
   /// no node is lost in the seam of two facets whose planes, or normals, do not fit together.
   double tolerance = 0.02;
-  /// A node whose gap is < −reach has not come through this facet [length].
-  double reach = std::numeric_limits<double>::infinity();
   /// How far from an edge, to both sides and relative to the same, facets share a node; > 0.
   double zone = 0.1;
 };
