@@ -161,13 +161,13 @@ private:
         });
   }
 
-  /// Beyond the border and before a facet that bounds the body there, as beside a block.
+  /// Before a facet around the nearest corner that bounds the body there, as beside a block; whether beyond
+  /// the border or not, since a corner bulges and the block's top is then above its end's border.
   bool is_out(const TouchedFacet &touched) const {
     bool is_out = false;
-    if (touched.projection.excess > 0.)
-      visit_beside(touched, [&](const FacetProjection &p, const bool is_smooth) {
-        is_out = is_out || (!is_smooth && p.gap >= 0.);
-      });
+    visit_beside(touched, [&](const FacetProjection &p, const bool is_smooth) {
+      is_out = is_out || (!is_smooth && p.gap >= 0.);
+    });
     return is_out;
   }
 
@@ -177,11 +177,12 @@ private:
     const double excess = touched.projection.excess;
     if (excess <= std::min(in_line, limits_.tolerance))
       return true;
-    bool is_near = excess <= limits_.tolerance;
-    if (!is_near)
-      visit_beside(touched,
-                   [&](const FacetProjection &, const bool is_smooth) { is_near = is_near || is_smooth; });
-    return is_near && !is_out(touched);
+    bool is_near = excess <= limits_.tolerance, is_out = false;
+    visit_beside(touched, [&](const FacetProjection &p, const bool is_smooth) {
+      is_near = is_near || is_smooth;
+      is_out = is_out || (!is_smooth && p.gap >= 0.);
+    });
+    return is_near && !is_out;
   }
 
   /// The middle of neither lies behind the other.
@@ -239,7 +240,8 @@ TouchedFacet find_facet_below(const MovedFacets &facets, const std::size_t slave
   TouchedFacet nearest;
   facets.search().visit_candidates(slave, [&](const unsigned int facet) {
     const FacetProjection p = facets.plane(facet).project(x, make_limits(limits.tolerance, limits));
-    if (p.exists && p.gap >= 0. && (!nearest.exists() || p.gap < nearest.projection.gap))
+    if (p.exists && p.gap >= 0. && p.gap < facets.search().facets()[facet].reach &&
+        (!nearest.exists() || p.gap < nearest.projection.gap))
       nearest = {facet, p};
   });
   return nearest;

@@ -25,7 +25,7 @@ struct ContactLimits {
 
 /// For a projection that may lie so far beyond the border.
 inline FacetLimits make_limits(const double tolerance, const ContactLimits &limits) {
-  return {tolerance, std::numeric_limits<double>::infinity(), limits.zone};
+  return {tolerance, limits.zone};
 }
 
 /// The facet that a node touches, if any.
@@ -70,8 +70,8 @@ TouchedFacet choose_facet(const MovedFacets &facets, std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
                           const ContactLimits &limits, const FacetLift &lift = {});
 
-/// The candidate that a node which touches none is straight above and before; the nearest, as a plane. Its
-/// gap is >= 0.
+/// The candidate that a node which touches none is straight above and before, by less than the facet's reach;
+/// the nearest, as a plane. Its gap is >= 0. All such facets are candidates, whatever the search's margin.
 TouchedFacet find_facet_below(const MovedFacets &facets, std::size_t slave, const ContactLimits &limits);
 
 /// Unit normal of a node: the mean of those of the facets around it, whatever their areas, so that a rim of
