@@ -299,15 +299,16 @@ void BodyContact::allow_overlap() {
 void BodyContact::check_overlap() const {
   const Discretization &discretization = nodes_.discretization();
   const MPI_Comm communicator = discretization.communicator();
-  if (pair_.is_self_contact ||
-      pair_.overlap.is_allowed) // its elements have nodes in common: the mesh is sound, or no mesh
+  if (pair_.overlap.is_allowed)
     return;
   std::array<double, 2> sums{std::accumulate(areas_.begin(), areas_.end(), 0.),
                              static_cast<double>(areas_.size())};
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
   const double size = std::sqrt(sums[0] / sums[1]);
   Overlap deepest;
-  for (unsigned int side = 0; side < 2; ++side) {
+  if (pair_.is_self_contact)
+    deepest = find_self_overlap(discretization, pair_.bodies[0], pair_.boundary_ids[0]);
+  for (unsigned int side = 0; side < 2 && !pair_.is_self_contact; ++side) {
     const Overlap overlap = find_overlap(discretization, pair_.bodies[side], pair_.boundary_ids[side],
                                          pair_.bodies[1 - side], pair_.boundary_ids[1 - side]);
     if (overlap.depth > deepest.depth)
@@ -316,8 +317,9 @@ void BodyContact::check_overlap() const {
   if (deepest.depth <= pair_.input->allowed_penetration.value * size)
     return;
   std::ostringstream message;
-  message << pair_.input->origin << ": the bodies start " << deepest.depth << " deep ("
-          << deepest.depth / size << " facet sizes) in each other, deepest at (" << deepest.position[0]
+  message << pair_.input->origin << ": the " << (pair_.is_self_contact ? "body starts " : "bodies start ")
+          << deepest.depth << " deep (" << deepest.depth / size << " facet sizes) in "
+          << (pair_.is_self_contact ? "itself" : "each other") << ", deepest at (" << deepest.position[0]
           << ", " << deepest.position[1] << ", " << deepest.position[2] << "); allowed are "
           << pair_.input->allowed_penetration.value << " facet sizes ('Allowed initial penetration')";
   throw InputError(message.str());

@@ -4,6 +4,7 @@
 #include "billet/discretization/boundary_facets.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/geometry/box_tree.h"
+#include "billet/geometry/segment_pair.h"
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/fe/mapping_q1.h>
@@ -12,53 +13,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace billet {
 
 using dealii::Tensor;
 
 namespace {
-
-using Coordinates = std::array<double, 3>;
-
-/// Points that tell what is inside the body below a facet where no node of it need be in the other body: a
-/// grid a thousandth of the element below the facet and within its border, and the middle of the element.
-/// Points of bodies that only touch are in none of the other's elements.
-void add_probes(const BoundaryFacet &facet, std::vector<Coordinates> &points) {
-  constexpr double inset = 1e-3;
-  FacetCorners corners;
-  std::copy(facet.corners.begin(), facet.corners.end(), corners.begin());
-  const Tensor<1, 3> area = facet.area_vector();
-  if (!(area.norm() > 0.))
-    return;
-  const auto add = [&](const double xi, const double eta, const double depth) {
-    const Tensor<1, 3> x = facet::interpolate(facet::weights({xi, eta}), corners) -
-                           (depth * facet.thickness / area.norm()) * area;
-    points.push_back({x[0], x[1], x[2]});
-  };
-  constexpr std::array<double, 3> along{-1. + 2. * inset, 0., 1. - 2. * inset};
-  for (const double xi : along)
-    for (const double eta : along)
-      add(xi, eta, inset);
-  add(0., 0., 0.5);
-}
-
-/// The nodes of these faces and points below them, on all ranks, each once or more.
-std::vector<Coordinates> gather_points(const Discretization &discretization, const std::size_t body,
-                                       const std::vector<unsigned int> &boundary_ids) {
-  std::map<DofIndex, Coordinates> nodes;
-  std::vector<Coordinates> own, all;
-  for (const auto &facet : collect_boundary_facets(discretization, body, boundary_ids)) {
-    for (unsigned int a = 0; a < 4; ++a)
-      nodes[facet.dofs[a][0]] = {facet.corners[a][0], facet.corners[a][1], facet.corners[a][2]};
-    add_probes(facet, own);
-  }
-  for (const auto &entry : nodes)
-    own.push_back(entry.second);
-  for (const auto &part : dealii::Utilities::MPI::all_gather(discretization.communicator(), own))
-    all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
 
 template <class Points> BoundingBox box_around(const Points &points) {
   BoundingBox box = BoundingBox::empty();
@@ -67,24 +28,25 @@ template <class Points> BoundingBox box_around(const Points &points) {
   return box;
 }
 
-/// Whether the point is in one of the elements of this rank.
+/// The elements of this rank.
 class Elements {
 public:
   explicit Elements(const std::vector<Element> &elements)
       : elements_(elements), tree_(make_boxes(elements)) {}
 
-  bool contain(const dealii::Point<3> &x) const {
-    bool is_inside = false;
+  /// How many of them the point is in, up to a tolerance in reference coordinates.
+  unsigned int count_around(const dealii::Point<3> &x, const double tolerance) const {
+    unsigned int n = 0;
     const double nowhere_else = 0.;
-    constexpr double rounding = 1e-9; // a point on the face between two elements is in both
     tree_.visit_near(x, nowhere_else, [&](const unsigned int e) {
       try {
-        is_inside = is_inside || dealii::GeometryInfo<3>::is_inside_unit_cell(
-                                     mapping_.transform_real_to_unit_cell(elements_[e].cell, x), rounding);
+        if (dealii::GeometryInfo<3>::is_inside_unit_cell(
+                mapping_.transform_real_to_unit_cell(elements_[e].cell, x), tolerance))
+          ++n;
       } catch (const dealii::Mapping<3>::ExcTransformationFailed &) { // far outside of a distorted element
       }
     });
-    return is_inside;
+    return n;
   }
 
 private:
@@ -133,35 +95,203 @@ private:
   BoxTree tree_;
 };
 
-} // namespace
+/// Where a segment meets a triangle, as a parameter in [0, 1] from its first end, if it does and does not lie
+/// in its plane. A segment that meets the border meets the triangle.
+std::optional<double> meet(const Segment &segment, const Tensor<1, 3> &a, const Tensor<1, 3> &b,
+                           const Tensor<1, 3> &c) {
+  constexpr double rounding = 1e-9;
+  const Tensor<1, 3> along = segment[1] - segment[0], e_1 = b - a, e_2 = c - a, from_a = segment[0] - a;
+  const Tensor<1, 3> across = dealii::cross_product_3d(along, e_2);
+  const double determinant = e_1 * across;
+  if (!(std::abs(determinant) > rounding * along.norm() * e_1.norm() * e_2.norm()))
+    return {};
+  const Tensor<1, 3> other = dealii::cross_product_3d(from_a, e_1);
+  const double u = from_a * across / determinant, v = along * other / determinant,
+               t = e_2 * other / determinant;
+  const bool is_in =
+      u >= -rounding && v >= -rounding && u + v <= 1. + rounding && t >= -rounding && t <= 1. + rounding;
+  return is_in ? std::optional<double>(t) : std::nullopt;
+}
 
-Overlap find_overlap(const Discretization &discretization, const std::size_t body,
-                     const std::vector<unsigned int> &boundary_ids, const std::size_t other_body,
-                     const std::vector<unsigned int> &other_boundary_ids) {
-  const std::vector<Coordinates> points = gather_points(discretization, body, boundary_ids);
-  const Elements elements(discretization.elements(other_body));
-  const auto facets = collect_boundary_facets(discretization, other_body, other_boundary_ids);
-  const Faces faces(facets);
+/// Facets of all ranks, each with its normal [length].
+struct ProbedFacet {
+  FacetCorners corners;
+  double thickness; ///< of the element below
+  Tensor<1, 3> normal;
+};
 
-  std::vector<int> is_inside;
+std::vector<ProbedFacet> gather_facets(const std::vector<BoundaryFacet> &facets, MPI_Comm communicator) {
+  std::vector<std::array<double, 16>> own;
+  for (const auto &facet : facets) {
+    const Tensor<1, 3> area = facet.area_vector();
+    if (!(area.norm() > 0.))
+      continue;
+    std::array<double, 16> numbers{};
+    for (unsigned int i = 0; i < 3; ++i) {
+      for (unsigned int a = 0; a < 4; ++a)
+        numbers[3 * a + i] = facet.corners[a][i];
+      numbers[12 + i] = area[i] / area.norm();
+    }
+    numbers[15] = facet.thickness;
+    own.push_back(numbers);
+  }
+  std::vector<ProbedFacet> all;
+  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
+    for (const auto &numbers : part) {
+      ProbedFacet facet{{}, numbers[15], Tensor<1, 3>({numbers[12], numbers[13], numbers[14]})};
+      for (unsigned int a = 0; a < 4; ++a)
+        facet.corners[a] = Tensor<1, 3>({numbers[3 * a], numbers[3 * a + 1], numbers[3 * a + 2]});
+      all.push_back(facet);
+    }
+  return all;
+}
+
+/// The side of a facet between two corners that follow each other around it.
+Segment side_of(const FacetCorners &corners, const unsigned int side) {
+  return {corners[facet::around[side]], corners[facet::around[(side + 1) % 4]]};
+}
+
+/// Points that tell what is inside the bodies below these facets.
+class Probes {
+public:
+  explicit Probes(const std::vector<ProbedFacet> &facets) : facets_(facets) {}
+
+  /// A grid just below each facet and within its border, and the middle of the element.
+  void add_grids() {
+    constexpr std::array<double, 3> along{-1. + 2. * inset, 0., 1. - 2. * inset};
+    for (const auto &facet : facets_) {
+      for (const double xi : along)
+        for (const double eta : along)
+          add(facet, {xi, eta}, inset);
+      add(facet, {0., 0.}, 0.5);
+    }
+  }
+
+  /// Where sides of the facets go through the other body's faces: between two places where a side meets them,
+  /// or one and its end, it is either all in the other body or all out of it. `facets` are those of this
+  /// rank. Bodies in each other, of which neither is as a whole in the other, have such a side.
+  void add_pierced_sides(const std::vector<BoundaryFacet> &facets, MPI_Comm communicator) {
+    std::vector<BoundingBox> boxes;
+    for (const auto &facet : facets)
+      boxes.push_back(box_around(facet.corners));
+    const BoxTree tree(boxes);
+    std::vector<std::array<double, 3>> own; // facet, side, parameter
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      for (unsigned int side = 0; side < 4; ++side) {
+        const Segment segment = side_of(facets_[f].corners, side);
+        const double square = 0.25 * (segment[1] - segment[0]).norm_square() * (1. + 1e-9);
+        tree.visit_near(0.5 * (segment[0] + segment[1]), square, [&](const unsigned int other) {
+          const auto &c = facets[other].corners;
+          // Of a facet that is not plane both ways to fold it.
+          for (const auto &corners : {std::array<unsigned int, 3>{0, 1, 3}, {0, 3, 2}, {0, 1, 2}, {1, 3, 2}})
+            if (const auto t = meet(segment, c[corners[0]], c[corners[1]], c[corners[2]]))
+              own.push_back({static_cast<double>(f), static_cast<double>(side), *t});
+        });
+      }
+    std::map<std::array<double, 2>, std::vector<double>> sides;
+    for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
+      for (const auto &met : part)
+        sides[{met[0], met[1]}].push_back(met[2]);
+    for (auto &entry : sides) {
+      std::vector<double> &places = entry.second;
+      places.push_back(0.);
+      places.push_back(1.);
+      std::sort(places.begin(), places.end());
+      for (std::size_t i = 0; i + 1 < places.size(); ++i)
+        if (places[i + 1] - places[i] > inset)
+          add_below_side(facets_[static_cast<std::size_t>(entry.first[0])],
+                         static_cast<unsigned int>(entry.first[1]), 0.5 * (places[i] + places[i + 1]));
+    }
+  }
+
+  /// The corners themselves.
+  void add_corners() {
+    for (const auto &facet : facets_)
+      for (const auto &corner : facet.corners)
+        points_.push_back(corner);
+  }
+
+  const std::vector<Tensor<1, 3>> &points() const { return points_; }
+
+private:
+  /// Depth relative to the element's thickness. Points of bodies that only touch are in none of the other's
+  /// elements.
+  static constexpr double inset = 1e-3;
+
+  void add(const ProbedFacet &facet, const std::array<double, 2> &parameters, const double depth) {
+    points_.push_back(facet::interpolate(facet::weights(parameters), facet.corners) -
+                      depth * facet.thickness * facet.normal);
+  }
+
+  void add_below_side(const ProbedFacet &facet, const unsigned int side, const double t) {
+    for (const double depth : {inset, 0.1, 0.25, 0.5}) {
+      const double inner = 1. - 2. * depth, along = 2. * t - 1.;
+      // In the order of facet::around: η = −1, ξ = 1, η = 1, ξ = −1.
+      const std::array<std::array<double, 2>, 4> parameters{
+          {{along, -inner}, {inner, along}, {-along, inner}, {-inner, -along}}};
+      add(facet, parameters[side], depth);
+    }
+  }
+
+  const std::vector<ProbedFacet> &facets_;
+  std::vector<Tensor<1, 3>> points_;
+};
+
+/// The deepest of these points, which are the same on all ranks, that are in at least so many elements of the
+/// body: the depth is the distance to its faces.
+Overlap find_deepest(const Discretization &discretization, const std::vector<Tensor<1, 3>> &points,
+                     const std::size_t body, const std::vector<BoundaryFacet> &faces,
+                     const unsigned int n_elements, const double tolerance) {
+  const MPI_Comm communicator = discretization.communicator();
+  const Elements elements(discretization.elements(body));
+  const Faces surface(faces);
+  std::vector<unsigned int> own_counts;
   for (const auto &x : points)
-    is_inside.push_back(elements.contain(dealii::Point<3>(x[0], x[1], x[2])) ? 1 : 0);
-  std::vector<int> on_any_rank(is_inside.size());
-  dealii::Utilities::MPI::max(is_inside, discretization.communicator(), on_any_rank);
+    own_counts.push_back(elements.count_around(dealii::Point<3>(x), tolerance));
+  std::vector<unsigned int> counts(own_counts.size());
+  dealii::Utilities::MPI::sum(own_counts, communicator, counts);
   std::vector<double> distances;
   for (std::size_t i = 0; i < points.size(); ++i)
-    distances.push_back(
-        on_any_rank[i] == 1 ? faces.distance(Tensor<1, 3>({points[i][0], points[i][1], points[i][2]})) : 0.);
+    distances.push_back(counts[i] >= n_elements ? surface.distance(points[i]) : 0.);
   std::vector<double> depths(distances.size());
-  dealii::Utilities::MPI::min(distances, discretization.communicator(), depths);
+  dealii::Utilities::MPI::min(distances, communicator, depths);
 
   Overlap overlap;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (depths[i] > overlap.depth) {
       overlap.depth = depths[i];
-      overlap.position = Tensor<1, 3>({points[i][0], points[i][1], points[i][2]});
+      overlap.position = points[i];
     }
   return overlap;
+}
+
+} // namespace
+
+Overlap find_overlap(const Discretization &discretization, const std::size_t body,
+                     const std::vector<unsigned int> &boundary_ids, const std::size_t other_body,
+                     const std::vector<unsigned int> &other_boundary_ids) {
+  const MPI_Comm communicator = discretization.communicator();
+  const auto facets =
+      gather_facets(collect_boundary_facets(discretization, body, boundary_ids), communicator);
+  const auto faces = collect_boundary_facets(discretization, other_body, other_boundary_ids);
+  Probes probes(facets);
+  probes.add_corners();
+  probes.add_grids();
+  probes.add_pierced_sides(faces, communicator);
+  constexpr double rounding = 1e-9; // a point on the face between two elements is in both
+  return find_deepest(discretization, probes.points(), other_body, faces, 1, rounding);
+}
+
+Overlap find_self_overlap(const Discretization &discretization, const std::size_t body,
+                          const std::vector<unsigned int> &boundary_ids) {
+  const MPI_Comm communicator = discretization.communicator();
+  const auto faces = collect_boundary_facets(discretization, body, boundary_ids);
+  const auto facets = gather_facets(faces, communicator);
+  Probes probes(facets);
+  probes.add_grids();
+  probes.add_pierced_sides(faces, communicator);
+  constexpr double rounding = 1e-6; // a point on the face between two elements is in neither
+  return find_deepest(discretization, probes.points(), body, faces, 2, -rounding);
 }
 
 } // namespace billet

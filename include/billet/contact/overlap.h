@@ -17,11 +17,16 @@ struct Overlap {
 };
 
 /// Looks for the nodes of one body's faces, and points of the elements at them, inside the elements of
-/// another, and how far they are from its faces. Collective; meant for the start only: ranks tell each other
-/// all of the first body's points.
+/// another, and how far they are from its faces. Among the points are some on every part of the faces' sides
+/// that the other's faces cut off: so it finds bodies that pierce each other wherever they do. Collective;
+/// meant for the start only: ranks tell each other all of the first body's faces.
 Overlap find_overlap(const Discretization &discretization, std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, std::size_t other_body,
                      const std::vector<unsigned int> &other_boundary_ids);
+
+/// The same of a body whose elements are in each other: `depth` is that of such points below its faces.
+Overlap find_self_overlap(const Discretization &discretization, std::size_t body,
+                          const std::vector<unsigned int> &boundary_ids);
 
 } // namespace billet
 
