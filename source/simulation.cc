@@ -195,45 +195,51 @@ void run_quasi_static(const Scene &scene, const Discretization &discretization) 
   outputs.progress.finish(outputs.writer.file_to_open());
 }
 
-/// Where steps of an explicit scene have to end: for the history, for fields, and at the scene's own stops.
+/// Where steps of an explicit scene have to end: where the scene itself stops, not where something is
+/// written.
 class Events {
 public:
   explicit Events(const Scene &scene)
-      : parameters_(scene.parameters()), end_(parameters_.time_stepping.end_time),
-        history_interval_(parameters_.output.history_interval > 0. ? parameters_.output.history_interval
-                                                                   : end_ / 200.),
-        stops_(scene.stops()) {
-    stops_.insert(stops_.end(), parameters_.time_stepping.stops.begin(),
-                  parameters_.time_stepping.stops.end());
+      : end_(scene.parameters().time_stepping.end_time), stops_(scene.stops()) {
+    const auto &more = scene.parameters().time_stepping.stops;
+    stops_.insert(stops_.end(), more.begin(), more.end());
+    // One that is at the end but for round-off is the end.
+    constexpr double rounding = 1e-9;
+    stops_.erase(std::remove_if(stops_.begin(), stops_.end(),
+                                [this](const double stop) { return stop > end_ * (1. - rounding); }),
+                 stops_.end());
     stops_.push_back(end_);
     std::sort(stops_.begin(), stops_.end());
   }
 
-  double next(const double time) const {
-    double event = *std::upper_bound(stops_.begin(), stops_.end() - 1, time);
-    for (const double interval : {history_interval_, parameters_.output.interval})
-      if (interval > 0.)
-        event = std::min(event, after(time, interval));
-    return event;
-  }
-  bool is_history_due(const double time) const {
-    return time >= end_ || is_multiple(time, history_interval_);
-  }
+  double next(const double time) const { return *std::upper_bound(stops_.begin(), stops_.end() - 1, time); }
   double end() const { return end_; }
 
 private:
-  static constexpr double slack = 1e-9; // part of an interval by which round-off may misplace its end
-  static double after(const double time, const double interval) {
-    return (std::floor(time / interval + slack) + 1.) * interval;
-  }
-  static bool is_multiple(const double time, const double interval) {
-    const double n = std::round(time / interval);
-    return std::abs(time / interval - n) < slack && (n > 0. || time == 0.);
+  double end_;
+  std::vector<double> stops_;
+};
+
+/// When a row of the history is due: at the start, at the end of the first step that reaches the next
+/// multiple of the interval, at the end.
+class HistoryTimes {
+public:
+  explicit HistoryTimes(const parameters::Scene &parameters)
+      : end_(parameters.time_stepping.end_time),
+        interval_(parameters.output.history_interval > 0. ? parameters.output.history_interval
+                                                          : end_ / 200.) {}
+
+  /// Once for each time.
+  bool is_due(const double time) {
+    constexpr double rounding = 1e-9; // of an interval
+    const double n = std::floor(time / interval_ + rounding);
+    const bool is_due = n > last_ || time >= end_;
+    last_ = std::max(n, last_);
+    return is_due;
   }
 
-  const parameters::Scene &parameters_;
-  double end_, history_interval_;
-  std::vector<double> stops_;
+private:
+  double end_, interval_, last_ = -1.;
 };
 
 /// Of this process, in seconds.
@@ -247,6 +253,7 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
   const parameters::Scene &parameters = scene.parameters();
   ExplicitDynamics problem(scene, discretization);
   const Events events(scene);
+  HistoryTimes history_times(parameters);
   Outputs outputs(scene, discretization);
   outputs.progress.start(discretization, problem);
   if (parameters.explicit_dynamics.scaled_step > 0.)
@@ -260,15 +267,22 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
     });
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
   };
-  const auto stop_on_drift = [&] {
+  constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
+  unsigned int balanced_step = 0;                   // the last at which they were seen to balance
+  // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
+  // which a node enters; it is a small part soon. Energy without limit grows on.
+  const auto stop_on_drift = [&](const bool is_finished) {
+    const bool is_finite = std::isfinite(problem.relative_drift());
     if (std::abs(problem.relative_drift()) <= parameters.explicit_dynamics.largest_drift)
+      balanced_step = problem.n_steps();
+    if (is_finite && problem.n_steps() < balanced_step + (is_finished ? 1 : steps_between_looks))
       return;
     problem.update_state();
     outputs.snapshots.write(problem);
     std::ostringstream message;
     message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
             << " steps the energies ";
-    if (std::isfinite(problem.relative_drift()))
+    if (is_finite)
       message << "fail to balance by " << 100. * problem.relative_drift()
               << " % of the largest energy so far, allowed are "
               << 100. * parameters.explicit_dynamics.largest_drift
@@ -298,10 +312,9 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
                             parameters.output.folder.value + "'.");
     }
   };
-  constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
   for (bool is_finished = false; !is_finished;) {
     is_finished = problem.time() >= events.end();
-    const bool is_due = events.is_history_due(problem.time());
+    const bool is_due = history_times.is_due(problem.time());
     attempt([&] {
       const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
       problem.prepare_step(event);
@@ -313,7 +326,7 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
     else if (problem.n_steps() % steps_between_looks == 0)
       problem.update_ledger();
     if (is_due || problem.n_steps() % steps_between_looks == 0)
-      stop_on_drift();
+      stop_on_drift(is_finished);
     if (problem.n_steps() == 0) {
       problem.update_state();
       outputs.snapshots.write(problem);

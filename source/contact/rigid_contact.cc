@@ -273,6 +273,17 @@ template <class Add> void RigidContact::for_each_area(const Add &add) const {
   }
 }
 
+template <class Add> void RigidContact::for_each_near(const Add &add) const {
+  for (unsigned int i = 0; i < nodes_.size(); ++i) {
+    const Node &node = nodes_[i];
+    const double gap = states_[i].gap;
+    // The step in which a node enters must be short enough already, and equal steps keep the energy best.
+    const bool is_near = gap < near_gap * node.size || gap + near_steps * (gap - node.gap_n) < 0.;
+    if (states_[i].status == ContactStatus::open && gap >= 0. && is_near && is_owned_[i])
+      add(i, node.size * node.size);
+  }
+}
+
 void RigidContact::add_forces(Vector &residual) const {
   for_each_area([&](const unsigned int i, const double area) {
     std::array<double, 3> values{};
@@ -291,16 +302,36 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
         area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
     add_to_load(load, i, area);
   });
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node &node = nodes_[i];
-    const double gap = states_[i].gap;
-    // The step in which a node enters must be short enough already, and equal steps keep the energy best.
-    const bool is_near = gap < near_gap * node.size || gap + near_steps * (gap - node.gap_n) < 0.;
-    if (states_[i].status == ContactStatus::open && gap >= 0. && is_near && is_owned_[i])
-      bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
-          node.size * node.size * std::max(node.stiffness.normal, node.stiffness.tangential);
-  }
+  for_each_near([&](const unsigned int i, const double area) {
+    bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
+        area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
+  });
   return load;
+}
+
+double RigidContact::stiffness_against_tool() const {
+  double sum = 0.;
+  const auto add = [&](const unsigned int i, const double area) {
+    const NodeState &state = states_[i];
+    const Tensor<1, 3> n = // which open nodes do not know
+        state.status != ContactStatus::open
+            ? state.normal
+            : placement_.rotation *
+                  tool_.surface().project(placement_.to_tool(state.position), nodes_[i].patch).normal;
+    const Tensor<1, 3> a =
+        tool_.control() == Tool::Control::moment
+            ? dealii::cross_product_3d(tool_.rotation_axis(), state.position - placement_.moved_centre())
+            : tool_.force_direction();
+    const double normal = a * n;
+    sum += area * nodes_[i].stiffness.normal * normal * normal;
+    if (pair_.has_friction())
+      sum += area * nodes_[i].stiffness.tangential * (a * a - normal * normal);
+  };
+  if (is_removed_ || (tool_.control() != Tool::Control::force && tool_.control() != Tool::Control::moment))
+    return sum;
+  for_each_area(add);
+  for_each_near(add);
+  return sum;
 }
 
 void RigidContact::add_tangent(const TangentSystem &system) const {

@@ -118,7 +118,7 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
       "Contact resolution", "2", Patterns::Double(),
       "How much finer than stability asks for steps resolve the oscillation of a node on its "
       "contact penalty, at least 1. 1 makes the longest steps; 2 keeps the energy of stiff blows "
-      "ten times better.");
+      "three times better.");
   prm.declare_entry("Linear bulk viscosity", "0.06", Patterns::Double(),
                     "b1 >= 0: a pressure b1 rho c L times the volumetric strain rate damps ringing; L is the "
                     "element's size, c the speed of sound.");
@@ -133,7 +133,7 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
                     "is not; the mass added is reported. 0: none. [time]");
   prm.declare_entry("Largest drift", "0.05", Patterns::Double(),
                     "The run ends where the energies fail to balance by more than this part of the largest "
-                    "energy so far; > 0.");
+                    "energy so far, for a hundred steps or at the end; > 0.");
   prm.declare_entry("Instructions", "automatic", Patterns::Selection("automatic|scalar|SSE2|AVX2|AVX-512"),
                     "Instruction set of the element kernels; automatic: the best of this machine.");
 }
@@ -276,10 +276,11 @@ void Output::declare(ParameterHandler &prm) {
                     "default of explicit scenes: only there, or by the interval.");
   prm.declare_entry(
       "Interval", "0", Patterns::Double(),
-      "If not 0, steps end at multiples of this time, and fields are written there instead. [time]");
+      "If not 0, fields are written at multiples of this time instead: steps end there; in explicit "
+      "scenes, at the end of the first step that reaches them. [time]");
   prm.declare_entry("History interval", "0", Patterns::Double(),
-                    "Explicit scenes: time between two lines of the history; 0: a two hundredth of the end "
-                    "time. [time]");
+                    "Explicit scenes: a line of the history is written at the end of the first step that "
+                    "reaches a multiple of this time; 0: a two hundredth of the end time. [time]");
   prm.declare_entry("Stress", "true", Patterns::Bool(),
                     "Write Cauchy stress, von Mises stress and pressure.");
   prm.declare_entry("Plastic strain", "true", Patterns::Bool(),

@@ -78,6 +78,8 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   }
   for (std::size_t i = 0; i < scene.tools().size(); ++i)
     tools_.emplace_back(scene.tools()[i], scene.parameters().tools[i].motion);
+  has_free_tools_ = std::any_of(tools_.begin(), tools_.end(),
+                                [](const FreeTool &tool) { return tool.inverse_inertia() > 0.; });
   tool_loads_.resize(tools_.size());
   fading_forces_.resize(tools_.size());
   u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
@@ -240,12 +242,15 @@ void ExplicitDynamics::compute_internal_forces() {
 
 void ExplicitDynamics::compute_contact_forces() {
   std::fill(tool_loads_.begin(), tool_loads_.end(), ContactLoad());
+  tool_stiffness_.assign(tools_.size(), 0.);
   for (auto &contact : contacts_) {
     const FreeTool &tool = tools_[contact.tool()];
     contact.start_step(tool.before(), tool.now(), n_steps_ == 0 ? 0. : step_);
     contact.update(u_);
     const ContactLoad load = contact.add_forces(forces_, bounds_);
     tool_loads_[contact.tool()] += load;
+    if (tool.inverse_inertia() > 0.)
+      tool_stiffness_[contact.tool()] += contact.stiffness_against_tool();
     works_.friction += load.dissipation;
     contact.commit();
   }
@@ -315,6 +320,18 @@ void ExplicitDynamics::compute_forces() {
     });
 }
 
+double ExplicitDynamics::tools_share() const {
+  // Springs k_i, between nodes that move by u_i along a_i and a tool that moves by s, hold
+  //   k_i (u_i − s)² <= k_i (1/m_i + Σ_j k_j/(k_i M)) (m_i u_i² + k_i/(Σ_j k_j) M s²),
+  // so that ω² <= max k_i/m_i + Σ_j k_j/M: the second is the tool's share. With a_i·a_i in k_i of the tool.
+  std::vector<double> sums(tool_stiffness_.size());
+  dealii::Utilities::MPI::sum(tool_stiffness_, discretization_.communicator(), sums);
+  double share = 0.;
+  for (std::size_t i = 0; i < tools_.size(); ++i)
+    share = std::max(share, tools_[i].inverse_inertia() * sums[i]);
+  return parameters_.contact_resolution * parameters_.contact_resolution * share;
+}
+
 double ExplicitDynamics::stable_step() const {
   // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
   double stiffest = 0., most_damped = 0.;
@@ -328,25 +345,34 @@ double ExplicitDynamics::stable_step() const {
   MPI_Allreduce(MPI_IN_PLACE, bounds.data(), 3, MPI_DOUBLE, MPI_MIN, discretization_.communicator());
   if (bounds[0] < 0.)
     return bounds[0];
+  if (has_free_tools_)
+    bounds[1] -= tools_share();
   const double a = 1. / (bounds[0] * bounds[0]) - 0.25 * bounds[1], b = -0.5 * bounds[2];
   return 2. / (b + std::sqrt(b * b + 4. * a));
 }
 
 void ExplicitDynamics::choose_step(const double event) {
-  // The pace grows slowly; steps that lead to an event may be shorter, and do not slow it down.
-  constexpr double largest_growth = 1.02;
+  // Energies are kept best by equal steps, and by steps that change slowly, whatever asks for the change.
+  // What a change of the step by a part p costs goes with p (ω Δt)²: short steps may grow faster.
+  constexpr double growth = 0.02, largest_growth = 2., short_step = 0.9, long_step = 0.99;
+  constexpr double rounding = 1e-9; // a remainder that is so much too long is one step
   const double allowed = parameters_.safety_factor * element_step_;
-  pace_ = n_steps_ > 0 ? std::min(allowed, largest_growth * pace_) : allowed;
-  const double largest = pace_;
-  // A step that may be kept is kept, though it could be a little longer: the scheme likes equal steps.
-  if (n_planned_ > 0 && step_ <= largest && step_ > 0.9 * largest) {
+  const double length = step_ / allowed;
+  const double largest =
+      n_steps_ > 0 ? std::min(allowed, std::min(largest_growth, 1. + growth / (length * length)) * step_)
+                   : allowed;
+  const double remaining = event - time_;
+  const double n = std::max(1., std::ceil(remaining / largest * (1. - rounding)));
+  const double fresh = remaining / n;
+  is_growing_ = step_ < (is_growing_ ? long_step : short_step) * allowed;
+  const bool is_planned = n_planned_ > 0 && event_ == event && step_ <= allowed;
+  // Near the event, n steps may have to be shorter than those planned: then these are kept.
+  if (is_planned && !(is_growing_ && fresh > step_)) {
     --n_planned_;
     return;
   }
   event_ = event;
-  const double remaining = event - time_;
-  const double n = std::max(1., std::ceil(remaining / largest * (1. - 1e-12)));
-  step_ = remaining / n;
+  step_ = fresh;
   n_planned_ = static_cast<unsigned int>(std::min(n, 1e9)) - 1;
   if (!(time_ + step_ > time_) || !(n < 1e15)) {
     std::ostringstream why;
@@ -456,6 +482,7 @@ void ExplicitDynamics::update_ledger() {
     angular = momentum + 3
   };
   std::vector<double> own(angular + 3, 0.);
+  double extent = 0.;
   for (unsigned int node = 0; node < nodes_.size(); ++node) {
     if (!nodes_.is_owned(node))
       continue;
@@ -463,8 +490,9 @@ void ExplicitDynamics::update_ledger() {
     own[kinetic] += 0.5 * masses_[node] * dot(&v_[k], &v_before_[k]);
     const Tensor<1, 3> p =
         0.5 * masses_[node] * (get_vector(v_.data(), node) + get_vector(v_before_.data(), node));
-    const Tensor<1, 3> L = dealii::cross_product_3d(
-        get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node), p);
+    const Tensor<1, 3> x = get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node);
+    const Tensor<1, 3> L = dealii::cross_product_3d(x, p);
+    extent = std::max({extent, std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
     for (unsigned int i = 0; i < 3; ++i) {
       own[momentum + i] += p[i];
       own[angular + i] += L[i];
@@ -480,6 +508,7 @@ void ExplicitDynamics::update_ledger() {
   own[external] = works_.external;
   std::vector<double> totals(own.size());
   dealii::Utilities::MPI::sum(own, communicator, totals);
+  extent_ = dealii::Utilities::MPI::max(extent, communicator);
 
   EnergyLedger &energies = state_.energies;
   energies.kinetic = totals[kinetic];
@@ -512,8 +541,15 @@ void ExplicitDynamics::update_ledger() {
       std::max({largest_energy_, 0.5 * energies.total(), std::abs(energies.initial + energies.external)});
 }
 
+double ExplicitDynamics::smallest_energy() const {
+  const double rounding = std::numeric_limits<double>::epsilon() * extent_;
+  const double rate = 2. / element_step_ * 2. * rounding / std::min(parameters_.largest_drift, 1.);
+  return 0.5 * (mass_ + added_mass_) * rate * rate;
+}
+
 double ExplicitDynamics::relative_drift() const {
-  return largest_energy_ > 0. ? state_.energies.drift() / largest_energy_ : 0.;
+  const double scale = std::max(largest_energy_, smallest_energy());
+  return scale > 0. ? state_.energies.drift() / scale : 0.;
 }
 
 std::vector<ElementSummary> ExplicitDynamics::summarize(const std::size_t body) const {

@@ -356,6 +356,13 @@ check 'and that they are absurdly many', sub {
   billet('block / Material: Density = 1e-20 & block: Initial velocity = 0 ; 0 ; 1e200', base => $impact, code => 3);
   return $said =~ /^About \d+ steps of [\d.e-]+: is .*'Mass scaling step' makes steps longer$/m ? '' : "says $said";
 };
+check 'when output is due changes no step and no result', sub {
+  my @ends = map {
+    my $folder = billet($_, base => $impact);
+    (split /\n/, read_text("$folder/history.csv"))[-1]
+  } ('', 'Output: Interval = 1.3e-5 & Output: History interval = 1.7e-5');
+  return is('last line of the history', $ends[1], $ends[0]);
+};
 check 'times of output that nearly coincide do not shorten the steps between', sub {
   my @steps = map {
     my $folder = billet($_, base => $impact);

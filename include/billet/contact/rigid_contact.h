@@ -99,6 +99,10 @@ public:
   /// Returns local_load(). Adds F_c [force], and to component 0 of `bounds` what the penalties of this rank's
   /// facets add to a bound on the stiffness at a node [force/length].
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) const;
+  /// Of the penalties of this rank's facets against a tool that moves along its force's direction, or turns
+  /// about its axis [force/length, or force length]: Σ a·k a, a what the node's gap and slip are to a unit of
+  /// that motion. Of a tool that moves as told 0. Counts what bounds count.
+  double stiffness_against_tool() const;
 
   /// Of every node at a facet of this rank; `area` is this rank's share.
   std::vector<ContactNodeReport> report() const;
@@ -169,6 +173,8 @@ private:
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   /// Calls add(index of the slave node, its area at one facet).
   template <class Add> void for_each_area(const Add &add) const;
+  /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
+  template <class Add> void for_each_near(const Add &add) const;
   void add_to_load(ContactLoad &load, std::size_t i, double area) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);

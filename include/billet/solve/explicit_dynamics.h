@@ -26,8 +26,10 @@ class ExplicitDynamics final : public Solution {
 public:
   ExplicitDynamics(const Scene &scene, const Discretization &discretization);
 
-  /// Forces at the current time, then a step that is stable and ends at `event` or at a whole number of such
-  /// steps before it; the velocities after it. Throws SolutionFailure where the state is not admissible.
+  /// Forces at the current time, then a step that is stable and leads to `event` in a whole number of equal
+  /// steps, as long as they may stay equal; the velocities after it. Steps grow by 2 % at a
+  /// time, faster while they are much shorter than they may be. Throws SolutionFailure where the state is not
+  /// admissible.
   void prepare_step(double event);
   void finish_step();
 
@@ -43,7 +45,8 @@ public:
   void update_ledger();
   /// The same, and the fields. Collective.
   void update_state();
-  /// Part of the largest energy so far by which the energies of the last update fail to balance.
+  /// Part of the largest energy so far by which the energies of the last update fail to balance; of
+  /// smallest_energy(), while that is larger.
   double relative_drift() const;
 
   const SolutionState &state() const override { return state_; }
@@ -63,6 +66,12 @@ private:
   void compute_contact_forces();
   void remove_tools();
   double stable_step() const;
+  /// What tools with a mass, which is not infinite, add to ω² of the contacts. Collective.
+  double tools_share() const;
+  /// Below this, the round-off of positions alone makes energies fail to balance by the allowed part. With
+  /// coordinates up to R they are known to ε R; an error of that size in the fastest oscillation, ω = 2/Δt of
+  /// the bound Δt on the step, of amplitude a makes up 2 ε R/a of its energy, ½ m ω² a² at most.
+  double smallest_energy() const;
   void choose_step(double event);
   void kick();
   /// What this step's forces do in the half step at velocities `v` that is `half` long.
@@ -79,7 +88,9 @@ private:
   std::vector<RigidContact> contacts_;
   std::vector<std::unique_ptr<BodyContact>> body_contacts_;
   std::vector<FreeTool> tools_;
-  std::vector<ContactLoad> tool_loads_;                      ///< at t_n, of this rank
+  std::vector<ContactLoad> tool_loads_; ///< at t_n, of this rank
+  std::vector<double> tool_stiffness_;  ///< against free tools, of this rank
+  bool has_free_tools_ = false;
   std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools, of this rank, as they were
 
   std::vector<double> masses_;         ///< of the nodes, on all their ranks alike
@@ -93,12 +104,13 @@ private:
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
   double element_step_ = 0.;                               ///< stable step of the elements of all ranks
   double time_ = 0., step_ = 0., step_before_ = 0.;
-  double pace_ = 0.;                         ///< what the step would be without events
-  double event_ = 0.;                        ///< that the planned steps lead to
+  bool is_growing_ = false; ///< steps were much shorter than they may be, and are not yet long
+  double event_ = 0.;       ///< that the planned steps lead to
   unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
   std::exception_ptr late_failure_;          ///< of this rank, since the last compute_forces()
   double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
+  double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
   struct Works {
     double external = 0., plastic = 0., friction = 0., viscous = 0., hourglass = 0.;
   };

@@ -20,6 +20,8 @@ public:
   bool is_gone(const double t) const { return t >= tool_.removal_time(); }
   /// Whether kick() has to know the contact forces of all ranks.
   bool wants_load() const { return tool_.control() != Tool::Control::motion; }
+  /// 1/m; 0 of a tool that moves as told, or is gone.
+  double inverse_inertia() const { return is_free() && !is_removed_ ? 1. / inertia_ : 0.; }
 
   /// The offset's rate after the kick at time t, which lasts from half a step before to half a step after it.
   /// In the first kick of a run, from rest to half a step. `load` is what the tool does to the bodies. A tool
