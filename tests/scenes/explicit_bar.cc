@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// An elastic bar on a rigid wall, against the wave solution: it touches from 20 to 100 µs, with the force
-// ρ c v A = 1.6 MN, and flies back with all of its energy.
+// An elastic bar on a rigid wall, against the wave solution: it touches from 20 to 100 µs, with the force of a
+// shock at finite strain, 1.624 MN (1.6 MN, ρ c v A, at small ones), and flies back with all of its energy.
 #include "explicit_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -56,7 +56,8 @@ int main(int argc, char *argv[]) {
   const auto duration_error = [](const Impact &i) { return std::abs((i.fall - i.rise) / 80e-6 - 1.); };
   const auto force_error = [](const Impact &i) { return std::abs(i.force / 1.6e6 - 1.); };
   check("lasts for two passages of the wave", duration_error(fine), 0.02);
-  check("with the force of a wave", force_error(fine), 0.02);
+  check("with the force of a shock", force_error(fine), 2e-4);
+  check("with the coarser mesh, too", force_error(coarse), 1e-3);
   check("lasts better with the finer mesh", duration_error(fine) < duration_error(coarse));
   check("flies back with its momentum", std::abs(fine.rebound - 1.), 0.01);
   for (const double penalty : {0.1, 1., 10.}) {
