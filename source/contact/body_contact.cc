@@ -68,6 +68,10 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   std::vector<std::uint64_t> keys;
   for (const unsigned int node : local_nodes_)
     keys.push_back(nodes.dofs(node)[0]);
+  settings.limits.zone = pair_.smoothing;
+  constexpr unsigned int most_changes = 8;
+  if (!scene.parameters().is_explicit())
+    settings.most_changes = most_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
   contact_ =
@@ -289,6 +293,32 @@ void BodyContact::add_resistances(const std::size_t body, std::vector<Resistance
 
 void BodyContact::start_step(const double t_n, const double t) {
   contact_->set_allowed_part(pair_.overlap.allowed_part(t_n), pair_.overlap.allowed_part(t));
+}
+
+std::string BodyContact::describe_restless() const {
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  std::array<double, 5> mine{}; // how often, where, how many nodes
+  for (const auto &node : contact_->find_restless()) {
+    mine[4] += 1.;
+    if (node.n_changes > mine[0])
+      mine = {static_cast<double>(node.n_changes), node.position[0], node.position[1], node.position[2],
+              mine[4]};
+  }
+  std::array<double, 5> worst{};
+  double n_nodes = 0.;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine)) {
+    n_nodes += of_rank[4];
+    if (of_rank[0] > worst[0])
+      worst = of_rank;
+  }
+  if (n_nodes == 0.)
+    return "";
+  std::ostringstream text;
+  text << "; contact pair '" << pair_.name << "': " << n_nodes
+       << " nodes keep changing facet or status, most often, " << worst[0] << " times, the one at ("
+       << worst[1] << ", " << worst[2] << ", " << worst[3]
+       << "): try smaller steps, a softer penalty, 'Facets = overlap' or a larger 'Smoothing'";
+  return text.str();
 }
 
 void BodyContact::allow_overlap() {

@@ -234,6 +234,15 @@ TouchedFacet choose_facet(const MovedFacets &facets, const std::size_t slave,
   return choice.best();
 }
 
+template <class Facet>
+TouchedFacet keep_facet(const MovedFacets &facets, const std::size_t slave,
+                        const FacetSearch::Positions &positions_n, const TouchedFacet &now,
+                        const ContactLimits &limits, const FacetLift &lift) {
+  Choice<Facet> choice(facets, facets.search().slaves()[slave].node, positions_n, limits, lift);
+  choice.consider_held(now);
+  return choice.best();
+}
+
 TouchedFacet find_facet_below(const MovedFacets &facets, const std::size_t slave,
                               const ContactLimits &limits) {
   const Tensor<1, 3> &x = facets.position(facets.search().slaves()[slave].node);
@@ -262,7 +271,9 @@ Tensor<1, 3> compute_node_normal(const MovedFacets &facets, const unsigned int n
 #define BILLET_INSTANTIATE(Facet)                                                                            \
   template TouchedFacet choose_facet<Facet>(const MovedFacets &, std::size_t,                                \
                                             const FacetSearch::Positions &, const TouchedFacet &,            \
-                                            const ContactLimits &, const FacetLift &);
+                                            const ContactLimits &, const FacetLift &);                       \
+  template TouchedFacet keep_facet<Facet>(const MovedFacets &, std::size_t, const FacetSearch::Positions &,  \
+                                          const TouchedFacet &, const ContactLimits &, const FacetLift &);
 BILLET_INSTANTIATE(PlanedFacet)
 BILLET_INSTANTIATE(MeanGapFacet)
 BILLET_INSTANTIATE(BilinearFacet)

@@ -175,12 +175,43 @@ bool FacetContact::is_resting(const TouchedFacet &below, const std::size_t s, co
   return before.exists && before.gap <= on_it;
 }
 
+void FacetContact::count_changes() {
+  n_changes_.resize(slaves_.size());
+  const bool is_first = seen_.empty();
+  seen_.resize(slaves_.size());
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    const SlaveState &state = states_[s];
+    const std::uint64_t now = state.presses() ? 4 * search_.facets()[state.touched.facet].key +
+                                                    static_cast<std::uint64_t>(state.traction.status) + 1
+                                              : 0;
+    if (!is_first && now != seen_[s])
+      ++n_changes_[s];
+    seen_[s] = now;
+  }
+}
+
+std::vector<FacetContact::Restless> FacetContact::find_restless() const {
+  std::vector<Restless> restless;
+  for (std::size_t s = 0; s < n_changes_.size(); ++s)
+    if (n_changes_[s] > settings_.most_changes)
+      restless.push_back({positions_[slaves_[s].node], n_changes_[s]});
+  return restless;
+}
+
 template <class Facet> void FacetContact::find_contact(const std::size_t s) {
   SlaveState &state = states_[s];
+  const TouchedFacet now = state.touched;
   state = SlaveState();
   state.first_share = shares_.size();
-  if (search_.has_candidates(s) || touched_n_[s].exists())
-    state.touched = choose_facet<Facet>(moved_, s, positions_n_, touched_n_[s], settings_.limits, lift(s));
+  if (search_.has_candidates(s) || touched_n_[s].exists()) {
+    // Indices of facets are those of the last search, which a restless node outlives seldom.
+    const bool is_restless = settings_.most_changes > 0 && s < n_changes_.size() &&
+                             n_changes_[s] > settings_.most_changes && now.exists() && !is_rebuilt_;
+    if (is_restless)
+      state.touched = keep_facet<Facet>(moved_, s, positions_n_, now, settings_.limits, lift(s));
+    if (!state.touched.exists())
+      state.touched = choose_facet<Facet>(moved_, s, positions_n_, touched_n_[s], settings_.limits, lift(s));
+  }
   if (state.touched.exists()) {
     state.contact =
         share_facets<Facet>(moved_, state.touched, positions_[slaves_[s].node], settings_.limits, shares_);
@@ -284,6 +315,8 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
       },
       settings_.friction);
 
+  if (settings_.most_changes > 0)
+    count_changes();
   if (edges_)
     crossings_ = edges_->find_crossings(positions_n_, positions_, has_started_);
   for (const auto &crossing : crossings_)
@@ -442,7 +475,9 @@ void FacetContact::allow_initial_depths() {
       initial_depths_[s] = std::max(0., -states_[s].contact.gap);
 }
 
-void FacetContact::restart_augmentation() {
+void FacetContact::restart() {
+  n_changes_.assign(n_changes_.size(), 0);
+  seen_.clear();
   lifts_ = lifts_n_;
   base_ = history_n_;
 }

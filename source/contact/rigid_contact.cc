@@ -474,7 +474,7 @@ void RigidContact::commit() {
   friction_n_ = friction_;
 }
 
-void RigidContact::restart_augmentation() {
+void RigidContact::restart() {
   for (auto &node : nodes_)
     node.lift = node.lift_n;
   base_.clear();

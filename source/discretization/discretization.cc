@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/discretization.h"
 
+#include "billet/discretization/contact_neighbours.h"
 #include "billet/errors.h"
 
 #include <deal.II/base/bounding_box.h>
@@ -8,6 +9,7 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
+#include <deal.II/lac/sparsity_pattern.h>
 
 namespace billet {
 
@@ -20,7 +22,13 @@ void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::T
     throw InputError(scene.parameters().file_name + ": found " + std::to_string(mesh.n_active_cells()) +
                      " elements for " + std::to_string(n_parts) +
                      " ranks, allowed is at least one for each rank");
-  dealii::GridTools::partition_triangulation(n_parts, mesh, dealii::SparsityTools::Partitioner::metis);
+  dealii::DynamicSparsityPattern neighbours;
+  dealii::GridTools::get_face_connectivity_of_cells(mesh, neighbours);
+  add_contact_neighbours(scene, mesh, neighbours);
+  dealii::SparsityPattern pattern;
+  pattern.copy_from(neighbours);
+  dealii::GridTools::partition_triangulation(n_parts, pattern, mesh,
+                                             dealii::SparsityTools::Partitioner::metis);
 }
 
 } // namespace

@@ -209,6 +209,11 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Edges", "false", Patterns::Bool(),
                     "Pairs of bodies: edges are kept out of edges, too, which nodes against facets miss.");
   prm.declare_entry(
+      "Smoothing", "0.1", Patterns::Double(),
+      "Pairs of bodies, nodes against facets, > 0 and <= 0.5: within this part of a facet's size "
+      "from its border normal and gap go over into those of its neighbour. 0.5: across the whole "
+      "facet, a smooth surface of mean normals.");
+  prm.declare_entry(
       "Search margin", "0.5", Patterns::Double(),
       "Pairs of bodies, > 0: facets up to so far from a node are kept in mind for it; they are "
       "looked up anew when nodes have moved farther towards each other. Changes the cost, not the "
@@ -304,7 +309,7 @@ void ContactPair::parse_bodies(Reader &reader) {
   refuse_twice(reader, "Second boundary ids", second_boundary_ids.value);
   if (!is_between_bodies())
     for (const std::string key :
-         {"Second boundary ids", "Facets", "Passes", "Edges", "Penalty of", "Search margin"})
+         {"Second boundary ids", "Facets", "Passes", "Edges", "Penalty of", "Smoothing", "Search margin"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the pair is of a body and a tool");
   if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.value.empty())
@@ -322,6 +327,11 @@ void ContactPair::parse_bodies(Reader &reader) {
   edges = reader.flag("Edges");
   if (edges && facets.value == Facets::overlap)
     reader.reject("Edges", "no value: faces that overlap see edges");
+  smoothing = reader.positive("Smoothing");
+  if (smoothing > 0.5)
+    reader.reject("Smoothing", "a number > 0 and <= 0.5");
+  if (facets.value == Facets::overlap && reader.is_set("Smoothing"))
+    reader.reject("Smoothing", "no value: faces that overlap go over into each other by their areas");
   search_margin = reader.positive("Search margin");
   const std::string chosen_penalty = reader.text("Penalty of");
   penalty_of = chosen_penalty == "stiffer"  ? PenaltyOf::stiffer

@@ -257,6 +257,7 @@ void Scene::make_pairs() {
          penalty_of,
          pair.normal_penalty,
          pair.tangential_penalty,
+         pair.smoothing,
          pair.search_margin,
          pair.penetration_tolerance,
          {pair.may_overlap, pair.ramp_time}});

@@ -446,6 +446,9 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
   NewtonReport report = attempt_step(t, previous_step);
+  if (!report.converged)
+    for (const auto &contact : body_contacts_)
+      report.failure += contact->describe_restless();
   report.linear_iterations = linear_->take_iterations();
   report.note = linear_->take_note();
   return report;
@@ -483,9 +486,9 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   Vector x = trial_;
   std::vector<double> offsets = offsets_;
   for (auto &contact : contacts_)
-    contact.restart_augmentation();
+    contact.restart();
   for (auto &contact : body_contacts_)
-    contact->restart_augmentation();
+    contact->restart();
   report = iterate(offsets, x);
   if (!needs_no_solution)
     report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs

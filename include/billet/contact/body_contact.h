@@ -40,12 +40,15 @@ public:
   void start_step(double t_n, double t);
   /// Of the augmented Lagrangian, as FacetContact's. The error is on this rank, relative to what the pair
   /// asks for; 0 if it asks for none.
-  void restart_augmentation() { contact_->restart_augmentation(); }
+  void restart() { contact_->restart(); }
   void augment() { contact_->augment(); }
   double augmentation_error() const {
     return pair_.penetration_tolerance > 0. ? contact_->augmentation_error() / pair_.penetration_tolerance
                                             : 0.;
   }
+
+  /// A sentence about nodes that keep changing facet or status; empty if there are none. Collective.
+  std::string describe_restless() const;
 
   /// Whether add_tangent() has entries of this rank that the last add_couplings() did not name.
   bool has_new_couplings() const { return contact_->has_new_couplings(); }

@@ -70,6 +70,12 @@ TouchedFacet choose_facet(const MovedFacets &facets, std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
                           const ContactLimits &limits, const FacetLift &lift = {});
 
+/// Only whether the node still touches the facet that it touches in `now`, whatever else is nearer.
+template <class Facet>
+TouchedFacet keep_facet(const MovedFacets &facets, std::size_t slave,
+                        const FacetSearch::Positions &positions_n, const TouchedFacet &now,
+                        const ContactLimits &limits, const FacetLift &lift = {});
+
 /// The candidate that a node which touches none is straight above and before, by less than the facet's reach;
 /// the nearest, as a plane. Its gap is >= 0. All such facets are candidates, whatever the search's margin.
 TouchedFacet find_facet_below(const MovedFacets &facets, std::size_t slave, const ContactLimits &limits);

@@ -66,6 +66,9 @@ struct FacetContactSettings {
   /// step, counts as touching it, without pressure: its stiffness may be all that holds a body at rest. < 0:
   /// none does.
   double touching_gap = -1.;
+  /// How often a node may change facet or status in one step's iterations; one that did so more often stays
+  /// with its facet as long as it touches that. 0: as often as it likes, and nobody counts.
+  unsigned int most_changes = 0;
 };
 
 /// What contact between surfaces does in one step, over all ranks.
@@ -161,8 +164,8 @@ public:
   // The augmented Lagrangian by Uzawa's method: pressure p = k <a − g>, where the lift a takes up p/k, and in
   // the same way a sticking node's traction becomes what its spring starts from.
 
-  /// Back to what the last commit() left: of a step that is tried anew.
-  void restart_augmentation();
+  /// Back to what the last commit() left: of a step that is tried, or tried anew.
+  void restart();
   /// Lifts and tractions become those of the last add_forces().
   void augment();
   /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its
@@ -189,6 +192,13 @@ public:
 
   const FacetSearch &search() const { return search_; }
 
+  /// A node of this rank that has changed facet or status more often than it may since restart().
+  struct Restless {
+    dealii::Tensor<1, 3> position;
+    unsigned int n_changes;
+  };
+  std::vector<Restless> find_restless() const;
+
 private:
   struct SlaveState {
     TouchedFacet touched;
@@ -211,6 +221,7 @@ private:
   /// What slave s touches, or is near, and with which areas.
   template <class Facet> void find_contact(std::size_t s);
   void find_overlaps(std::size_t s);
+  void count_changes();
   FacetLift lift(const std::size_t s) const {
     FacetLift lift;
     if (!lifts_.empty())
@@ -282,8 +293,11 @@ private:
   Positions positions_n_, positions_;       ///< with ghosts
   MovedFacets moved_{search_, positions_};
   std::vector<TouchedFacet> touched_n_;
-  bool has_started_ = false; ///< commit() has been called
-  double duration_ = 0.;     ///< of the last add_forces()
+  std::vector<unsigned int> n_changes_; ///< of slaves, if they are counted
+  std::vector<std::uint64_t> seen_;     ///< the same: facet and status at the last add_forces()
+  bool is_rebuilt_ = false;             ///< lists were made anew for the last add_forces()
+  bool has_started_ = false;            ///< commit() has been called
+  double duration_ = 0.;                ///< of the last add_forces()
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only

@@ -80,7 +80,7 @@ public:
   void commit();
 
   /// Of the augmented Lagrangian, as FacetContact's: back to the start of the step, ...
-  void restart_augmentation();
+  void restart();
   /// ... and on from the last update().
   void augment();
   /// Relative to what the pair asks for; 0 if it asks for none. On this rank.

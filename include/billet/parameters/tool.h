@@ -68,6 +68,7 @@ struct ContactPair {
   Passes passes;
   bool edges;
   PenaltyOf penalty_of;
+  double smoothing;
   double search_margin;
   FrictionLaw friction_law;
   double friction_coefficient; ///< at rest, or at the reference pressure; 0: no friction

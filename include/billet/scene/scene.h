@@ -96,6 +96,7 @@ struct BodyPair {
   bool penalty_is_factor;
   parameters::ContactPair::PenaltyOf penalty_of;
   double normal_penalty, tangential_penalty;
+  double smoothing;             ///< ContactLimits::zone
   double search_margin;         ///< [facet sizes]
   double penetration_tolerance; ///< [facet sizes]; 0: none, penalties alone
   InitialOverlap overlap;
