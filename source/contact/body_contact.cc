@@ -16,10 +16,10 @@ using dealii::Tensor;
 
 namespace {
 
-/// The same on all ranks, and no other facet's: those of two opposite corners.
-std::uint64_t make_key(const BoundaryFacet &facet) {
-  const auto [low, high] = std::minmax(facet.dofs[0][0], facet.dofs[3][0]);
-  return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
+/// The same on any number of ranks, and no other facet's: those of two opposite corners.
+std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
+  const std::uint64_t first = keys(facet.dofs[0][0]), second = keys(facet.dofs[3][0]);
+  return (std::min(first, second) << 32U) | std::max(first, second);
 }
 
 FacetMethod method_of(const parameters::ContactPair::Facets facets) {
@@ -52,7 +52,8 @@ void BodyContact::update(const DisplacementOf &displacement_of, const double dur
 
 BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes)
     : pair_(scene.body_pairs()[pair]), nodes_(nodes) {
-  collect();
+  const NodeKeys node_keys(nodes.discretization());
+  collect(node_keys);
   const MPI_Comm communicator = nodes.discretization().communicator();
   FacetContactSettings settings;
   settings.method = method_of(pair_.facets);
@@ -65,16 +66,15 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   for (const double area : areas_)
     smallest = std::min(smallest, std::sqrt(area));
   settings.search_margin = pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator);
-  std::vector<std::uint64_t> keys;
   for (const unsigned int node : local_nodes_)
-    keys.push_back(nodes.dofs(node)[0]);
+    keys_.push_back(node_keys(nodes.dofs(node)[0]));
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
   contact_ =
-      std::make_unique<FacetContact>(communicator, settings, keys, facets_, compute_stiffness(scene), sizes_);
+      std::make_unique<FacetContact>(communicator, settings, keys_, facets_, compute_stiffness(scene), sizes_);
 }
 
-void BodyContact::collect() {
+void BodyContact::collect(const NodeKeys &keys) {
   const Discretization &discretization = nodes_.discretization();
   std::map<DofIndex, unsigned int> index;
   const unsigned int n_surfaces = pair_.is_self_contact ? 1 : 2;
@@ -85,7 +85,7 @@ void BodyContact::collect() {
       all.push_back(boundary);
       SurfaceFacet facet{};
       facet.surface = surface;
-      facet.key = make_key(boundary);
+      facet.key = make_key(boundary, keys);
       areas_.push_back(boundary.area_vector().norm());
       // What is deeper than half the wall below is nearer to the wall's other side; and a node that comes in
       // from beside the facet, rather than through it, is not to be thrown out from the depth.
@@ -259,6 +259,32 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
   for (std::size_t i = 0; i < local_nodes_.size(); ++i)
     system.lift->add(3, nodes_.dofs(local_nodes_[i]).data(), lift[i].begin_raw());
 }
+
+FacetContact::Positions BodyContact::positions_at(const NodalVectors &displacements) const {
+  FacetContact::Positions positions(local_nodes_.size());
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i)
+    positions[i] = get_vector(nodes_.positions().data(), local_nodes_[i]) +
+                   get_vector(displacements.data(), local_nodes_[i]);
+  return positions;
+}
+
+void BodyContact::save(StateWriter &writer) const {
+  contact_->save(writer);
+  std::vector<double> rows;
+  for (const auto &position : positions_n_)
+    RowWriter(rows).vector(position);
+  writer.write_rows("positions", 3, keys_, rows);
+}
+
+void BodyContact::load(const StateReader &reader) {
+  contact_->load(reader);
+  const std::vector<double> rows = reader.read_rows("positions", 3, keys_);
+  positions_n_.resize(keys_.size());
+  for (std::size_t i = 0; i < keys_.size(); ++i)
+    RowReader(&rows[3 * i]).vector(positions_n_[i]);
+}
+
+void BodyContact::begin(const NodalVectors &displacements) { positions_n_ = positions_at(displacements); }
 
 void BodyContact::commit() {
   contact_->commit();

@@ -14,8 +14,6 @@ namespace billet {
 
 using dealii::Tensor;
 
-namespace {
-
 ExplicitFormulation make_formulation(const parameters::Scene &scene, const parameters::Body &body) {
   using Kinematics = parameters::Material::Kinematics;
   using Instructions = parameters::ExplicitDynamics::Instructions;
@@ -57,6 +55,8 @@ ExplicitFormulation make_formulation(const parameters::Scene &scene, const param
   }
   return formulation;
 }
+
+namespace {
 
 void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
   for (const unsigned int node : nodes)
@@ -453,6 +453,7 @@ void ExplicitDynamics::finish_step() {
   for (auto &tool : tools_)
     tool.move(time_, step_);
   add_works(v_, 0.5 * step_);
+  time_before_ = time_;
   time_ = n_planned_ == 0 ? event_ : time_ + step_;
   ++n_steps_;
 }
@@ -535,7 +536,7 @@ void ExplicitDynamics::update_ledger() {
     energies.contact += state_.body_pair_loads[i].stored_energy;
   }
   if (n_steps_ == 0)
-    energies.initial = energies.total();
+    energies.initial = energies.total() - energies.external;
   // What is there counts half only: energy that came from nowhere must not hide itself.
   largest_energy_ =
       std::max({largest_energy_, 0.5 * energies.total(), std::abs(energies.initial + energies.external)});

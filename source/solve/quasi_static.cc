@@ -220,6 +220,8 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
       total.add(fading(time_, tool), *fading_forces_[tool]);
   if (motion_)
     force_scale_ = std::max(force_scale_, motion_->add_loads(time_, trial_, total));
+  if (imbalance_)
+    total.add(-imbalance_left(time_), *imbalance_);
   support_forces_ = total;
   if (motion_)
     force_scale_ = std::max(force_scale_, motion_->complete(support_forces_n_, total));
@@ -310,7 +312,7 @@ bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx
 
 bool QuasiStatic::stay_at_rest(const double t) {
   const double t_n = state_.time;
-  if (has_lost_pace_)
+  if (has_lost_pace_ || imbalance_left(t) != imbalance_left(t_n))
     return false;
   for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
     if (fading_forces_[i] && fading(t, i) != fading(t_n, i))
@@ -569,6 +571,9 @@ void QuasiStatic::commit(const double t) {
     if (fading_forces_[tool])
       state_.energies.external -=
           0.5 * (fading(t, tool) + fading(state_.time, tool)) * (*fading_forces_[tool] * last_increment_);
+  if (imbalance_)
+    state_.energies.external +=
+        0.5 * (imbalance_left(t) + imbalance_left(state_.time)) * (*imbalance_ * last_increment_);
   u_n_ = trial_;
   internal_.commit();
 

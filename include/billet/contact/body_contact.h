@@ -5,6 +5,7 @@
 #include "billet/contact/contact_load.h"
 #include "billet/contact/facet_contact.h"
 #include "billet/discretization/local_nodes.h"
+#include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
 #include "billet/scene/rigid_motions.h"
 
@@ -78,14 +79,22 @@ public:
   std::vector<ContactNodeReport> report() const;
   std::size_t history_size() const { return contact_->history_size(); }
 
+  /// The state at the start of the step.
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+  /// In place of load(), for a pair that is new at these displacements.
+  void begin(const NodalVectors &displacements);
+
 private:
-  void collect();
+  void collect(const NodeKeys &keys);
+  FacetContact::Positions positions_at(const NodalVectors &displacements) const;
   std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
   template <class DisplacementOf> void update(const DisplacementOf &displacement_of, double duration);
   void find_ghost_dofs();
 
   const BodyPair &pair_;
   const LocalNodes &nodes_;
+  std::vector<std::uint64_t> keys_;       ///< of each surface node
   std::vector<unsigned int> local_nodes_; ///< of each surface node
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it

@@ -8,6 +8,7 @@
 #include "billet/contact/slave_traction.h"
 #include "billet/contact/surface_exchange.h"
 #include "billet/geometry/bilinear_facet.h"
+#include "billet/state.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -189,6 +190,11 @@ public:
 
   const FacetSearch &search() const { return search_; }
 
+  /// The state at the start of the step, by the keys of nodes and facets. The positions at the last commit()
+  /// are the caller's.
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
 private:
   struct SlaveState {
     TouchedFacet touched;
@@ -284,6 +290,7 @@ private:
   std::vector<TouchedFacet> touched_n_;
   bool has_started_ = false; ///< commit() has been called
   double duration_ = 0.;     ///< of the last add_forces()
+  std::vector<std::uint64_t> restored_keys_; ///< of facets touched, after load() and before facets are here
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only

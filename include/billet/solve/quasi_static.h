@@ -7,6 +7,7 @@
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
+#include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/tangent_solver.h"
 
@@ -53,6 +54,14 @@ public:
   const std::vector<RigidContact> &contacts() const { return contacts_; }
   const BodyContact &body_contact(const std::size_t pair) const { return *body_contacts_[pair]; }
   const Supports &supports() const { return supports_; }
+
+  /// The state at the end of the last accepted step.
+  void save(StateWriter &writer) const;
+  /// Goes on from such a state, in place of the start at time 0, or from that of an explicit run: its
+  /// displacements and stresses, without its velocities. Where the scene has other tools or pairs, or the
+  /// state comes from elsewhere, what is out of balance fades over `release_time`, or, if
+  /// that is 0, until the end time.
+  RestartReport load(StateReader &reader, double release_time);
 
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
   bool compute_tangent(const Epetra_Vector &x) override;
@@ -125,6 +134,13 @@ private:
   std::string describe_freedom(std::size_t body, const std::set<std::string> &removed) const;
   /// Bodies that others may hold have to be held, or to touch them, at the start.
   void check_freedom() const;
+  // Of load(), in solve/quasi_static_state.cc:
+  void load_tools(StateReader &reader);
+  void load_contacts(StateReader &reader);
+  /// All forces at the state as it is: those of supports and tools, and what is out of balance.
+  void balance(RestartReport &report);
+  /// Part of the imbalance that is left at t.
+  double imbalance_left(double t) const;
   /// Folds forces on constrained dofs into those that they depend on, and empties them.
   void condense(Vector &forces) const;
 
@@ -160,6 +176,8 @@ private:
   std::vector<Vector> tool_columns_, tool_rows_;       ///< B, condensed; C
   dealii::FullMatrix<double> tool_block_;              ///< D
   std::vector<std::unique_ptr<Vector>> fading_forces_; ///< residual of a removed tool's forces, as they were
+  std::unique_ptr<Vector> imbalance_; ///< residual at a restart, on dofs that are free; or none
+  double imbalance_begin_ = 0., imbalance_end_ = 0.; ///< when it begins to fade, and has gone
   SolutionState state_;
 };
 

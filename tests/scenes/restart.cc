@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Runs that stop and go on, through a file: the rest is that of the run without interruption, bit by bit on
+// as many ranks, to 1e-8 on others. A press with friction, plasticity, a tool with a force, one that stops,
+// one that is taken away; an impact with all that an explicit scene may have; a ring that touches itself.
+#include "restart_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::History;
+
+namespace {
+
+unsigned int n_ranks() { return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); }
+
+History after(const History &all, const double time) {
+  History rest;
+  for (const auto &row : all)
+    if (row[0] > time * (1. + 1e-9))
+      rest.push_back(row);
+  return rest;
+}
+
+void compare(const std::string &name, const History &whole, const History &rest, const double time,
+             const unsigned int n_before, const unsigned int n_now) {
+  if (!testing::is_first_rank())
+    return;
+  const History expected = after(whole, time);
+  if (n_before == n_now)
+    check(name + ", as many ranks, bit by bit", testing::are_same_bits(expected, rest));
+  else
+    check(name + ", other ranks", testing::difference(expected, rest), 1e-8);
+}
+
+/// Stops at each of these times.
+template <class Run, class Until>
+void test(const std::string &name, const parameters::Scene &scene, const std::vector<double> &stops,
+          const Until &until) {
+  const double end = scene.time_stepping.end_time;
+  for (unsigned int n = 1; n <= n_ranks(); ++n) {
+    History whole;
+    testing::on_ranks(n, [&](MPI_Comm some) {
+      Run run(scene, some);
+      until(run, end, whole);
+    });
+    for (const double stop : stops) {
+      double time = 0.;
+      testing::on_ranks(n, [&](MPI_Comm some) {
+        Run run(scene, some);
+        History ignored;
+        until(run, stop, ignored);
+        run.save("stopped.h5");
+        time = ignored.back()[0];
+      });
+      for (unsigned int now = 1; now <= n_ranks(); ++now) {
+        History rest;
+        testing::on_ranks(now, [&](MPI_Comm some) {
+          Run run(scene, some);
+          const RestartReport report = run.load("stopped.h5");
+          if (testing::is_first_rank())
+            check(name + " goes on", report.is_exact);
+          until(run, end, rest);
+        });
+        compare(name + " from " + std::to_string(stop / end), whole, rest, time, n, now);
+      }
+    }
+  }
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  {
+    parameters::Scene scene = testing::read_test_scene("restart_press.prm");
+    test<testing::QuasiStaticRun>(
+        "Press", scene, {0.3, 0.6, 0.9},
+        [](auto &run, const double time, History &history) { run.run(time, history); });
+  }
+  {
+    parameters::Scene scene = testing::read_test_scene("explicit_ranks.prm");
+    scene.time_stepping.end_time = 0.1e-3;
+    scene.tools[0].motion.removal_time.value = 0.06e-3;
+    scene.tools[0].motion.release_time = 0.02e-3;
+    test<testing::ExplicitStops>(
+        "Impact", scene, {0.04e-3, 0.07e-3},
+        [](auto &run, const double time, History &history) { run.run(time, 1, history); });
+  }
+  {
+    parameters::Scene scene = testing::read_test_scene("restart_ring.prm");
+    double area = 0.;
+    test<testing::ExplicitStops>("Ring", scene, {10e-6}, [&](auto &run, const double time, History &history) {
+      run.run(time, 1, history);
+      area = std::max(area, run.problem.state().body_pair_loads[0].area);
+    });
+    if (testing::is_first_rank())
+      check("Ring touches itself", area > 0.);
+  }
+  return testing::exit_code();
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_TESTS_RESTART_RUN_H
+#define BILLET_TESTS_RESTART_RUN_H
+
+#include "billet/output/checkpoint.h"
+
+#include "explicit_run.h"
+#include "scene_run.h"
+
+#include <cstring>
+
+namespace billet::testing {
+
+/// Named numbers over time, the same on all ranks.
+using History = std::vector<std::vector<double>>;
+
+/// What a step has led to: loads, energies, ways of the tools, and norms of displacements and velocities.
+inline std::vector<double> numbers_of(const SolutionState &state) {
+  std::vector<double> numbers{state.time};
+  const auto add = [&numbers](const auto &more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
+  for (const auto &load : state.tool_loads)
+    add(to_numbers(load));
+  for (const auto &load : state.body_pair_loads)
+    add(to_numbers(load));
+  for (const auto &placement : state.placements)
+    add(to_numbers(placement));
+  add(to_numbers(state.energies));
+  return numbers;
+}
+
+/// Largest difference of two histories, each number relative to the largest of its kind; not a number where
+/// they are not as long.
+inline double difference(const History &a, const History &b) {
+  if (a.size() != b.size() || a.empty())
+    return std::nan("");
+  WorstError error;
+  for (std::size_t k = 0; k < a[0].size(); ++k) {
+    double size = 0.;
+    for (const auto &row : a)
+      size = std::max(size, std::abs(row[k]));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (a[i][k] != b[i][k])
+        error.add(std::abs(a[i][k] - b[i][k]) / size);
+  }
+  return error.value();
+}
+
+inline bool are_same_bits(const History &a, const History &b) {
+  if (a.size() != b.size() || a.empty())
+    return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].size() != b[i].size() ||
+        std::memcmp(a[i].data(), b[i].data(), a[i].size() * sizeof(double)) != 0)
+      return false;
+  return true;
+}
+
+/// The first `n` ranks do this together, the others nothing.
+template <class Run> void on_ranks(const unsigned int n, const Run &run) {
+  const bool takes_part = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) < n;
+  MPI_Comm some = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, takes_part ? 0 : 1, 0, &some);
+  if (takes_part)
+    run(some);
+  MPI_Comm_free(&some);
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+/// A quasi-static scene that can be stopped and gone on with.
+class QuasiStaticRun {
+public:
+  QuasiStaticRun(const parameters::Scene &parameters, const MPI_Comm communicator)
+      : scene(parameters), discretization(scene, communicator), problem(scene, discretization),
+        control(parameters.time_stepping, 0., scene.stops()) {}
+
+  /// Until this time, all of whose steps it adds to the history.
+  void run(const double until, History &history) {
+    while (control.time() < until * (1. - 1e-9) && !control.is_finished()) {
+      const double from = control.time(), to = control.next_time();
+      const NewtonReport report = problem.step(to, previous);
+      if (!report.converged) {
+        if (!control.reject())
+          throw SolutionFailure(report.failure);
+        continue;
+      }
+      control.accept(static_cast<unsigned int>(report.iterations.size()));
+      previous = to - from;
+      history.push_back(numbers_of(problem.state()));
+    }
+  }
+  void save(const std::string &file) {
+    CheckpointWriter writer(discretization.communicator(), file);
+    writer.in("scene", [&] { save_scene(writer, scene, discretization); });
+    writer.in("solution", [&] { problem.save(writer); });
+    writer.in("steps", [&] {
+      control.save(writer);
+      writer.write("previous", {previous});
+    });
+    check_done(writer.finish());
+  }
+  RestartReport load(const std::string &file, const double release_time = 0.) {
+    CheckpointReader reader(discretization.communicator(), file, "test");
+    RestartReport report;
+    reader.load("scene", [&] { check_scene(reader, scene, discretization); });
+    reader.load("solution", [&] { report = problem.load(reader, release_time); });
+    control.begin(report.time, 0);
+    if (report.is_exact)
+      reader.in("steps", [&] {
+        control.load(reader);
+        previous = reader.number("previous");
+      });
+    return report;
+  }
+  static void check_done(const std::string &failure) {
+    if (!failure.empty())
+      throw SolutionFailure(failure);
+  }
+
+  Scene scene;
+  Discretization discretization;
+  QuasiStatic problem;
+  StepControl control;
+  double previous = 0.;
+};
+
+/// The same for an explicit one, which looks at the state after each `n_between` steps.
+class ExplicitStops {
+public:
+  ExplicitStops(const parameters::Scene &parameters, const MPI_Comm communicator)
+      : scene(parameters), discretization(scene, communicator), problem(scene, discretization) {}
+
+  void run(const double until, const unsigned int n_between, History &history) {
+    const double end = scene.parameters().time_stepping.end_time;
+    while (problem.time() < until) {
+      problem.prepare_step(end);
+      if (problem.n_steps() % n_between == 0) {
+        problem.update_state();
+        history.push_back(numbers_of(problem.state()));
+        history.back().push_back(problem.state().displacements.l2_norm());
+        history.back().push_back(problem.state().velocities.l2_norm());
+      }
+      problem.finish_step();
+    }
+  }
+  void save(const std::string &file) {
+    CheckpointWriter writer(discretization.communicator(), file);
+    writer.in("scene", [&] { save_scene(writer, scene, discretization); });
+    writer.in("solution", [&] { problem.save(writer); });
+    QuasiStaticRun::check_done(writer.finish());
+  }
+  RestartReport load(const std::string &file) {
+    CheckpointReader reader(discretization.communicator(), file, "test");
+    RestartReport report;
+    reader.load("scene", [&] { check_scene(reader, scene, discretization); });
+    reader.load("solution", [&] { report = problem.load(reader); });
+    return report;
+  }
+
+  Scene scene;
+  Discretization discretization;
+  ExplicitDynamics problem;
+};
+
+} // namespace billet::testing
+
+#endif
