@@ -483,7 +483,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   };
   for (bool is_finished = false; !is_finished;) {
     is_finished = problem.time() >= events.end();
-    const bool is_due = history_times.is_due(problem.time());
+    const bool is_due = history_times.is_due(problem.time()) || problem.n_steps() == 0;
     attempt([&] {
       const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
       problem.prepare_step(event);
@@ -508,8 +508,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     const Signals::Wish wish = outputs.signals.look_now_and_then();
     const bool is_last = is_finished && outputs.checkpoints.is_regular();
     const bool has_checkpoint =
-        (is_last || (!is_finished && (wish != Signals::Wish::none ||
-                                      outputs.checkpoints.is_due(problem.n_steps(), problem.time())))) &&
+        (is_last || (!is_finished && wish != Signals::Wish::none) ||
+         (problem.time() < events.end() && outputs.checkpoints.is_due(problem.n_steps(), problem.time()))) &&
         outputs.write_checkpoint(problem.time(), save);
     if (wish == Signals::Wish::end && !is_finished)
       return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);

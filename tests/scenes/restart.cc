@@ -22,28 +22,26 @@ History after(const History &all, const double time) {
   return rest;
 }
 
-void compare(const std::string &name, const History &whole, const History &rest, const double time,
-             const unsigned int n_before, const unsigned int n_now) {
-  if (!testing::is_first_rank())
-    return;
-  const History expected = after(whole, time);
-  if (n_before == n_now)
-    check(name + ", as many ranks, bit by bit", testing::are_same_bits(expected, rest));
-  else
-    check(name + ", other ranks", testing::difference(expected, rest), 1e-8);
-}
-
 /// Stops at each of these times.
 template <class Run, class Until>
 void test(const std::string &name, const parameters::Scene &scene, const std::vector<double> &stops,
           const Until &until) {
   const double end = scene.time_stepping.end_time;
+  History on_one;
+  std::vector<std::size_t> kinds;
   for (unsigned int n = 1; n <= n_ranks(); ++n) {
     History whole;
     testing::on_ranks(n, [&](MPI_Comm some) {
       Run run(scene, some);
       until(run, end, whole);
+      kinds.clear();
+      testing::numbers_of(run.problem.state(), &kinds);
     });
+    if (n == 1)
+      on_one = whole;
+    else if (testing::is_first_rank())
+      check(name + " without interruption, on 1 and on other ranks",
+            testing::difference(on_one, whole, kinds), 1e-8);
     for (const double stop : stops) {
       double time = 0.;
       testing::on_ranks(n, [&](MPI_Comm some) {
@@ -62,7 +60,14 @@ void test(const std::string &name, const parameters::Scene &scene, const std::ve
             check(name + " goes on", report.is_exact);
           until(run, end, rest);
         });
-        compare(name + " from " + std::to_string(stop / end), whole, rest, time, n, now);
+        if (!testing::is_first_rank())
+          continue;
+        const History expected = after(whole, time);
+        const std::string what = name + " from " + std::to_string(stop / end);
+        if (n == now)
+          check(what + ", as many ranks, bit by bit", testing::are_same_bits(expected, rest));
+        else
+          check(what + ", other ranks", testing::difference(expected, rest, kinds), 1e-8);
       }
     }
   }
@@ -74,6 +79,10 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   {
     parameters::Scene scene = testing::read_test_scene("restart_press.prm");
+    // What Newton's method leaves, and how many iterations it takes, depends on round-off, and so on the
+    // ranks.
+    scene.solver.force_tolerance = 1e-11;
+    testing::set_fixed_steps(scene, 40);
     test<testing::QuasiStaticRun>(
         "Press", scene, {0.3, 0.6, 0.9},
         [](auto &run, const double time, History &history) { run.run(time, history); });

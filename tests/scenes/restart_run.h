@@ -11,36 +11,47 @@
 
 namespace billet::testing {
 
-/// Named numbers over time, the same on all ranks.
+/// Numbers over time, the same on all ranks.
 using History = std::vector<std::vector<double>>;
 
-/// What a step has led to: loads, energies, ways of the tools, and norms of displacements and velocities.
-inline std::vector<double> numbers_of(const SolutionState &state) {
-  std::vector<double> numbers{state.time};
-  const auto add = [&numbers](const auto &more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
-  for (const auto &load : state.tool_loads)
-    add(to_numbers(load));
-  for (const auto &load : state.body_pair_loads)
-    add(to_numbers(load));
+/// What a step has led to: loads, energies, ways of the tools. Numbers of one kind, such as a vector's, stand
+/// together: `kinds`, where it is given, becomes the number of each kind's numbers.
+inline std::vector<double> numbers_of(const SolutionState &state, std::vector<std::size_t> *kinds = nullptr) {
+  std::vector<double> numbers;
+  const auto add = [&](const std::vector<double> &more, const std::vector<std::size_t> &sizes) {
+    numbers.insert(numbers.end(), more.begin(), more.end());
+    if (kinds != nullptr)
+      kinds->insert(kinds->end(), sizes.begin(), sizes.end());
+  };
+  add({state.time}, {1});
+  for (const auto *loads : {&state.tool_loads, &state.body_pair_loads})
+    for (const auto &load : *loads)
+      add(to_numbers(load), {3, 3, 1, 1, 1, 1});
   for (const auto &placement : state.placements)
-    add(to_numbers(placement));
-  add(to_numbers(state.energies));
+    add(to_numbers(placement), {9, 3, 3, 1});
+  add(to_numbers(state.energies), {9});
+  for (const auto &moment : {state.momentum, state.angular_momentum})
+    add({moment[0], moment[1], moment[2]}, {3});
   return numbers;
 }
 
 /// Largest difference of two histories, each number relative to the largest of its kind; not a number where
 /// they are not as long.
-inline double difference(const History &a, const History &b) {
+inline double difference(const History &a, const History &b, const std::vector<std::size_t> &kinds) {
   if (a.size() != b.size() || a.empty())
     return std::nan("");
   WorstError error;
-  for (std::size_t k = 0; k < a[0].size(); ++k) {
+  std::size_t begin = 0;
+  for (const std::size_t n : kinds) {
     double size = 0.;
     for (const auto &row : a)
-      size = std::max(size, std::abs(row[k]));
+      for (std::size_t k = begin; k < begin + n; ++k)
+        size = std::max(size, std::abs(row[k]));
     for (std::size_t i = 0; i < a.size(); ++i)
-      if (a[i][k] != b[i][k])
-        error.add(std::abs(a[i][k] - b[i][k]) / size);
+      for (std::size_t k = begin; k < begin + n; ++k)
+        if (a[i][k] != b[i][k])
+          error.add(std::abs(a[i][k] - b[i][k]) / size);
+    begin += n;
   }
   return error.value();
 }
@@ -136,8 +147,6 @@ public:
       if (problem.n_steps() % n_between == 0) {
         problem.update_state();
         history.push_back(numbers_of(problem.state()));
-        history.back().push_back(problem.state().displacements.l2_norm());
-        history.back().push_back(problem.state().velocities.l2_norm());
       }
       problem.finish_step();
     }

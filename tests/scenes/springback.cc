@@ -59,7 +59,7 @@ double largest(const std::vector<double> &values) {
                                      MPI_COMM_WORLD);
 }
 
-/// Of all nodal forces of the stresses, relative to those of its yielding section.
+/// Of the nodal forces of the stresses, relative to that of a yielding element.
 double largest_force(testing::QuasiStaticRun &run) {
   Vector forces = run.discretization.make_additive_vector();
   InternalForces internal(run.scene, run.discretization);
@@ -72,16 +72,19 @@ double largest_force(testing::QuasiStaticRun &run) {
   forces.compress(dealii::VectorOperation::add);
   Vector owned = run.discretization.make_owned_vector();
   owned = forces;
-  // The symmetry plane holds the other half of the strip, whose stresses are no forces on the whole.
-  for (const auto dof : run.discretization.owned_dofs())
-    if ((dof - *run.discretization.owned_dofs().begin()) % 3 == 1)
-      owned(dof) = 0.;
+  // What stresses do to the clamp and to the other half of the strip are no forces on the whole.
+  for (const auto &element : run.discretization.elements(0))
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        if (run.discretization.owned_dofs().is_element(element.dofs[3 * a + i]) &&
+            (element.cell->vertex(a)[0] < 1e-6 || (i == 1 && element.cell->vertex(a)[1] < 1e-6)))
+          owned(element.dofs[3 * a + i]) = 0.;
   owned.compress(dealii::VectorOperation::insert);
-  return owned.linfty_norm() / 200.;
+  return owned.linfty_norm() / (200. * 0.5 * 0.33);
 }
 
 void test(const std::string &name, const parameters::Scene &bending, const double reference,
-          const double tolerance) {
+          const bool has_one_point) {
   std::vector<double> strains;
   double bent = 0.;
   {
@@ -129,10 +132,13 @@ void test(const std::string &name, const parameters::Scene &bending, const doubl
   check(name + ": leaves something behind", report.kinetic_energy > 0. && report.imbalance > 0.);
   check(name + ": same plastic strain", worst_transfer, 1e-4 * strain);
   check(name + ": springs back by a part", back > 0.02 * bent && back < 0.9 * bent);
-  check(name + ": elastically", worst_change, 1e-4 * strain);
+  // The static element has no hourglass stresses: what they held of an element's bending others take over.
+  check(name + ": elastically", worst_change, (has_one_point ? 5e-3 : 1e-6) * strain);
   check(name + ": no forces are left", force, 1e-4);
-  check(name + ": comes to where static bending ends", std::abs(way / reference - 1.), tolerance);
-  check(name + ": stays there", std::abs(last - way) / back, 0.05);
+  check(name + ": comes to where static bending ends", std::abs(way / reference - 1.),
+        has_one_point ? 0.05 : 0.01);
+  if (!has_one_point) // that again leaves them behind
+    check(name + ": stays there", std::abs(last - way) / back, 1e-4);
   std::cerr << name << " bent " << bent << " way " << way << " reference " << reference << " change "
             << worst_change << " strain " << strain << " force " << force << " last " << last << " transfer "
             << worst_transfer << std::endl;
@@ -167,10 +173,10 @@ int main(int argc, char *argv[]) {
   for (const auto &[kind, name] : kinematics) {
     parameters::Scene scene = bending;
     scene.bodies[0].material.kinematics.value = kind;
-    test(name, scene, reference, 0.05);
+    test(name, scene, reference, false);
   }
   parameters::Scene scene = bending;
   scene.bodies[0].element.value = ElementType::one_point;
-  test("One point", scene, reference, 0.2);
+  test("One point", scene, reference, true);
   return testing::exit_code();
 }
