@@ -97,15 +97,26 @@ std::string folder_of(const std::string &file) {
 
 // --- writing -----------------------------------------------------------------------------------------------
 
+namespace {
+
+// What HDF5 may need beside the data, at any time until the file is closed.
+constexpr std::size_t reserve_of_hdf5 = std::size_t{1} << 18U;
+
+} // namespace
+
 CheckpointWriter::CheckpointWriter(MPI_Comm communicator, std::string file_name)
     : communicator_(communicator), is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
       name_(std::move(file_name)) {
   if (is_first_) {
     silence_hdf5();
-    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    H5Pset_userblock(creation.id(), header_size);
-    file_ = H5Fcreate((name_ + ".tmp").c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT);
-    check(file_ >= 0, "cannot be made");
+    std::ofstream((name_ + ".tmp"), std::ios::trunc);
+    if (reserve(0)) {
+      const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+      H5Pset_userblock(creation.id(), header_size);
+      file_ = H5Fcreate((name_ + ".tmp").c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT);
+      if (check(file_ >= 0, "cannot be made"))
+        reserve(0); // again: it was emptied
+    }
   }
   write("ranks", {static_cast<double>(dealii::Utilities::MPI::n_mpi_processes(communicator))});
 }
@@ -122,6 +133,19 @@ void CheckpointWriter::close() {
   if (file_ >= 0)
     check(H5Fclose(file_) >= 0, "cannot be closed");
   file_ = -1;
+}
+
+bool CheckpointWriter::reserve(const std::size_t n_bytes) {
+  // HDF5 cannot get out of a write that fails: at the program's end, if not before, it crashes.
+  hsize_t size = 0;
+  if (file_ >= 0)
+    H5Fget_filesize(file_, &size);
+  const int descriptor = open((name_ + ".tmp").c_str(), O_RDWR);
+  if (!check(descriptor >= 0, "cannot be made"))
+    return false;
+  const int error = posix_fallocate(descriptor, 0, static_cast<off_t>(size + n_bytes + reserve_of_hdf5));
+  ::close(descriptor);
+  return check(error == 0, "cannot be made as long as it has to be");
 }
 
 bool CheckpointWriter::check(const bool success, const std::string &what) {
@@ -145,6 +169,8 @@ void CheckpointWriter::leave() {
 
 void CheckpointWriter::write_array(const std::string &name, const long type, const std::size_t n_rows,
                                    const std::size_t width, const void *values) {
+  if (!reserve(n_rows * width * H5Tget_size(type)))
+    return;
   const std::array<hsize_t, 2> size{n_rows, width};
   const Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
   const Handle set(

@@ -82,7 +82,7 @@ int main(int argc, char *argv[]) {
     // What Newton's method leaves, and how many iterations it takes, depends on round-off, and so on the
     // ranks.
     scene.solver.force_tolerance = 1e-11;
-    testing::set_fixed_steps(scene, 40);
+    testing::set_fixed_steps(scene, 25);
     test<testing::QuasiStaticRun>(
         "Press", scene, {0.3, 0.6, 0.9},
         [](auto &run, const double time, History &history) { run.run(time, history); });

@@ -43,6 +43,8 @@ private:
   void leave() override;
   /// Notes the first failure; nothing is written after it.
   bool check(bool success, const std::string &what);
+  /// Makes the disk keep room for so many more bytes, before HDF5 finds that there is none.
+  bool reserve(std::size_t n_bytes);
   void write_array(const std::string &name, long type, std::size_t n_rows, std::size_t width,
                    const void *values);
   void close();
