@@ -64,7 +64,11 @@ void test(const std::string &name, const parameters::Scene &scene, const std::ve
           continue;
         const History expected = after(whole, time);
         const std::string what = name + " from " + std::to_string(stop / end);
-        if (n == now)
+        // MUMPS on several ranks adds up in the order in which messages come.
+        const bool has_solver = std::is_same_v<Run, testing::QuasiStaticRun>;
+        if (n == now && has_solver && n > 1)
+          check(what + ", as many ranks", testing::difference(expected, rest, kinds), 1e-8);
+        else if (n == now)
           check(what + ", as many ranks, bit by bit", testing::are_same_bits(expected, rest));
         else
           check(what + ", other ranks", testing::difference(expected, rest, kinds), 1e-8);
@@ -99,10 +103,12 @@ int main(int argc, char *argv[]) {
   {
     parameters::Scene scene = testing::read_test_scene("restart_ring.prm");
     double area = 0.;
-    test<testing::ExplicitStops>("Ring", scene, {10e-6}, [&](auto &run, const double time, History &history) {
-      run.run(time, 1, history);
-      area = std::max(area, run.problem.state().body_pair_loads[0].area);
-    });
+    test<testing::ExplicitStops>("Ring", scene, {2.5e-6, 4e-6},
+                                 [&](auto &run, const double time, History &history) {
+                                   run.run(time, 1, history);
+                                   for (const auto &row : history)
+                                     area = std::max(area, row[7]); // no tools: after time, force and moment
+                                 });
     if (testing::is_first_rank())
       check("Ring touches itself", area > 0.);
   }

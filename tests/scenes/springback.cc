@@ -139,9 +139,6 @@ void test(const std::string &name, const parameters::Scene &bending, const doubl
         has_one_point ? 0.05 : 0.01);
   if (!has_one_point) // that again leaves them behind
     check(name + ": stays there", std::abs(last - way) / back, 1e-4);
-  std::cerr << name << " bent " << bent << " way " << way << " reference " << reference << " change "
-            << worst_change << " strain " << strain << " force " << force << " last " << last << " transfer "
-            << worst_transfer << std::endl;
 }
 
 } // namespace
