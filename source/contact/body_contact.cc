@@ -70,8 +70,8 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
     keys_.push_back(node_keys(nodes.dofs(node)[0]));
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
-  contact_ =
-      std::make_unique<FacetContact>(communicator, settings, keys_, facets_, compute_stiffness(scene), sizes_);
+  contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, compute_stiffness(scene),
+                                            sizes_);
 }
 
 void BodyContact::collect(const NodeKeys &keys) {
@@ -163,30 +163,36 @@ void BodyContact::add_forces(Vector &residual) const {
   }
 }
 
-void BodyContact::find_ghost_dofs() {
-  all_dofs_.clear();
+std::vector<std::array<DofIndex, 3>> BodyContact::find_all_dofs() const {
+  std::vector<std::array<DofIndex, 3>> dofs;
   for (const unsigned int node : local_nodes_)
-    all_dofs_.push_back(nodes_.dofs(node));
-  contact_->exchange().update(all_dofs_);
+    dofs.push_back(nodes_.dofs(node));
+  contact_->exchange().update(dofs);
+  return dofs;
 }
 
-void BodyContact::add_couplings(const ContactTangent kind,
-                                dealii::TrilinosWrappers::SparsityPattern &pattern) {
-  std::vector<DofIndex> dofs;
+void BodyContact::find_couplings(const ContactTangent kind) {
+  const auto all_dofs = find_all_dofs();
+  couplings_.clear();
+  coupled_kind_ = kind;
   contact_->visit_couplings(kind, [&](const std::vector<unsigned int> &nodes) {
-    dofs.clear();
+    couplings_.emplace_back();
+    std::vector<DofIndex> &dofs = couplings_.back();
     for (const unsigned int node : nodes)
-      dofs.insert(dofs.end(), all_dofs_[node].begin(), all_dofs_[node].end());
+      dofs.insert(dofs.end(), all_dofs[node].begin(), all_dofs[node].end());
     std::sort(dofs.begin(), dofs.end());
-    for (const DofIndex row : dofs)
-      pattern.add_entries(row, dofs.begin(), dofs.end(), true);
   });
 }
 
-void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) {
-  find_ghost_dofs();
-  for (const auto &of_node : all_dofs_)
-    dofs.add_indices(of_node.begin(), of_node.end());
+void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) const {
+  for (const auto &coupled : couplings_)
+    dofs.add_indices(coupled.begin(), coupled.end());
+}
+
+void BodyContact::add_couplings(dealii::TrilinosWrappers::SparsityPattern &pattern) const {
+  for (const auto &dofs : couplings_)
+    for (const DofIndex row : dofs)
+      pattern.add_entries(row, dofs.begin(), dofs.end(), true);
 }
 
 namespace {
@@ -219,7 +225,8 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
   for (const unsigned int node : local_nodes_)
     constraints.push_back(constraint_of(system.constraints, nodes_.dofs(node)));
   contact_->exchange().update(constraints);
-  FacetContact::Positions lift(all_dofs_.size());
+  const auto all_dofs = find_all_dofs(); // ghosts may have changed places since the couplings were found
+  FacetContact::Positions lift(all_dofs.size());
   dealii::FullMatrix<double> half, condensed;
   std::vector<DofIndex> dofs;
   contact_->visit_tangents(
@@ -230,7 +237,7 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
         condensed.reinit(n, n);
         for (std::size_t b = 0; b < nodes.size(); ++b) {
           const NodeConstraint &constraint = constraints[nodes[b]];
-          dofs.insert(dofs.end(), all_dofs_[nodes[b]].begin(), all_dofs_[nodes[b]].end());
+          dofs.insert(dofs.end(), all_dofs[nodes[b]].begin(), all_dofs[nodes[b]].end());
           for (std::size_t row = 0; row < n; ++row)
             for (unsigned int j = 0; j < 3; ++j)
               for (unsigned int k = 0; k < 3; ++k)
@@ -285,6 +292,84 @@ void BodyContact::load(const StateReader &reader) {
 }
 
 void BodyContact::begin(const NodalVectors &displacements) { positions_n_ = positions_at(displacements); }
+
+void BodyContact::begin(const Vector &displacements) {
+  positions_n_.assign(local_nodes_.size(), Tensor<1, 3>());
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
+    positions_n_[i] = get_vector(nodes_.positions().data(), local_nodes_[i]);
+    for (unsigned int c = 0; c < 3; ++c)
+      positions_n_[i][c] += displacements(nodes_.dofs(local_nodes_[i])[c]);
+  }
+}
+
+namespace {
+
+/// Rows of one number each, as many as a rank has.
+constexpr std::uint64_t most_numbers = std::uint64_t{1} << 40U;
+
+void write_list(StateWriter &writer, const std::string &name, const unsigned int rank,
+                const std::vector<double> &numbers) {
+  std::vector<std::uint64_t> keys(numbers.size());
+  std::iota(keys.begin(), keys.end(), rank * most_numbers);
+  writer.write_rows(name + " size", 1, {rank}, {static_cast<double>(numbers.size())});
+  writer.write_rows(name, 1, keys, numbers);
+}
+
+std::vector<double> read_list(const StateReader &reader, const std::string &name, const unsigned int rank) {
+  const std::vector<double> size = reader.read_rows(name + " size", 1, {rank});
+  std::vector<std::uint64_t> keys(static_cast<std::size_t>(size.at(0)));
+  std::iota(keys.begin(), keys.end(), rank * most_numbers);
+  return reader.read_rows(name, 1, keys);
+}
+
+} // namespace
+
+std::vector<double> BodyContact::first_dofs() const {
+  std::vector<double> dofs;
+  for (const unsigned int node : local_nodes_)
+    dofs.push_back(static_cast<double>(nodes_.dofs(node)[0]));
+  return dofs;
+}
+
+std::vector<double> BodyContact::describe_couplings(const ContactTangent kind) const {
+  return {static_cast<double>(kind), static_cast<double>(pair_.facets), pair_.two_passes ? 1. : 0.};
+}
+
+void BodyContact::save_couplings(StateWriter &writer) const {
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(nodes_.discretization().communicator());
+  std::vector<double> numbers;
+  for (const auto &dofs : couplings_) {
+    numbers.push_back(static_cast<double>(dofs.size()));
+    for (const DofIndex dof : dofs)
+      numbers.push_back(static_cast<double>(dof));
+  }
+  writer.write("couplings of", describe_couplings(coupled_kind_));
+  writer.write_rows("dofs", 1, keys_, first_dofs());
+  write_list(writer, "coupled dofs", rank, numbers);
+  write_list(writer, "coupled facets", rank, contact_->couplings());
+}
+
+bool BodyContact::load_couplings(const StateReader &reader, const ContactTangent kind) {
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  if (!reader.has("couplings of") || reader.read("couplings of") != describe_couplings(kind) ||
+      reader.n_ranks() != dealii::Utilities::MPI::n_mpi_processes(communicator))
+    return false;
+  const bool is_same = reader.read_rows("dofs", 1, keys_) == first_dofs();
+  if (dealii::Utilities::MPI::min(is_same ? 1 : 0, communicator) == 0)
+    return false;
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const std::vector<double> numbers = read_list(reader, "coupled dofs", rank);
+  couplings_.clear();
+  coupled_kind_ = kind;
+  for (std::size_t i = 0; i < numbers.size();) {
+    const auto n = static_cast<std::size_t>(numbers[i++]);
+    couplings_.emplace_back();
+    for (const std::size_t end = i + n; i < end; ++i)
+      couplings_.back().push_back(static_cast<DofIndex>(numbers[i]));
+  }
+  contact_->set_couplings(read_list(reader, "coupled facets", rank));
+  return true;
+}
 
 void BodyContact::commit() {
   contact_->commit();

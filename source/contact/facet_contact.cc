@@ -433,6 +433,9 @@ void FacetContact::commit() {
   for (std::size_t s = 0; s < slaves_.size(); ++s)
     touched_n_[s] = states_[s].touched;
   base_ = history_n_ = history_;
+  for (std::size_t s = 0; s < lifts_.size(); ++s) // what leaves the facet begins without when it comes back
+    if (!states_[s].presses())
+      lifts_[s] = 0.;
   lifts_n_ = lifts_;
   if (edges_)
     edges_->commit();

@@ -175,7 +175,7 @@ public:
       refuse_subsection({"Implicit dynamics"});
     if (!scene_.is_explicit())
       refuse({"Output"}, "History interval");
-    else
+    if (scene_.is_dynamic())
       refuse({"Restart"}, "Release time");
     constexpr double most_times = 1e7; // of output; more are a mistake that fills a disk
     for (const std::string key : {"Interval", "History interval"}) {

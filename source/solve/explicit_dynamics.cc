@@ -87,7 +87,8 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   find_touched_nodes();
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
-    body_contacts_.back()->check_overlap();
+    if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
+      body_contacts_.back()->check_overlap();
   }
   state_.body_pair_loads.resize(body_contacts_.size());
   state_.tool_loads.resize(tools_.size());

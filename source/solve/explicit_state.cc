@@ -54,6 +54,8 @@ void FreeTool::save(StateWriter &writer) const {
   writer.write("placement", to_numbers(before_));
   writer.write("placement now", to_numbers(now_));
   writer.write("free", {offset_, offset_before_, rate_, rate_before_, load_});
+  if (inertia_ > 0.)
+    writer.write("rate", {0.5 * (rate_ + rate_before_)}); // at the placement
 }
 
 void FreeTool::load(const StateReader &reader, const bool is_exact) {
@@ -64,6 +66,8 @@ void FreeTool::load(const StateReader &reader, const bool is_exact) {
   before_ = now_ = to_placement(reader.read("placement"));
   if (is_removed_)
     rate_ = rate_before_ = 0.;
+  else if (inertia_ > 0. && reader.has("rate"))
+    rate_ = rate_before_ = reader.number("rate");
   if (!is_exact)
     return;
   now_ = to_placement(reader.read("placement now"));

@@ -12,6 +12,8 @@ namespace billet {
 
 namespace {
 
+const char *scheme_of(const bool is_dynamic) { return is_dynamic ? "implicit dynamics" : "quasi-static"; }
+
 Epetra_Vector &as_epetra(Vector &vector) { return *vector.trilinos_vector()(0); }
 
 } // namespace
@@ -20,7 +22,7 @@ void QuasiStatic::save(StateWriter &writer) const {
   const NodeKeys keys(discretization_);
   const OwnedNodes nodes(discretization_, keys);
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(discretization_.communicator());
-  writer.write_text("scheme", "quasi-static");
+  writer.write_text("scheme", scheme_of(motion_ != nullptr));
   writer.write("time", {state_.time});
   writer.write("energies", to_numbers(state_.energies));
   save_nodal(writer, "displacements", nodes, u_n_);
@@ -28,6 +30,10 @@ void QuasiStatic::save(StateWriter &writer) const {
   save_nodal(writer, "support forces", nodes, support_forces_n_);
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
+  if (motion_) {
+    writer.write("kinetic energy", {state_.energies.kinetic});
+    motion_->save(writer, nodes);
+  }
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
     writer.in(group("body", b), [&] {
       writer.write_text("formulation", implicit_formulation);
@@ -48,6 +54,8 @@ void QuasiStatic::save(StateWriter &writer) const {
       writer.write("flags", {stopped_[i] ? 1. : 0., fading_forces_[i] ? 1. : 0.});
       writer.write("placement", to_numbers(state_.placements[i]));
       writer.write("load", to_numbers(state_.tool_loads[i]));
+      if (motion_)
+        motion_->save_tool(i, writer);
       if (!fading_forces_[i])
         return;
       // The force on the nodes is less than the residual by its sign.
@@ -70,6 +78,14 @@ void QuasiStatic::save(StateWriter &writer) const {
       writer.write_text("partners", partners(scene_, scene_.pairs()[p]));
       contacts_[p].save(writer, keys);
     });
+  for (std::size_t p = 0; p < body_contacts_.size(); ++p)
+    writer.in(group("body pair", p), [&] {
+      writer.write_text("name", scene_.body_pairs()[p].name);
+      writer.write_text("partners", partners(scene_, scene_.body_pairs()[p]));
+      writer.write("load", to_numbers(state_.body_pair_loads[p]));
+      body_contacts_[p]->save(writer);
+      body_contacts_[p]->save_couplings(writer);
+    });
   if (imbalance_) {
     writer.write("release", {imbalance_begin_, imbalance_end_});
     save_nodal(writer, "imbalance", nodes, *imbalance_);
@@ -80,14 +96,17 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
   const NodeKeys keys(discretization_);
   const OwnedNodes nodes(discretization_, keys);
   RestartReport report;
-  const bool is_own = reader.read_text("scheme") == "quasi-static";
+  const std::string scheme = reader.read_text("scheme");
+  const bool is_implicit = scheme != "explicit", is_own = scheme == scheme_of(motion_ != nullptr);
   report.is_exact = is_own;
   compare_parts(reader, scene_, report);
   state_.energies = to_energies(reader.read("energies"));
-  load_nodal(reader, is_own ? "displacements" : "displacements before", nodes, u_n_);
+  load_nodal(reader, is_implicit ? "displacements" : "displacements before", nodes, u_n_);
   state_.displacements = u_n_;
-  state_.time = time_ = report.time = reader.number(is_own ? "time" : "time before");
-  if (!is_own)
+  trial_ = u_n_;
+  trial_ghosted_ = u_n_;
+  state_.time = time_ = report.time = reader.number(is_implicit ? "time" : "time before");
+  if (!motion_ && reader.has("kinetic energy"))
     report.kinetic_energy = reader.number("kinetic energy");
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
     reader.in(group("body", b), [&] {
@@ -107,6 +126,7 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
     });
   load_tools(reader);
   load_contacts(reader);
+  update_contacts(reader, report.is_exact);
   if (is_own) {
     load_nodal(reader, "increment", nodes, last_increment_);
     load_nodal(reader, "support forces", nodes, support_forces_n_);
@@ -122,8 +142,11 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
       imbalance_end_ = reader.read("release").at(1);
     }
   }
-  if (!report.is_exact) {
+  if (!report.is_exact)
     balance(report);
+  if (motion_)
+    load_motion(reader, report);
+  else if (!report.is_exact) {
     const double end = scene_.parameters().time_stepping.end_time;
     imbalance_end_ = release_time > 0. ? std::min(end, imbalance_begin_ + release_time) : end;
   }
@@ -165,6 +188,7 @@ void QuasiStatic::load_contacts(StateReader &reader) {
   const NodeKeys keys(discretization_);
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
     const ContactPair &pair = scene_.pairs()[p];
+    contacts_[p].set_allowed_part(pair.overlap.allowed_part(state_.time));
     const auto found = find_group(reader, "pair", pair.name);
     if (found)
       reader.in(group("pair", *found), [&] {
@@ -174,6 +198,38 @@ void QuasiStatic::load_contacts(StateReader &reader) {
     else
       contacts_[p].begin(state_.placements[pair.tool], state_.displacements);
   }
+  for (std::size_t p = 0; p < body_contacts_.size(); ++p) {
+    const BodyPair &pair = scene_.body_pairs()[p];
+    const auto found = find_group(reader, "body pair", pair.name);
+    if (found)
+      reader.in(group("body pair", *found), [&] {
+        check_partners(reader, pair.name, partners(scene_, pair));
+        body_contacts_[p]->load(reader);
+        if (reader.has("load"))
+          state_.body_pair_loads[p] = to_contact_load(reader.read("load"));
+      });
+    else {
+      body_contacts_[p]->begin(state_.displacements);
+      body_contacts_[p]->update(state_.displacements, 0.);
+      body_contacts_[p]->allow_overlap();
+    }
+  }
+}
+
+void QuasiStatic::update_contacts(StateReader &reader, const bool is_exact) {
+  if (body_contacts_.empty())
+    return;
+  bool couplings_are_known = is_exact;
+  for (std::size_t p = 0; p < body_contacts_.size(); ++p) {
+    BodyContact &contact = *body_contacts_[p];
+    contact.start_step(state_.time, state_.time);
+    contact.update(state_.displacements, 0.);
+    if (const auto found = find_group(reader, "body pair", scene_.body_pairs()[p].name);
+        couplings_are_known && found)
+      reader.in(group("body pair", *found),
+                [&] { couplings_are_known = contact.load_couplings(reader, scene_.contact_tangent()); });
+  }
+  build_matrix(couplings_are_known);
 }
 
 void QuasiStatic::balance(RestartReport &report) {
@@ -181,6 +237,7 @@ void QuasiStatic::balance(RestartReport &report) {
     const Placement &now = state_.placements[contact.tool()];
     contact.start_step(now, now, 0.);
   }
+  duration_ = 0.;
   imbalance_.reset();
   choose_unknown_tools({});
   Vector residual = discretization_.make_owned_vector();
@@ -196,16 +253,45 @@ void QuasiStatic::balance(RestartReport &report) {
     state_.tool_loads[contact.tool()] += contact.compute_load();
   for (const auto &load : state_.tool_loads)
     state_.energies.contact += load.stored_energy;
+  for (std::size_t p = 0; p < body_contacts_.size(); ++p) {
+    state_.body_pair_loads[p] = body_contacts_[p]->compute_load();
+    state_.energies.contact += state_.body_pair_loads[p].stored_energy;
+  }
   // What has gone with the interruption is no drift.
   EnergyLedger &energies = state_.energies;
   const double drift = energies.drift();
   const auto now = internal_.compute_energies(state_.displacements);
-  energies.kinetic = energies.hourglass = 0.;
+  if (!motion_)
+    energies.kinetic = 0.;
+  energies.hourglass = 0.;
   energies.elastic = now.elastic;
   energies.plastic = now.plastic;
   energies.initial += drift - energies.drift();
+  if (motion_)
+    return;
   imbalance_ = std::make_unique<Vector>(residual);
   imbalance_begin_ = state_.time;
+}
+
+void QuasiStatic::load_motion(StateReader &reader, RestartReport &report) {
+  const OwnedNodes nodes(discretization_, NodeKeys(discretization_));
+  if (report.is_exact) {
+    motion_->load(reader, nodes);
+  } else {
+    report.imbalance = 0.; // it accelerates the bodies
+    motion_->begin(reader, nodes, state_.time);
+  }
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
+    if (const auto found = find_group(reader, "tool", scene_.tools()[i].name()))
+      reader.in(group("tool", *found), [&] { motion_->load_tool(i, reader, report.is_exact); });
+  if (report.is_exact) {
+    motion_->update_state(state_);
+    return;
+  }
+  update_accelerations();
+  const double drift = state_.energies.drift();
+  motion_->update_state(state_);
+  state_.energies.initial += drift - state_.energies.drift(); // velocities that begin are no drift
 }
 
 double QuasiStatic::imbalance_left(const double t) const {

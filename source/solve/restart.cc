@@ -281,8 +281,8 @@ ContactLoad to_contact_load(const std::vector<double> &numbers) {
 }
 
 std::vector<double> to_numbers(const EnergyLedger &energies) {
-  return {energies.initial,  energies.kinetic, energies.elastic,   energies.plastic, energies.contact,
-          energies.friction, energies.viscous, energies.hourglass, energies.external};
+  return {energies.initial,  energies.kinetic, energies.elastic,   energies.plastic,   energies.contact,
+          energies.friction, energies.viscous, energies.hourglass, energies.numerical, energies.external};
 }
 
 EnergyLedger to_energies(const std::vector<double> &numbers) {
@@ -290,7 +290,7 @@ EnergyLedger to_energies(const std::vector<double> &numbers) {
   RowReader row(numbers.data());
   for (double *energy :
        {&energies.initial, &energies.kinetic, &energies.elastic, &energies.plastic, &energies.contact,
-        &energies.friction, &energies.viscous, &energies.hourglass, &energies.external})
+        &energies.friction, &energies.viscous, &energies.hourglass, &energies.numerical, &energies.external})
     *energy = row.number();
   return energies;
 }

@@ -29,7 +29,7 @@ inline std::vector<double> numbers_of(const SolutionState &state, std::vector<st
       add(to_numbers(load), {3, 3, 1, 1, 1, 1});
   for (const auto &placement : state.placements)
     add(to_numbers(placement), {9, 3, 3, 1});
-  add(to_numbers(state.energies), {9});
+  add(to_numbers(state.energies), {10});
   for (const auto &moment : {state.momentum, state.angular_momentum})
     add({moment[0], moment[1], moment[2]}, {3});
   return numbers;
@@ -94,7 +94,7 @@ public:
           throw SolutionFailure(report.failure);
         continue;
       }
-      control.accept(static_cast<unsigned int>(report.iterations.size()));
+      control.accept(static_cast<unsigned int>(report.iterations.size()), problem.time_error());
       previous = to - from;
       history.push_back(numbers_of(problem.state()));
     }
@@ -169,6 +169,72 @@ public:
   Discretization discretization;
   ExplicitDynamics problem;
 };
+
+inline unsigned int n_ranks() { return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); }
+
+inline History after(const History &all, const double time) {
+  History rest;
+  for (const auto &row : all)
+    if (row[0] > time * (1. + 1e-9))
+      rest.push_back(row);
+  return rest;
+}
+
+/// Stops at each of these times, on all numbers of ranks, and goes on on all.
+template <class Run, class Until>
+void test_going_on(const std::string &name, const parameters::Scene &scene, const std::vector<double> &stops,
+                   const Until &until) {
+  const double end = scene.time_stepping.end_time;
+  parameters::Scene resumed = scene;
+  resumed.restart.file.value = "stopped.h5";
+  History on_one;
+  std::vector<std::size_t> kinds;
+  for (unsigned int n = 1; n <= n_ranks(); ++n) {
+    History whole;
+    on_ranks(n, [&](MPI_Comm some) {
+      Run run(scene, some);
+      until(run, end, whole);
+      kinds.clear();
+      numbers_of(run.problem.state(), &kinds);
+    });
+    if (n == 1)
+      on_one = whole;
+    else if (is_first_rank())
+      check(name + " without interruption, on 1 and on other ranks", difference(on_one, whole, kinds), 1e-8);
+    for (const double stop : stops) {
+      double time = 0.;
+      on_ranks(n, [&](MPI_Comm some) {
+        Run run(scene, some);
+        History ignored;
+        until(run, stop, ignored);
+        run.save("stopped.h5");
+        time = ignored.back()[0];
+      });
+      for (unsigned int now = 1; now <= n_ranks(); ++now) {
+        History rest;
+        on_ranks(now, [&](MPI_Comm some) {
+          Run run(resumed, some);
+          const RestartReport report = run.load(resumed.restart.file.value);
+          if (is_first_rank())
+            check(name + " goes on", report.is_exact);
+          until(run, end, rest);
+        });
+        if (!is_first_rank())
+          continue;
+        const History expected = after(whole, time);
+        const std::string what = name + " from " + std::to_string(stop / end);
+        // MUMPS on several ranks adds up in the order in which messages come.
+        const bool has_solver = std::is_same_v<Run, QuasiStaticRun>;
+        if (n == now && has_solver && n > 1)
+          check(what + ", as many ranks", difference(expected, rest, kinds), 1e-8);
+        else if (n == now)
+          check(what + ", as many ranks, bit by bit", are_same_bits(expected, rest));
+        else
+          check(what + ", other ranks", difference(expected, rest, kinds), 1e-8);
+      }
+    }
+  }
+}
 
 } // namespace billet::testing
 

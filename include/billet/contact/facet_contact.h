@@ -125,6 +125,9 @@ public:
                        const std::function<void(const std::vector<unsigned int> &)> &add);
   /// Whether visit_tangents() has blocks of this rank that the last visit_couplings() did not name.
   bool has_new_couplings() const;
+  /// What the last visit_couplings() took note of, in numbers, and back.
+  std::vector<double> couplings() const;
+  void set_couplings(const std::vector<double> &numbers);
   /// To bring data of own nodes to ghosts, and sums back.
   const SurfaceExchange &exchange() const { return exchange_; }
 
@@ -288,8 +291,8 @@ private:
   Positions positions_n_, positions_;       ///< with ghosts
   MovedFacets moved_{search_, positions_};
   std::vector<TouchedFacet> touched_n_;
-  bool has_started_ = false; ///< commit() has been called
-  double duration_ = 0.;     ///< of the last add_forces()
+  bool has_started_ = false;                 ///< commit() has been called
+  double duration_ = 0.;                     ///< of the last add_forces()
   std::vector<std::uint64_t> restored_keys_; ///< of facets touched, after load() and before facets are here
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave

@@ -57,10 +57,10 @@ public:
 
   /// The state at the end of the last accepted step.
   void save(StateWriter &writer) const;
-  /// Goes on from such a state, in place of the start at time 0, or from that of an explicit run: its
-  /// displacements and stresses, without its velocities. Where the scene has other tools or pairs, or the
-  /// state comes from elsewhere, what is out of balance fades over `release_time`, or, if
-  /// that is 0, until the end time.
+  /// Goes on from such a state, in place of the start at time 0, or from that of another method: its
+  /// displacements and stresses, and, in dynamic scenes, its velocities. Where a static scene has other tools
+  /// or pairs, or the state comes from elsewhere, what is out of balance fades over `release_time`, or, if
+  /// that is 0, until the end time. In dynamic ones it accelerates the bodies.
   RestartReport load(StateReader &reader, double release_time);
 
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
@@ -72,7 +72,8 @@ public:
   }
 
 private:
-  void build_matrix();
+  /// For the contacts as they are, or, after a restart, as they were when it was built last.
+  void build_matrix(bool couplings_are_known = false);
   /// Matrix and solver anew, if contact couples what it did not before.
   void follow_couplings();
   // First guesses of a step, into trial_. The last state, where nothing drives the bodies on; false where
@@ -137,8 +138,11 @@ private:
   // Of load(), in solve/quasi_static_state.cc:
   void load_tools(StateReader &reader);
   void load_contacts(StateReader &reader);
+  /// What touches what now, and a matrix for it.
+  void update_contacts(StateReader &reader, bool is_exact);
   /// All forces at the state as it is: those of supports and tools, and what is out of balance.
   void balance(RestartReport &report);
+  void load_motion(StateReader &reader, RestartReport &report);
   /// Part of the imbalance that is left at t.
   double imbalance_left(double t) const;
   /// Folds forces on constrained dofs into those that they depend on, and empties them.
