@@ -400,6 +400,10 @@ public:
     return is_due;
   }
 
+  double last() const { return last_; } ///< multiple that was reached
+  double interval() const { return interval_; }
+  void begin_after(const double last) { last_ = last; }
+
 private:
   double end_, interval_, last_ = -1.;
 };
@@ -416,15 +420,30 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   ExplicitDynamics problem(scene, discretization);
   const Events events(scene);
   HistoryTimes history_times(parameters);
+  unsigned int balanced_step = 0; // the last at which the energies were seen to balance
   if (resumption != nullptr) {
     resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
     problem.plan_to(events.next(problem.time()));
+    if (resumption->report.is_exact && resumption->reader.has("rows"))
+      resumption->reader.in("rows", [&] {
+        // Of another interval the next row is due at once.
+        if (resumption->reader.number("interval") == history_times.interval())
+          history_times.begin_after(resumption->reader.number("last"));
+        balanced_step = static_cast<unsigned int>(resumption->reader.number("balanced step"));
+      });
   }
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
   if (resumption != nullptr)
     outputs.announce(*resumption, 0.);
-  const auto save = [&](StateWriter &writer) { writer.in("solution", [&] { problem.save(writer); }); };
+  const auto save = [&](StateWriter &writer) {
+    writer.in("solution", [&] { problem.save(writer); });
+    writer.in("rows", [&] {
+      writer.write("interval", {history_times.interval()});
+      writer.write("last", {history_times.last()});
+      writer.write("balanced step", {static_cast<double>(balanced_step)});
+    });
+  };
   if (parameters.explicit_dynamics.scaled_step > 0.)
     outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
 
@@ -437,7 +456,6 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
   };
   constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
-  unsigned int balanced_step = 0;                   // the last at which they were seen to balance
   // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
   // which a node enters; it is a small part soon. Energy without limit grows on.
   const auto stop_on_drift = [&](const bool is_finished) {

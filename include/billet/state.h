@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -111,6 +112,24 @@ public:
 private:
   std::vector<double> &values_;
 };
+
+/// Numbers of each rank that stand under no keys, as many as it likes.
+inline void write_list(StateWriter &writer, const std::string &name, const unsigned int rank,
+                       const std::vector<double> &numbers) {
+  std::vector<std::uint64_t> keys(numbers.size());
+  std::iota(keys.begin(), keys.end(), std::uint64_t{rank} << 40U);
+  writer.write_rows(name + " size", 1, {rank}, {static_cast<double>(numbers.size())});
+  writer.write_rows(name, 1, keys, numbers);
+}
+
+/// Those of one rank of the run that wrote, which may be another one on each.
+inline std::vector<double> read_list(const StateReader &reader, const std::string &name,
+                                     const unsigned int rank) {
+  std::vector<std::uint64_t> keys(
+      static_cast<std::size_t>(reader.read_rows(name + " size", 1, {rank}).at(0)));
+  std::iota(keys.begin(), keys.end(), std::uint64_t{rank} << 40U);
+  return reader.read_rows(name, 1, keys);
+}
 
 } // namespace billet
 

@@ -302,28 +302,6 @@ void BodyContact::begin(const Vector &displacements) {
   }
 }
 
-namespace {
-
-/// Rows of one number each, as many as a rank has.
-constexpr std::uint64_t most_numbers = std::uint64_t{1} << 40U;
-
-void write_list(StateWriter &writer, const std::string &name, const unsigned int rank,
-                const std::vector<double> &numbers) {
-  std::vector<std::uint64_t> keys(numbers.size());
-  std::iota(keys.begin(), keys.end(), rank * most_numbers);
-  writer.write_rows(name + " size", 1, {rank}, {static_cast<double>(numbers.size())});
-  writer.write_rows(name, 1, keys, numbers);
-}
-
-std::vector<double> read_list(const StateReader &reader, const std::string &name, const unsigned int rank) {
-  const std::vector<double> size = reader.read_rows(name + " size", 1, {rank});
-  std::vector<std::uint64_t> keys(static_cast<std::size_t>(size.at(0)));
-  std::iota(keys.begin(), keys.end(), rank * most_numbers);
-  return reader.read_rows(name, 1, keys);
-}
-
-} // namespace
-
 std::vector<double> BodyContact::first_dofs() const {
   std::vector<double> dofs;
   for (const unsigned int node : local_nodes_)

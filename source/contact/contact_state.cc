@@ -116,6 +116,32 @@ void RigidContact::begin(const Placement &placement, const NodalVectors &displac
   begin_at(placement, [&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
 }
 
+std::vector<double> EdgeContact::offsets() const {
+  std::vector<double> numbers;
+  RowWriter row(numbers);
+  for (const auto &[pair, offset] : offsets_n_) {
+    for (const auto &[key, side] : pair)
+      row.number(static_cast<double>(key >> 32U))
+          .number(static_cast<double>(key & half_key))
+          .number(static_cast<double>(side));
+    row.number(offset);
+  }
+  return numbers;
+}
+
+void EdgeContact::add_offsets(const std::vector<double> &numbers) {
+  RowReader row(numbers.data());
+  for (std::size_t i = 0; i < numbers.size(); i += 7) {
+    PairId pair{};
+    for (auto &[key, side] : pair) {
+      const auto high = static_cast<std::uint64_t>(row.number());
+      key = (high << 32U) | static_cast<std::uint64_t>(row.number());
+      side = static_cast<std::uint64_t>(row.number());
+    }
+    offsets_n_[pair] = row.number();
+  }
+}
+
 void FacetContact::save(StateWriter &writer) const {
   std::vector<std::uint64_t> keys;
   std::vector<double> touches, histories, lifts;
@@ -150,6 +176,8 @@ void FacetContact::save(StateWriter &writer) const {
   writer.write("start",
                {has_started_ ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0., allowed_part_});
   writer.write_rows("touched", touch_width, keys, touches);
+  if (edges_)
+    write_list(writer, "edges", dealii::Utilities::MPI::this_mpi_process(communicator_), edges_->offsets());
   if (is_augmented || has_depths)
     writer.write_rows("lifts", 2, keys, lifts);
   if (!std::holds_alternative<Frictionless>(settings_.friction))
@@ -177,6 +205,9 @@ void FacetContact::load(const StateReader &reader) {
     touched.projection.parameters[1] = row.number();
     row.vector(touched.projection.normal);
   }
+  if (edges_ && reader.has("edges"))
+    for (unsigned int rank = 0; rank < reader.n_ranks(); ++rank)
+      edges_->add_offsets(read_list(reader, "edges", rank));
   const std::vector<double> start = reader.read("start");
   const bool is_augmented = start.at(1) != 0., has_depths = start.at(2) != 0.;
   has_started_ = start.at(0) != 0.;

@@ -90,7 +90,7 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   writer.write_text("scheme", "explicit");
   writer.write("time", {time_});
   writer.write("clock", {static_cast<double>(n_steps_), static_cast<double>(n_planned_), step_, step_before_,
-                         pace_, event_, time_before_});
+                         is_growing_ ? 1. : 0., event_, time_before_});
   save_nodes(writer, "displacements", nodes_, owned, vectors_of(u_));
   save_nodes(writer, "velocities after", nodes_, owned, vectors_of(v_));
   save_nodes(writer, "velocities before", nodes_, owned, vectors_of(v_before_));
@@ -252,7 +252,7 @@ void ExplicitDynamics::load_clock(StateReader &reader) {
   n_planned_ = static_cast<unsigned int>(clock.at(1));
   step_ = clock.at(2);
   step_before_ = clock.at(3);
-  pace_ = clock.at(4);
+  is_growing_ = clock.at(4) != 0.;
   event_ = clock.at(5);
   time_before_ = clock.at(6);
 }
