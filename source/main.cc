@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/errors.h"
+#include "billet/output/checkpoint.h"
 #include "billet/scene/scene.h"
 #include "billet/simulation.h"
 #include "billet/version.h"
@@ -16,12 +17,13 @@ using billet::ExitCode;
 
 const char help[] =
     R"(Usage: mpirun -n N billet SCENE.prm      run a scene on N processes
+       billet --restart FILE SCENE.prm  go on from a checkpoint
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
        billet --print-parameters        every parameter with default, range, unit and meaning
        billet --version | --help
 
 Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
-in the output folder); 4 internal error.
+in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint.
 )";
 
 enum class Task { run, check, print_parameters, version, help };
@@ -29,6 +31,7 @@ enum class Task { run, check, print_parameters, version, help };
 struct CommandLine {
   Task task = Task::help;
   std::vector<std::string> scenes;
+  std::string restart_file;
 };
 
 [[noreturn]] void refuse(const std::string &argument) {
@@ -37,16 +40,21 @@ struct CommandLine {
 
 CommandLine read_command_line(const std::vector<std::string> &arguments) {
   CommandLine command;
-  for (const auto &argument : arguments) {
+  for (auto next = arguments.begin(); next != arguments.end(); ++next) {
+    const std::string &argument = *next;
     if (argument == "--help" || argument == "-h")
-      return {Task::help, {}};
+      return {Task::help, {}, {}};
     if (argument == "--version")
-      return {Task::version, {}};
+      return {Task::version, {}, {}};
     if (argument == "--print-parameters")
-      return {Task::print_parameters, {}};
+      return {Task::print_parameters, {}, {}};
     if (argument == "--check")
       command.task = Task::check;
-    else if (argument.empty() || argument.front() == '-')
+    else if (argument == "--restart") {
+      if (++next == arguments.end() || next->empty())
+        throw billet::InputError(std::string("command line: --restart names no checkpoint.\n") + help);
+      command.restart_file = *next;
+    } else if (argument.empty() || argument.front() == '-')
       refuse(argument);
     else
       command.scenes.push_back(argument);
@@ -61,14 +69,18 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
   return command;
 }
 
-billet::parameters::Scene read_scene(const std::string &file) {
+billet::parameters::Scene read_scene(const std::string &file, const std::string &restart_file) {
   billet::parameters::Scene parameters;
-  billet::fail_together(MPI_COMM_WORLD, [&] { parameters = billet::parameters::Scene::read(file); });
+  billet::fail_together(MPI_COMM_WORLD,
+                        [&] { parameters = billet::parameters::Scene::read(file, restart_file); });
   return parameters;
 }
 
-void check(const std::string &file, const bool is_first) {
-  const auto parameters = read_scene(file);
+void check(const std::string &file, const std::string &restart_file, const bool is_first) {
+  const auto parameters = read_scene(file, restart_file);
+  if (parameters.restart.is_wanted())
+    const billet::CheckpointReader sound(MPI_COMM_WORLD, parameters.restart.file.value,
+                                         parameters.restart.file.origin);
   billet::fail_together(MPI_COMM_WORLD, [&] {
     billet::check_output_folder(parameters);
     const billet::Scene scene(parameters);
@@ -103,14 +115,14 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
   case Task::check:
     for (const auto &file : command.scenes)
       try {
-        check(file, is_first);
+        check(file, command.restart_file, is_first);
       } catch (const billet::InputError &error) { // of one scene; the others are checked all the same
         say(error, is_first);
         code = ExitCode::bad_input;
       }
     break;
   case Task::run:
-    billet::run_simulation(read_scene(command.scenes.front()), MPI_COMM_WORLD);
+    code = billet::run_simulation(read_scene(command.scenes.front(), command.restart_file), MPI_COMM_WORLD);
     break;
   }
   return code;

@@ -2,6 +2,7 @@
 #include "billet/simulation.h"
 
 #include "billet/errors.h"
+#include "billet/output/checkpoint.h"
 #include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
 #include "billet/output/progress.h"
@@ -70,6 +71,15 @@ public:
       n_intervals_ = static_cast<unsigned int>(time / output_.interval * (1. + 1e-8));
     write(solution);
   }
+  void save(StateWriter &writer) const {
+    writer.write("pictures", {static_cast<double>(n_intervals_), last_});
+  }
+  void load(const StateReader &reader) {
+    const std::vector<double> state = reader.read("pictures");
+    last_ = state.at(1);
+    if (output_.interval > 0.)
+      n_intervals_ = static_cast<unsigned int>(last_ / output_.interval * (1. + 1e-8));
+  }
   void write(const Solution &solution) {
     if (solution.state().time == last_)
       return;
@@ -129,19 +139,119 @@ void check_output_folder(const parameters::Scene &parameters) {
 
 namespace {
 
-/// What a run writes: the copy of the scene, the history, the fields, the console.
+/// Where a run begins that is not the first of its scene.
+struct Resumption {
+  CheckpointReader reader;
+  RestartReport report;
+
+  Resumption(const parameters::Scene &parameters, MPI_Comm communicator)
+      : reader(communicator, parameters.restart.file.value, parameters.restart.file.origin) {}
+
+  /// Into this folder; then what is there goes on.
+  bool is_from(const std::string &folder) const {
+    const auto from = std::filesystem::path(reader.file_name()).parent_path();
+    std::error_code error;
+    return std::filesystem::equivalent(from.empty() ? "." : from, folder, error);
+  }
+  /// The solution's own part: `load` returns the report.
+  template <class Load>
+  void load(const Scene &scene, const Discretization &discretization, const Load &load) {
+    reader.load("scene", [&] { check_scene(reader, scene, discretization); });
+    reader.load("solution", [&] { report = load(); });
+    const parameters::Scene &parameters = scene.parameters();
+    if (report.time < parameters.time_stepping.end_time)
+      return;
+    std::ostringstream message;
+    message << parameters.file_name << ": found 'End time' = " << parameters.time_stepping.end_time
+            << ", allowed is a time after that of the checkpoint, " << report.time;
+    throw InputError(message.str());
+  }
+};
+
+/// What a run writes: the copy of the scene, the history, the fields, the console, checkpoints.
 struct Outputs {
-  Outputs(const Scene &scene, const Discretization &discretization)
+  /// `resumption`: none if the run begins at time 0.
+  Outputs(const Scene &scene, const Discretization &discretization, Resumption *resumption)
       : is_first(dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0),
         writer(scene, discretization, scene.parameters().output.folder.value),
         snapshots(scene.parameters(), writer),
-        progress(scene, is_first ? std::cout : silence, is_first && console_is_terminal()) {
+        progress(scene, is_first ? std::cout : silence, is_first && console_is_terminal()),
+        checkpoints(scene.parameters().output, discretization.communicator()),
+        signals(discretization.communicator()), scene_(scene), discretization_(discretization) {
+    const std::string &folder = scene.parameters().output.folder.value;
+    const bool goes_on = resumption != nullptr && resumption->is_from(folder);
+    HistoryFile::Mark mark;
+    if (resumption != nullptr)
+      resumption->reader.in("output", [&] {
+        mark = {resumption->reader.read_text("columns"), resumption->reader.number("bytes")};
+        checkpoints.load(resumption->reader, resumption->report.time, goes_on);
+        snapshots.load(resumption->reader);
+        if (goes_on && resumption->reader.read_text("format") == format())
+          writer.load(resumption->reader);
+      });
     fail_together(discretization.communicator(), [&] {
       if (is_first) {
         prepare_folder(scene.parameters());
-        history = std::make_unique<HistoryFile>(scene, scene.parameters().output.folder.value);
+        history = goes_on ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report.time)
+                          : std::make_unique<HistoryFile>(scene, folder);
       }
     });
+  }
+
+  /// Says where the run goes on, and with what.
+  void announce(const Resumption &resumption, const double force_tolerance) {
+    const RestartReport &report = resumption.report;
+    std::ostringstream text;
+    text << "Goes on from " << resumption.reader.file_name() << " at time " << report.time;
+    for (const auto &part : report.gone)
+      text << ", without " << part;
+    if (report.kinetic_energy > 0.)
+      text << "\nThe kinetic energy there, " << report.kinetic_energy << ", is left behind";
+    if (report.imbalance > force_tolerance * report.force_scale)
+      text << "\nForces out of balance, " << 100. * report.imbalance / report.force_scale
+           << " % of those in the scene, fade until time " << report.release_end;
+    progress.note(text.str());
+  }
+
+  /// Writes a checkpoint of what `save` saves. A full disk does not end the run.
+  bool write_checkpoint(const double time, const std::function<void(StateWriter &)> &save) {
+    const HistoryFile::Mark mark = is_first ? history->mark() : HistoryFile::Mark();
+    const std::string failure = checkpoints.write(time, [&](StateWriter &state) {
+      state.in("scene", [&] { save_scene(state, scene_, discretization_); });
+      save(state);
+      state.in("output", [&] {
+        state.write_text("columns", mark.columns);
+        state.write("bytes", {mark.n_bytes});
+        state.write_text("format", format());
+        checkpoints.save(state);
+        snapshots.save(state);
+        writer.save(state);
+      });
+    });
+    if (!failure.empty() && is_first)
+      std::cerr << "billet: no checkpoint at time " << time << ": " << failure
+                << (checkpoints.last().empty() ? "" : " The last one, " + checkpoints.last() + ", stays.")
+                << std::endl;
+    return failure.empty();
+  }
+
+  /// What to say where a signal ends the run.
+  std::string explain_stop(const unsigned int n_steps, const double time) const {
+    std::ostringstream message;
+    message << scene_.parameters().file_name << ": stopped by " << signals.name() << " at time " << time
+            << " after " << n_steps << " steps";
+    return message.str();
+  }
+  /// Ends the run at the wish of a signal.
+  ExitCode stop(const unsigned int n_steps, const double time, const bool has_checkpoint) {
+    const std::string what = explain_stop(n_steps, time);
+    if (!has_checkpoint)
+      throw SolutionFailure(what + ", and no checkpoint could be written" +
+                            (checkpoints.last().empty() ? "" : "; the last one is " + checkpoints.last()));
+    if (is_first)
+      std::cerr << "billet: " << what << ". To go on: billet --restart " << checkpoints.last() << " "
+                << scene_.parameters().file_name << std::endl;
+    return ExitCode::stopped;
   }
 
   bool is_first;
@@ -150,18 +260,62 @@ struct Outputs {
   Snapshots snapshots;
   std::ostringstream silence;
   Progress progress;
+  Checkpoints checkpoints;
+  Signals signals;
+
+private:
+  std::string format() const {
+    switch (scene_.parameters().output.format) {
+    case parameters::Output::Format::vtu:
+      return "vtu";
+    case parameters::Output::Format::hdf5:
+      return "hdf5";
+    case parameters::Output::Format::none:
+      break;
+    }
+    return "none";
+  }
+
+  const Scene &scene_;
+  const Discretization &discretization_;
 };
 
-void run_quasi_static(const Scene &scene, const Discretization &discretization) {
+ExitCode run_quasi_static(const Scene &scene, const Discretization &discretization, Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
   QuasiStatic problem(scene, discretization);
-  StepControl control(parameters.time_stepping, parameters.output.interval, scene.stops());
-  Outputs outputs(scene, discretization);
-  outputs.progress.start(discretization, problem);
-  outputs.snapshots.write(problem);
-
+  std::vector<double> stops = scene.stops();
+  if (resumption != nullptr) {
+    resumption->load(scene, discretization,
+                     [&] { return problem.load(resumption->reader, parameters.restart.release_time); });
+    stops.push_back(resumption->report.release_end);
+  }
+  StepControl control(parameters.time_stepping, parameters.output.interval, stops);
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
+  if (resumption != nullptr) {
+    control.begin(resumption->report.time, 0);
+    if (resumption->reader.has("steps"))
+      resumption->reader.in("steps", [&] {
+        control.load(resumption->reader);
+        const std::vector<double> totals = resumption->reader.read("totals");
+        continued = resumption->report.is_exact ? totals.at(0) : 0.;
+        report.total_iterations = static_cast<unsigned int>(totals.at(1));
+        report.total_cuts = control.n_cuts();
+      });
+  }
+  Outputs outputs(scene, discretization, resumption);
+  outputs.progress.start(discretization, problem);
+  if (resumption != nullptr)
+    outputs.announce(*resumption, parameters.solver.force_tolerance);
+  if (resumption == nullptr || !resumption->report.is_exact)
+    outputs.snapshots.write(problem);
+  const auto save = [&](StateWriter &writer) {
+    writer.in("solution", [&] { problem.save(writer); });
+    writer.in("steps", [&] {
+      control.save(writer);
+      writer.write("totals", {continued, static_cast<double>(report.total_iterations)});
+    });
+  };
   while (!control.is_finished()) {
     const double from = control.time(), to = control.next_time();
     report.length = to - from;
@@ -182,6 +336,13 @@ void run_quasi_static(const Scene &scene, const Discretization &discretization) 
       });
       outputs.progress.accept(report, problem.state());
       outputs.snapshots.after_step(control.n_steps(), problem);
+      const Signals::Wish wish = outputs.signals.look();
+      const bool is_last = control.is_finished() && outputs.checkpoints.is_regular();
+      const bool has_checkpoint = (wish != Signals::Wish::none || is_last ||
+                                   outputs.checkpoints.is_due(control.n_steps(), control.time())) &&
+                                  outputs.write_checkpoint(control.time(), save);
+      if (wish == Signals::Wish::end && !control.is_finished())
+        return outputs.stop(control.n_steps(), control.time(), has_checkpoint);
       continue;
     }
     outputs.progress.reject(report, from, to);
@@ -193,6 +354,7 @@ void run_quasi_static(const Scene &scene, const Discretization &discretization) 
     }
   }
   outputs.progress.finish(outputs.writer.file_to_open());
+  return ExitCode::success;
 }
 
 /// Where steps of an explicit scene have to end: where the scene itself stops, not where something is
@@ -238,6 +400,10 @@ public:
     return is_due;
   }
 
+  double last() const { return last_; } ///< multiple that was reached
+  double interval() const { return interval_; }
+  void begin_after(const double last) { last_ = last; }
+
 private:
   double end_, interval_, last_ = -1.;
 };
@@ -249,13 +415,35 @@ double processor_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-void run_explicit(const Scene &scene, const Discretization &discretization) {
+ExitCode run_explicit(const Scene &scene, const Discretization &discretization, Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
   ExplicitDynamics problem(scene, discretization);
   const Events events(scene);
   HistoryTimes history_times(parameters);
-  Outputs outputs(scene, discretization);
+  unsigned int balanced_step = 0; // the last at which the energies were seen to balance
+  if (resumption != nullptr) {
+    resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
+    problem.plan_to(events.next(problem.time()));
+    if (resumption->report.is_exact && resumption->reader.has("rows"))
+      resumption->reader.in("rows", [&] {
+        // Of another interval the next row is due at once.
+        if (resumption->reader.number("interval") == history_times.interval())
+          history_times.begin_after(resumption->reader.number("last"));
+        balanced_step = static_cast<unsigned int>(resumption->reader.number("balanced step"));
+      });
+  }
+  Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
+  if (resumption != nullptr)
+    outputs.announce(*resumption, 0.);
+  const auto save = [&](StateWriter &writer) {
+    writer.in("solution", [&] { problem.save(writer); });
+    writer.in("rows", [&] {
+      writer.write("interval", {history_times.interval()});
+      writer.write("last", {history_times.last()});
+      writer.write("balanced step", {static_cast<double>(balanced_step)});
+    });
+  };
   if (parameters.explicit_dynamics.scaled_step > 0.)
     outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
 
@@ -268,7 +456,6 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
   };
   constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
-  unsigned int balanced_step = 0;                   // the last at which they were seen to balance
   // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
   // which a node enters; it is a small part soon. Energy without limit grows on.
   const auto stop_on_drift = [&](const bool is_finished) {
@@ -314,7 +501,7 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
   };
   for (bool is_finished = false; !is_finished;) {
     is_finished = problem.time() >= events.end();
-    const bool is_due = history_times.is_due(problem.time());
+    const bool is_due = history_times.is_due(problem.time()) || problem.n_steps() == 0;
     attempt([&] {
       const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
       problem.prepare_step(event);
@@ -334,25 +521,35 @@ void run_explicit(const Scene &scene, const Discretization &discretization) {
       problem.update_state();
       outputs.snapshots.after_step(problem.n_steps(), problem);
     }
-    if (!is_finished)
+    if (!is_finished || outputs.checkpoints.is_regular()) // a checkpoint is of the next step's beginning
       attempt([&] { problem.finish_step(); });
+    const Signals::Wish wish = outputs.signals.look_now_and_then();
+    const bool is_last = is_finished && outputs.checkpoints.is_regular();
+    const bool has_checkpoint =
+        (is_last || (!is_finished && wish != Signals::Wish::none) ||
+         (problem.time() < events.end() && outputs.checkpoints.is_due(problem.n_steps(), problem.time()))) &&
+        outputs.write_checkpoint(problem.time(), save);
+    if (wish == Signals::Wish::end && !is_finished)
+      return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);
   }
   outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
                              processor_seconds);
   outputs.progress.finish(outputs.writer.file_to_open());
+  return ExitCode::success;
 }
 
 } // namespace
 
-void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
+ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
   // Set up: everything that can be wrong with the scene shows here, before anything is written.
   fail_together(communicator, [&] { check_output_folder(parameters); });
+  std::unique_ptr<Resumption> resumption;
+  if (parameters.restart.is_wanted())
+    resumption = std::make_unique<Resumption>(parameters, communicator);
   const Scene scene(parameters);
   const Discretization discretization(scene, communicator);
-  if (parameters.is_explicit())
-    run_explicit(scene, discretization);
-  else
-    run_quasi_static(scene, discretization);
+  return parameters.is_explicit() ? run_explicit(scene, discretization, resumption.get())
+                                  : run_quasi_static(scene, discretization, resumption.get());
 }
 
 } // namespace billet

@@ -16,7 +16,8 @@ enum class ExitCode : int {
   success = 0,
   bad_input = 2,       ///< the scene file or the command line; nothing was written
   failed_solution = 3, ///< the scene is sound, the solution stopped; what was computed is on disk
-  internal_error = 4   ///< a defect of the program or of the machine
+  internal_error = 4,  ///< a defect of the program or of the machine
+  stopped = 5          ///< by a signal; a checkpoint says how to go on
 };
 
 /// The user's input cannot be used. The message says where, what was found and what is allowed.

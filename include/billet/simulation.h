@@ -2,15 +2,17 @@
 #ifndef BILLET_SIMULATION_H
 #define BILLET_SIMULATION_H
 
+#include "billet/errors.h"
 #include "billet/parameters/scene.h"
 
 #include <mpi.h>
 
 namespace billet {
 
-/// Runs a scene from start to end. Collective. Throws InputError before anything is written, SolutionFailure
-/// after everything that was computed is on disk.
-void run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
+/// Runs a scene from start to end, or from a checkpoint. Collective. Throws InputError before anything is
+/// written, SolutionFailure after everything that was computed is on disk. Returns success or, where a signal
+/// has ended the run, stopped.
+ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
 
 /// Throws InputError if the scene's output folder is not there and cannot be made, or cannot be written to.
 void check_output_folder(const parameters::Scene &parameters);

@@ -16,10 +16,10 @@ using dealii::Tensor;
 
 namespace {
 
-/// The same on all ranks, and no other facet's: those of two opposite corners.
-std::uint64_t make_key(const BoundaryFacet &facet) {
-  const auto [low, high] = std::minmax(facet.dofs[0][0], facet.dofs[3][0]);
-  return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
+/// The same on any number of ranks, and no other facet's: those of two opposite corners.
+std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
+  const std::uint64_t first = keys(facet.dofs[0][0]), second = keys(facet.dofs[3][0]);
+  return (std::min(first, second) << 32U) | std::max(first, second);
 }
 
 FacetMethod method_of(const parameters::ContactPair::Facets facets) {
@@ -52,7 +52,8 @@ void BodyContact::update(const DisplacementOf &displacement_of, const double dur
 
 BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes)
     : pair_(scene.body_pairs()[pair]), nodes_(nodes) {
-  collect();
+  const NodeKeys node_keys(nodes.discretization());
+  collect(node_keys);
   const MPI_Comm communicator = nodes.discretization().communicator();
   FacetContactSettings settings;
   settings.method = method_of(pair_.facets);
@@ -65,20 +66,19 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   for (const double area : areas_)
     smallest = std::min(smallest, std::sqrt(area));
   settings.search_margin = pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator);
-  std::vector<std::uint64_t> keys;
   for (const unsigned int node : local_nodes_)
-    keys.push_back(nodes.dofs(node)[0]);
+    keys_.push_back(node_keys(nodes.dofs(node)[0]));
   settings.limits.zone = pair_.smoothing;
   constexpr unsigned int most_changes = 8;
   if (!scene.parameters().is_explicit())
     settings.most_changes = most_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
-  contact_ =
-      std::make_unique<FacetContact>(communicator, settings, keys, facets_, compute_stiffness(scene), sizes_);
+  contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, compute_stiffness(scene),
+                                            sizes_);
 }
 
-void BodyContact::collect() {
+void BodyContact::collect(const NodeKeys &keys) {
   const Discretization &discretization = nodes_.discretization();
   std::map<DofIndex, unsigned int> index;
   const unsigned int n_surfaces = pair_.is_self_contact ? 1 : 2;
@@ -89,7 +89,7 @@ void BodyContact::collect() {
       all.push_back(boundary);
       SurfaceFacet facet{};
       facet.surface = surface;
-      facet.key = make_key(boundary);
+      facet.key = make_key(boundary, keys);
       areas_.push_back(boundary.area_vector().norm());
       // What is deeper than half the wall below is nearer to the wall's other side; and a node that comes in
       // from beside the facet, rather than through it, is not to be thrown out from the depth.
@@ -167,30 +167,36 @@ void BodyContact::add_forces(Vector &residual) const {
   }
 }
 
-void BodyContact::find_ghost_dofs() {
-  all_dofs_.clear();
+std::vector<std::array<DofIndex, 3>> BodyContact::find_all_dofs() const {
+  std::vector<std::array<DofIndex, 3>> dofs;
   for (const unsigned int node : local_nodes_)
-    all_dofs_.push_back(nodes_.dofs(node));
-  contact_->exchange().update(all_dofs_);
+    dofs.push_back(nodes_.dofs(node));
+  contact_->exchange().update(dofs);
+  return dofs;
 }
 
-void BodyContact::add_couplings(const ContactTangent kind,
-                                dealii::TrilinosWrappers::SparsityPattern &pattern) {
-  std::vector<DofIndex> dofs;
+void BodyContact::find_couplings(const ContactTangent kind) {
+  const auto all_dofs = find_all_dofs();
+  couplings_.clear();
+  coupled_kind_ = kind;
   contact_->visit_couplings(kind, [&](const std::vector<unsigned int> &nodes) {
-    dofs.clear();
+    couplings_.emplace_back();
+    std::vector<DofIndex> &dofs = couplings_.back();
     for (const unsigned int node : nodes)
-      dofs.insert(dofs.end(), all_dofs_[node].begin(), all_dofs_[node].end());
+      dofs.insert(dofs.end(), all_dofs[node].begin(), all_dofs[node].end());
     std::sort(dofs.begin(), dofs.end());
-    for (const DofIndex row : dofs)
-      pattern.add_entries(row, dofs.begin(), dofs.end(), true);
   });
 }
 
-void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) {
-  find_ghost_dofs();
-  for (const auto &of_node : all_dofs_)
-    dofs.add_indices(of_node.begin(), of_node.end());
+void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) const {
+  for (const auto &coupled : couplings_)
+    dofs.add_indices(coupled.begin(), coupled.end());
+}
+
+void BodyContact::add_couplings(dealii::TrilinosWrappers::SparsityPattern &pattern) const {
+  for (const auto &dofs : couplings_)
+    for (const DofIndex row : dofs)
+      pattern.add_entries(row, dofs.begin(), dofs.end(), true);
 }
 
 namespace {
@@ -223,7 +229,8 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
   for (const unsigned int node : local_nodes_)
     constraints.push_back(constraint_of(system.constraints, nodes_.dofs(node)));
   contact_->exchange().update(constraints);
-  FacetContact::Positions lift(all_dofs_.size());
+  const auto all_dofs = find_all_dofs(); // ghosts may have changed places since the couplings were found
+  FacetContact::Positions lift(all_dofs.size());
   dealii::FullMatrix<double> half, condensed;
   std::vector<DofIndex> dofs;
   contact_->visit_tangents(
@@ -234,7 +241,7 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
         condensed.reinit(n, n);
         for (std::size_t b = 0; b < nodes.size(); ++b) {
           const NodeConstraint &constraint = constraints[nodes[b]];
-          dofs.insert(dofs.end(), all_dofs_[nodes[b]].begin(), all_dofs_[nodes[b]].end());
+          dofs.insert(dofs.end(), all_dofs[nodes[b]].begin(), all_dofs[nodes[b]].end());
           for (std::size_t row = 0; row < n; ++row)
             for (unsigned int j = 0; j < 3; ++j)
               for (unsigned int k = 0; k < 3; ++k)
@@ -262,6 +269,88 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
   contact_->exchange().collect(lift);
   for (std::size_t i = 0; i < local_nodes_.size(); ++i)
     system.lift->add(3, nodes_.dofs(local_nodes_[i]).data(), lift[i].begin_raw());
+}
+
+FacetContact::Positions BodyContact::positions_at(const NodalVectors &displacements) const {
+  FacetContact::Positions positions(local_nodes_.size());
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i)
+    positions[i] = get_vector(nodes_.positions().data(), local_nodes_[i]) +
+                   get_vector(displacements.data(), local_nodes_[i]);
+  return positions;
+}
+
+void BodyContact::save(StateWriter &writer) const {
+  contact_->save(writer);
+  std::vector<double> rows;
+  for (const auto &position : positions_n_)
+    RowWriter(rows).vector(position);
+  writer.write_rows("positions", 3, keys_, rows);
+}
+
+void BodyContact::load(const StateReader &reader) {
+  contact_->load(reader);
+  const std::vector<double> rows = reader.read_rows("positions", 3, keys_);
+  positions_n_.resize(keys_.size());
+  for (std::size_t i = 0; i < keys_.size(); ++i)
+    RowReader(&rows[3 * i]).vector(positions_n_[i]);
+}
+
+void BodyContact::begin(const NodalVectors &displacements) { positions_n_ = positions_at(displacements); }
+
+void BodyContact::begin(const Vector &displacements) {
+  positions_n_.assign(local_nodes_.size(), Tensor<1, 3>());
+  for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
+    positions_n_[i] = get_vector(nodes_.positions().data(), local_nodes_[i]);
+    for (unsigned int c = 0; c < 3; ++c)
+      positions_n_[i][c] += displacements(nodes_.dofs(local_nodes_[i])[c]);
+  }
+}
+
+std::vector<double> BodyContact::first_dofs() const {
+  std::vector<double> dofs;
+  for (const unsigned int node : local_nodes_)
+    dofs.push_back(static_cast<double>(nodes_.dofs(node)[0]));
+  return dofs;
+}
+
+std::vector<double> BodyContact::describe_couplings(const ContactTangent kind) const {
+  return {static_cast<double>(kind), static_cast<double>(pair_.facets), pair_.two_passes ? 1. : 0.};
+}
+
+void BodyContact::save_couplings(StateWriter &writer) const {
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(nodes_.discretization().communicator());
+  std::vector<double> numbers;
+  for (const auto &dofs : couplings_) {
+    numbers.push_back(static_cast<double>(dofs.size()));
+    for (const DofIndex dof : dofs)
+      numbers.push_back(static_cast<double>(dof));
+  }
+  writer.write("couplings of", describe_couplings(coupled_kind_));
+  writer.write_rows("dofs", 1, keys_, first_dofs());
+  write_list(writer, "coupled dofs", rank, numbers);
+  write_list(writer, "coupled facets", rank, contact_->couplings());
+}
+
+bool BodyContact::load_couplings(const StateReader &reader, const ContactTangent kind) {
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  if (!reader.has("couplings of") || reader.read("couplings of") != describe_couplings(kind) ||
+      reader.n_ranks() != dealii::Utilities::MPI::n_mpi_processes(communicator))
+    return false;
+  const bool is_same = reader.read_rows("dofs", 1, keys_) == first_dofs();
+  if (dealii::Utilities::MPI::min(is_same ? 1 : 0, communicator) == 0)
+    return false;
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const std::vector<double> numbers = read_list(reader, "coupled dofs", rank);
+  couplings_.clear();
+  coupled_kind_ = kind;
+  for (std::size_t i = 0; i < numbers.size();) {
+    const auto n = static_cast<std::size_t>(numbers[i++]);
+    couplings_.emplace_back();
+    for (const std::size_t end = i + n; i < end; ++i)
+      couplings_.back().push_back(static_cast<DofIndex>(numbers[i]));
+  }
+  contact_->set_couplings(read_list(reader, "coupled facets", rank));
+  return true;
 }
 
 void BodyContact::commit() {

@@ -50,10 +50,14 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
 
 void FacetContact::rebuild() {
   // Ghosts change places: what a node touches is found again by its key.
-  std::vector<std::uint64_t> keys(slaves_.size());
-  for (std::size_t s = 0; s < slaves_.size(); ++s)
-    if (touched_n_[s].exists())
-      keys[s] = search_.facets()[touched_n_[s].facet].key;
+  std::vector<std::uint64_t> keys = std::move(restored_keys_);
+  restored_keys_.clear();
+  if (keys.empty()) {
+    keys.resize(slaves_.size());
+    for (std::size_t s = 0; s < slaves_.size(); ++s)
+      if (touched_n_[s].exists())
+        keys[s] = search_.facets()[touched_n_[s].facet].key;
+  }
   double distance = largest_reach_ + settings_.search_margin;
   if (edges_ || overlaps_) {
     // The middle of an edge or a facet is farther from nodes, and depth is not limited to the reach.
@@ -462,6 +466,9 @@ void FacetContact::commit() {
   for (std::size_t s = 0; s < slaves_.size(); ++s)
     touched_n_[s] = states_[s].touched;
   base_ = history_n_ = history_;
+  for (std::size_t s = 0; s < lifts_.size(); ++s) // what leaves the facet begins without when it comes back
+    if (!states_[s].presses())
+      lifts_[s] = 0.;
   lifts_n_ = lifts_;
   if (edges_)
     edges_->commit();

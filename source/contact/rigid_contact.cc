@@ -468,8 +468,14 @@ void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
 void RigidContact::commit() {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].gap_n = states_[i].gap;
-  for (auto &node : nodes_)
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node &node = nodes_[i];
+    if (states_[i].status == ContactStatus::open) { // it begins without when it comes back
+      node.gap_n += node.lift;
+      node.lift = 0.;
+    }
     node.lift_n = node.lift;
+  }
   base_.clear();
   friction_n_ = friction_;
 }

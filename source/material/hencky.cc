@@ -27,6 +27,14 @@ bool compute_principal_state(const SymmetricTensor<2, 3> &b, PrincipalElasticSta
   return true;
 }
 
+SymmetricTensor<2, 3> exponential(const SymmetricTensor<2, 3> &A) {
+  SymmetricTensor<2, 3> result;
+  for (const auto &[value, direction] :
+       dealii::eigenvectors(A, dealii::SymmetricTensorEigenvectorMethod::jacobi))
+    result += std::exp(value) * dealii::symmetrize(dealii::outer_product(direction, direction));
+  return result;
+}
+
 SymmetricTensor<2, 3> compute_kirchhoff_stress(const PrincipalElasticState &trial,
                                                const PrincipalResponse &response) {
   SymmetricTensor<2, 3> tau;

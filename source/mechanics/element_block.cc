@@ -75,6 +75,57 @@ public:
     return Law::has_plasticity ? 2 * sizeof(PointHistories) / sizeof(double) : 0;
   }
 
+  std::size_t state_size() const override {
+    return Law::has_plasticity ? n_element_points * Law::n_history : 0;
+  }
+
+  void get_state(const std::size_t element, double *state) const override {
+    if constexpr (Law::has_plasticity)
+      for (const auto &history : history_at(history_n_, element)) {
+        Law::store(history, state);
+        state += Law::n_history;
+      }
+  }
+
+  void set_state(const std::size_t element, const double *state) override {
+    if constexpr (Law::has_plasticity) {
+      for (auto &history : history_at(history_n_, element)) {
+        history = Law::restore(state);
+        state += Law::n_history;
+      }
+      history_at(history_, element) = history_at(history_n_, element);
+    }
+  }
+
+  ElementStress compute_stress(const std::size_t element,
+                               const ElementVectors &displacements) const override {
+    ElementStress stress;
+    MeanDilatationKinematics kinematics;
+    if (!compute_kinematics(elements_[element], displacements, kinematics))
+      return stress;
+    for (unsigned int q = 0; q < n_element_points; ++q) {
+      typename Law::History ignored;
+      const auto &history = history_at(history_n_, element)[q];
+      if (law_.update(kinematics.F_bar[q], history, ignored, stress[q].deviator, nullptr))
+        stress[q].deviator = dealii::deviator(stress[q].deviator);
+      stress[q].equivalent_plastic_strain = law_.equivalent_plastic_strain(history);
+    }
+    return stress;
+  }
+
+  void set_stress(const std::size_t element, const ElementVectors &displacements,
+                  const ElementStress &stress) override {
+    if constexpr (Law::has_plasticity) {
+      MeanDilatationKinematics kinematics;
+      if (!compute_kinematics(elements_[element], displacements, kinematics))
+        return;
+      for (unsigned int q = 0; q < n_element_points; ++q)
+        history_at(history_n_, element)[q] =
+            law_.find_history(kinematics.F_bar[q], stress[q].deviator, stress[q].equivalent_plastic_strain);
+      history_at(history_, element) = history_at(history_n_, element);
+    }
+  }
+
 private:
   using PointHistories = std::array<typename Law::History, n_element_points>;
 

@@ -166,7 +166,65 @@ public:
     return summary;
   }
 
+  void get_state(const std::size_t element, double *state) const override {
+    storage_.get_history(element, state);
+  }
+  void set_state(const std::size_t element, const double *state) override {
+    storage_.set_history(element, state);
+  }
+
+  ElementStress compute_stress(const std::size_t element, const double *displacements) const override {
+    ElementStress stress;
+    const std::vector<PointState> states = storage_.compute_states(element, displacements);
+    for (std::size_t q = 0; q < stress.size() && !states.empty(); ++q) {
+      const PointState &state = states[q % states.size()];
+      compute_distortion(state.tensor, stress[q].deviator);
+      stress[q].equivalent_plastic_strain = state.equivalent_plastic_strain;
+    }
+    return stress;
+  }
+
+  void set_stress(const std::size_t element, const double *displacements,
+                  const ElementStress &stress) override {
+    if (!has_plasticity && formulation_.kinematics != Kinematics::hypoelastic)
+      return;
+    ElementStress wanted = stress;
+    if (formulation_.element == Element::one_point) {
+      wanted[0] = PointStress();
+      for (const PointStress &point : stress) {
+        wanted[0].deviator += 0.125 * point.deviator;
+        wanted[0].equivalent_plastic_strain += 0.125 * point.equivalent_plastic_strain;
+      }
+    }
+    std::vector<PointState> states;
+    std::vector<double> yield_stress;
+    for (const PointStress &point : wanted) {
+      states.push_back({0., 0., elastic_tensor(point.deviator), point.equivalent_plastic_strain});
+      yield_stress.push_back(hardening_.stress(point.equivalent_plastic_strain));
+    }
+    storage_.set_states(element, displacements, states, yield_stress);
+  }
+
 private:
+  /// The inverse of compute_distortion(): a PointState's tensor from dev τ.
+  dealii::SymmetricTensor<2, 3> elastic_tensor(const dealii::SymmetricTensor<2, 3> &dev_tau) const {
+    if (formulation_.kinematics == Kinematics::hypoelastic)
+      return dev_tau;
+    const dealii::SymmetricTensor<2, 3> X = dev_tau / material_.shear;
+    if (formulation_.kinematics == Kinematics::hencky)
+      return exponential(X);
+    // b̄_e = X + x I with the largest x for which det b̄_e = x³ − i_2 x + i_3 is 1; Newton comes down to it.
+    const double i_2 = 0.5 * (X * X), i_3 = dealii::determinant(X);
+    double x = 1. + X.norm();
+    for (unsigned int i = 0; i < 100; ++i) {
+      const double change = (x * x * x - i_2 * x + i_3 - 1.) / (3. * x * x - i_2);
+      x -= change;
+      if (!(change > 1e-16 * x))
+        break;
+    }
+    return X + x * dealii::unit_symmetric_tensor<3>();
+  }
+
   /// dev τ and the energy that it stores per reference volume, from a PointState's tensor.
   double compute_distortion(const dealii::SymmetricTensor<2, 3> &tensor,
                             dealii::SymmetricTensor<2, 3> &dev_tau) const {
@@ -208,6 +266,20 @@ void require(const bool holds, const char *reason) {
 }
 
 } // namespace
+
+std::string describe(const ExplicitFormulation &formulation) {
+  const std::string element =
+      formulation.element == Element::one_point ? "explicit, one point, " : "explicit, mean dilatation, ";
+  switch (formulation.kinematics) {
+  case Kinematics::hencky:
+    return element + "Hencky";
+  case Kinematics::neo_hookean:
+    return element + "neo-Hookean";
+  case Kinematics::hypoelastic:
+    break;
+  }
+  return element + "hypoelastic";
+}
 
 std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, const double density,
                                                    const ExplicitFormulation &formulation) {

@@ -302,30 +302,10 @@ void ExplicitStorage::add_masses(const double density, double *masses) const {
   }
 }
 
-std::vector<PointState> ExplicitStorage::compute_states(const std::size_t element,
-                                                        const double *displacements) const {
+template <class Visit>
+void ExplicitStorage::visit_points(const std::size_t element, const double *displacements,
+                                   const Visit &visit) const {
   const ElementVectors X = gather(element, reference_positions_.data()), u = gather(element, displacements);
-  const bool is_rate = formulation_.kinematics == Kinematics::hypoelastic;
-  std::vector<PointState> states;
-  const auto add = [&](const std::size_t first, const double reference_volume, const double volume_ratio,
-                       const Tensor<2, 3> &jacobian) {
-    PointState state{reference_volume, volume_ratio, {}, 0.};
-    std::size_t k = first;
-    if (is_rate) {
-      for (const unsigned int place : {0, 1, 3, 4, 5})
-        state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]] = history(element, k++);
-      state.tensor[2][2] = -state.tensor[0][0] - state.tensor[1][1];
-    } else {
-      Tensor<2, 3> H;
-      for (const auto &pair : symmetric_pairs)
-        H[pair[0]][pair[1]] = H[pair[1]][pair[0]] = history(element, k++);
-      state.tensor = symmetrize(jacobian * H * transpose(jacobian));
-    }
-    if (has_plasticity_)
-      state.equivalent_plastic_strain = history(element, k);
-    states.push_back(state);
-  };
-
   if (formulation_.element == Element::one_point) {
     ElementVectors x;
     std::transform(X.begin(), X.end(), u.begin(), x.begin(), std::plus<>());
@@ -339,21 +319,102 @@ std::vector<PointState> ExplicitStorage::compute_states(const std::size_t elemen
       }
     const double J = determinant(jacobian) / determinant(reference_jacobian);
     if (J > 0.)
-      add(n_last + 12, reference.volume, J, jacobian);
-    return states;
+      visit(n_last + 12, reference.volume, J, jacobian);
+    return;
   }
   ReferenceElement reference;
   MeanDilatationKinematics kinematics;
   compute_reference_element(X, reference);
   if (!compute_kinematics(reference, u, kinematics))
-    return states;
+    return;
   double volume = 0.;
   for (const double w : reference.volumes)
     volume += w;
   for (unsigned int q = 0; q < n_element_points; ++q)
-    add(n_last + q * layout_.n_point_history, reference.volumes[q], kinematics.current_volume / volume,
-        kinematics.F_bar[q] * invert(compute_inverse_jacobian(reference, q)));
+    visit(n_last + q * layout_.n_point_history, reference.volumes[q], kinematics.current_volume / volume,
+          kinematics.F_bar[q] * invert(compute_inverse_jacobian(reference, q)));
+}
+
+std::vector<PointState> ExplicitStorage::compute_states(const std::size_t element,
+                                                        const double *displacements) const {
+  const bool is_rate = formulation_.kinematics == Kinematics::hypoelastic;
+  std::vector<PointState> states;
+  visit_points(element, displacements,
+               [&](const std::size_t first, const double reference_volume, const double volume_ratio,
+                   const Tensor<2, 3> &jacobian) {
+                 PointState state{reference_volume, volume_ratio, {}, 0.};
+                 std::size_t k = first;
+                 if (is_rate) {
+                   for (const unsigned int place : {0, 1, 3, 4, 5})
+                     state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]] =
+                         history(element, k++);
+                   state.tensor[2][2] = -state.tensor[0][0] - state.tensor[1][1];
+                 } else {
+                   Tensor<2, 3> H;
+                   for (const auto &pair : symmetric_pairs)
+                     H[pair[0]][pair[1]] = H[pair[1]][pair[0]] = history(element, k++);
+                   state.tensor = symmetrize(jacobian * H * transpose(jacobian));
+                 }
+                 if (has_plasticity_)
+                   state.equivalent_plastic_strain = history(element, k);
+                 states.push_back(state);
+               });
   return states;
+}
+
+void ExplicitStorage::set_states(const std::size_t element, const double *displacements,
+                                 const std::vector<PointState> &states,
+                                 const std::vector<double> &yield_stress) {
+  std::size_t q = 0;
+  visit_points(
+      element, displacements,
+      [&](const std::size_t first, const double, const double volume_ratio, const Tensor<2, 3> &jacobian) {
+        const PointState &state = states[q];
+        std::size_t k = first;
+        if (formulation_.kinematics == Kinematics::hypoelastic)
+          for (const unsigned int place : {0, 1, 3, 4, 5})
+            history(element, k++) = state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]];
+        else {
+          const Tensor<2, 3> inverse = invert(jacobian), b = state.tensor;
+          const Tensor<2, 3> H = std::pow(volume_ratio, 2. / 3.) * inverse * b * transpose(inverse);
+          for (const auto &pair : symmetric_pairs)
+            history(element, k++) = H[pair[0]][pair[1]];
+        }
+        if (has_plasticity_)
+          history(element, k++) = state.equivalent_plastic_strain;
+        if (keeps_yield_stress_)
+          history(element, k) = yield_stress[q];
+        if (has_plasticity_ && formulation_.element == Element::one_point) {
+          ElementVectors x = gather(element, reference_positions_.data());
+          const ElementVectors u = gather(element, displacements);
+          std::transform(x.begin(), x.end(), u.begin(), x.begin(), std::plus<>());
+          const ModalGeometry current(x);
+          const Tensor<2, 3> inverse = invert(jacobian);
+          for (unsigned int m = 0; m < 4; ++m)
+            for (unsigned int i = 0; i < 3; ++i)
+              history(element, n_last + std::size_t{3} * m + i) = (inverse * current.modes[3 + m])[i];
+        }
+        ++q;
+      });
+  repeat_last(element);
+}
+
+void ExplicitStorage::get_history(const std::size_t element, double *numbers) const {
+  for (std::size_t k = 0; k < layout_.n_history; ++k)
+    numbers[k] = history(element, k);
+}
+
+void ExplicitStorage::set_history(const std::size_t element, const double *numbers) {
+  for (std::size_t k = 0; k < layout_.n_history; ++k)
+    history(element, k) = numbers[k];
+  repeat_last(element);
+}
+
+void ExplicitStorage::repeat_last(const std::size_t element) {
+  if (element + 1 == n_elements_)
+    for (std::size_t e = n_elements_; e % n_lanes_ != 0; ++e)
+      for (std::size_t k = 0; k < layout_.n_history; ++k)
+        history(e, k) = history(element, k);
 }
 
 } // namespace billet

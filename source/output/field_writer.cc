@@ -7,6 +7,11 @@
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 
+#include <boost/archive/text_iarchive.hpp>
+#include <boost/archive/text_oarchive.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <cmath>
 #include <fstream>
 #include <iomanip>
@@ -194,6 +199,39 @@ void FieldWriter::write(const Solution &solution) {
       write_index();
     }
   });
+}
+
+void FieldWriter::save(StateWriter &writer) const {
+  std::vector<double> times;
+  std::string names;
+  for (const auto &snapshot : snapshots_) {
+    times.push_back(snapshot.time);
+    names += snapshot.fields + "\n" + snapshot.tools + "\n";
+  }
+  std::ostringstream entries;
+  {
+    boost::archive::text_oarchive archive(entries);
+    archive << xdmf_entries_;
+  }
+  writer.write("written", {static_cast<double>(n_written_)});
+  writer.write("times", times);
+  writer.write_text("names", names);
+  writer.write_text("xdmf", entries.str());
+}
+
+void FieldWriter::load(const StateReader &reader) {
+  n_written_ = static_cast<unsigned int>(reader.number("written"));
+  std::istringstream names(reader.read_text("names"));
+  for (const double time : reader.read("times")) {
+    Snapshot snapshot;
+    snapshot.time = time;
+    std::getline(names, snapshot.fields);
+    std::getline(names, snapshot.tools);
+    snapshots_.push_back(snapshot);
+  }
+  std::istringstream entries(reader.read_text("xdmf"));
+  boost::archive::text_iarchive archive(entries);
+  archive >> xdmf_entries_;
 }
 
 void FieldWriter::write_tools(const SolutionState &state, const std::string &name) const {

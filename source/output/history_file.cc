@@ -4,7 +4,9 @@
 #include "billet/errors.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
+#include <sstream>
 
 namespace billet {
 
@@ -20,31 +22,71 @@ std::string column_name(std::string name) {
 } // namespace
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
-    : name_(folder + "/history.csv"), stream_(name_) {
+    : name_(folder + "/history.csv"), columns_(columns(scene)) {
+  begin(scene);
+}
+
+HistoryFile::HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, const double time)
+    : name_(folder + "/history.csv"), columns_(columns(scene)) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::string first_line;
+  std::ifstream in(name_);
+  std::getline(in, first_line);
+  in.close();
+  const auto n_bytes = static_cast<std::uintmax_t>(mark.n_bytes);
+  if (mark.columns == columns_ && first_line == columns_ && fs::file_size(name_, error) >= n_bytes &&
+      !error) {
+    fs::resize_file(name_, n_bytes, error);
+    stream_.open(name_, std::ios::app | std::ios::ate);
+    if (error || !stream_)
+      throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be written");
+    stream_ << std::setprecision(15);
+    return;
+  }
+  if (fs::exists(name_, error)) {
+    std::ostringstream kept;
+    kept << folder << "/history_until_" << time << ".csv";
+    fs::rename(name_, kept.str(), error);
+    if (error)
+      throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be renamed to '" +
+                       kept.str() + "'");
+  }
+  begin(scene);
+}
+
+void HistoryFile::begin(const Scene &scene) {
+  stream_.open(name_);
   if (!stream_)
     throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be written");
+  stream_ << columns_ << "\n" << std::setprecision(15) << std::flush;
+}
+
+HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<double>(stream_.tellp())}; }
+
+std::string HistoryFile::columns(const Scene &scene) {
+  std::ostringstream stream;
   const bool is_explicit = scene.parameters().is_explicit(), is_dynamic = scene.parameters().is_dynamic();
-  stream_ << "step,time,step_length"
-          << (is_explicit ? "" : ",iterations,residual,total_iterations,total_cuts,linear_iterations");
+  stream << "step,time,step_length"
+         << (is_explicit ? "" : ",iterations,residual,total_iterations,total_cuts,linear_iterations");
   for (const auto &tool : scene.tools())
     for (const char *quantity :
          {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "contact_area",
           "deepest_penetration", "travel_x", "travel_y", "travel_z", "turn"})
-      stream_ << "," << column_name(tool.name()) << "." << quantity;
+      stream << "," << column_name(tool.name()) << "." << quantity;
   for (const auto &pair : scene.body_pairs())
     for (const char *quantity : {"force_x", "force_y", "force_z", "contact_area", "deepest_penetration"})
-      stream_ << "," << column_name(pair.name) << "." << quantity;
-  stream_ << (is_dynamic ? ",kinetic_energy" : "")
-          << ",elastic_energy,plastic_work,contact_energy,friction_dissipation"
-          << (is_explicit  ? ",viscous_dissipation,hourglass_energy"
-              : is_dynamic ? ",numerical_dissipation"
-                           : "")
-          << ",external_work,energy_drift"
-          << (is_dynamic ? ",momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
-                           "angular_momentum_z"
-                         : "")
-          << "\n"
-          << std::setprecision(15);
+      stream << "," << column_name(pair.name) << "." << quantity;
+  stream << (is_dynamic ? ",kinetic_energy" : "")
+         << ",elastic_energy,plastic_work,contact_energy,friction_dissipation"
+         << (is_explicit  ? ",viscous_dissipation,hourglass_energy"
+             : is_dynamic ? ",numerical_dissipation"
+                          : "")
+         << ",external_work,energy_drift"
+         << (is_dynamic ? ",momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
+                          "angular_momentum_z"
+                        : "");
+  return stream.str();
 }
 
 void HistoryFile::write(const StepReport &report, const SolutionState &state) {

@@ -66,6 +66,13 @@ void Progress::show_number_of_steps(const double n_steps, const double step) {
                   : "\n");
 }
 
+void Progress::note(const std::string &text) {
+  if (verbosity_ == Verbosity::quiet)
+    return;
+  erase_bar();
+  stream_ << text << std::endl;
+}
+
 void Progress::accept(const StepReport &report, const SolutionState &state) {
   if (verbosity_ == Verbosity::quiet)
     return;

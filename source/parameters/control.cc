@@ -290,6 +290,16 @@ void Output::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"),
       "quiet: the console shows nothing; steps: a line for each; iterations: their residuals, too.");
+  prm.enter_subsection("Checkpoint");
+  prm.declare_entry("Every steps", "0", Patterns::Integer(0),
+                    "A checkpoint, from which the run can go on, is written every so many steps and at the "
+                    "end. 0: not by steps.");
+  prm.declare_entry("Interval", "0", Patterns::Double(),
+                    "... or whenever a multiple of this time has been reached or passed, and at the end. 0: "
+                    "not by time. [time]");
+  prm.declare_entry("Keep", "2", Patterns::Integer(0),
+                    "So many of the last checkpoints stay, at least 1; older ones of this run are removed.");
+  prm.leave_subsection();
 }
 
 void Output::parse(Reader &reader) {
@@ -310,6 +320,30 @@ void Output::parse(Reader &reader) {
   verbosity = chosen_verbosity == "quiet"   ? Verbosity::quiet
               : chosen_verbosity == "steps" ? Verbosity::steps
                                             : Verbosity::iterations;
+  reader.in("Checkpoint", [&] {
+    checkpoint.every_steps = reader.count("Every steps");
+    checkpoint.interval = reader.not_negative("Interval");
+    checkpoint.keep = reader.count("Keep", 1);
+    if (checkpoint.every_steps > 0 && checkpoint.interval > 0.)
+      reader.reject("Every steps", "no value, or 0: checkpoints are written by the 'Interval'");
+  });
+}
+
+void Restart::declare(ParameterHandler &prm) {
+  prm.declare_entry("File", "", Patterns::Anything(),
+                    "A checkpoint of an earlier run, relative to the scene file; the scene goes on from "
+                    "there. The command line's --restart takes its place.");
+  prm.declare_entry("Release time", "0", Patterns::Double(),
+                    "Quasi-static scenes that go on from an explicit run, or without tools that were there: "
+                    "the forces that are out of balance then fade over this time; 0: until the end time. "
+                    "[time]");
+}
+
+void Restart::parse(Reader &reader) {
+  file = reader.located("File", std::string());
+  if (!reader.text("File").empty())
+    file.value = reader.file("File");
+  release_time = reader.not_negative("Release time");
 }
 
 } // namespace billet::parameters

@@ -70,6 +70,9 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
   prm.enter_subsection("Output");
   Output::declare(prm);
   prm.leave_subsection();
+  prm.enter_subsection("Restart");
+  Restart::declare(prm);
+  prm.leave_subsection();
 }
 
 template <class T> std::vector<T> parse_named(Reader &reader, const std::string &list) {
@@ -172,6 +175,8 @@ public:
       refuse_subsection({"Implicit dynamics"});
     if (!scene_.is_explicit())
       refuse({"Output"}, "History interval");
+    if (scene_.is_dynamic())
+      refuse({"Restart"}, "Release time");
     constexpr double most_times = 1e7; // of output; more are a mistake that fills a disk
     for (const std::string key : {"Interval", "History interval"}) {
       const double interval = key == "Interval" ? scene_.output.interval : scene_.output.history_interval;
@@ -263,7 +268,7 @@ std::size_t Scene::second_body_index(const ContactPair &pair) const {
 
 std::size_t Scene::tool_index(const ContactPair &pair) const { return index_of(tools, pair.tool); }
 
-Scene Scene::read(const std::string &file_name) {
+Scene Scene::read(const std::string &file_name, const std::string &restart_file) {
   const SceneFile file = SceneFile::read(file_name);
   ParameterHandler prm;
   declare_all(prm, {[&file](const SceneFile::Path &path) { return file.names_below(path); },
@@ -286,6 +291,9 @@ Scene Scene::read(const std::string &file_name) {
   });
   reader.in("Solver", [&] { scene.solver.parse(reader); });
   reader.in("Output", [&] { scene.output.parse(reader); });
+  reader.in("Restart", [&] { scene.restart.parse(reader); });
+  if (!restart_file.empty())
+    scene.restart.file = {restart_file, "command line: --restart"};
 
   for (const auto &amplitude : scene.amplitudes)
     check_amplitude_name(amplitude.name, file.where({"Amplitudes", amplitude.name}));

@@ -123,11 +123,16 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
         }))
       continue; // another body may hold it, which shows when both are meshed
     touching.insert(touching.end(), holding.begin(), holding.end());
-    if (const auto motion = find_free_motion(touching, centre, size))
+    // What tools touch at a restart is not known here.
+    const bool may_touch =
+        parameters_.restart.is_wanted() &&
+        std::any_of(pairs_.begin(), pairs_.end(), [b](const auto &pair) { return pair.body == b; });
+    const auto free_motion = find_free_motion(touching, centre, size);
+    if (free_motion && !may_touch)
       throw InputError(parameters_.bodies[b].origin +
                        ": the body is without support: at the start neither supports, nor symmetry planes, "
                        "nor tools that it touches hold its rigid motion with " +
-                       print(*motion) + ". Allowed in a static scene: none that is free");
+                       print(*free_motion) + ". Allowed in a static scene: none that is free");
 
     double last_removal = 0.; // of the tools that it may touch; infinite if one of them stays
     for (const auto &pair : pairs_)
@@ -146,6 +151,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
 }
 
 void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
+  if (parameters_.restart.is_wanted()) // it begins with deformed bodies
+    return;
   for (const auto &pair : pairs_) {
     if (pair.overlap.is_allowed)
       continue;

@@ -14,8 +14,6 @@ namespace billet {
 
 using dealii::Tensor;
 
-namespace {
-
 ExplicitFormulation make_formulation(const parameters::Scene &scene, const parameters::Body &body) {
   using Kinematics = parameters::Material::Kinematics;
   using Instructions = parameters::ExplicitDynamics::Instructions;
@@ -58,6 +56,8 @@ ExplicitFormulation make_formulation(const parameters::Scene &scene, const param
   return formulation;
 }
 
+namespace {
+
 void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
   for (const unsigned int node : nodes)
     std::fill_n(&vectors[std::size_t{nodal_stride} * node], nodal_stride, 0.);
@@ -87,7 +87,8 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   find_touched_nodes();
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
-    body_contacts_.back()->check_overlap();
+    if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
+      body_contacts_.back()->check_overlap();
   }
   state_.body_pair_loads.resize(body_contacts_.size());
   state_.tool_loads.resize(tools_.size());
@@ -453,6 +454,7 @@ void ExplicitDynamics::finish_step() {
   for (auto &tool : tools_)
     tool.move(time_, step_);
   add_works(v_, 0.5 * step_);
+  time_before_ = time_;
   time_ = n_planned_ == 0 ? event_ : time_ + step_;
   ++n_steps_;
 }
@@ -535,7 +537,7 @@ void ExplicitDynamics::update_ledger() {
     energies.contact += state_.body_pair_loads[i].stored_energy;
   }
   if (n_steps_ == 0)
-    energies.initial = energies.total();
+    energies.initial = energies.total() - energies.external;
   // What is there counts half only: energy that came from nowhere must not hide itself.
   largest_energy_ =
       std::max({largest_energy_, 0.5 * energies.total(), std::abs(energies.initial + energies.external)});

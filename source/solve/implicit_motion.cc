@@ -71,6 +71,61 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
   a_ = a_n_;
 }
 
+void ImplicitMotion::save(StateWriter &writer, const OwnedNodes &nodes) const {
+  save_nodal(writer, "velocities", nodes, v_n_);
+  save_nodal(writer, "accelerations", nodes, a_n_);
+  save_nodal(writer, "load forces", nodes, load_forces_n_);
+  save_nodal(writer, "held velocities", nodes, held_n_.velocity);
+  save_nodal(writer, "held accelerations", nodes, held_n_.acceleration);
+  writer.write("largest displacement", {largest_displacement_});
+}
+
+void ImplicitMotion::load(const StateReader &reader, const OwnedNodes &nodes) {
+  load_nodal(reader, "velocities", nodes, v_n_);
+  load_nodal(reader, "accelerations", nodes, a_n_);
+  load_nodal(reader, "load forces", nodes, load_forces_n_);
+  load_nodal(reader, "held velocities", nodes, held_n_.velocity);
+  load_nodal(reader, "held accelerations", nodes, held_n_.acceleration);
+  largest_displacement_ = reader.number("largest displacement");
+  held_ = held_n_;
+  v_ = v_n_;
+  a_ = a_n_;
+}
+
+void ImplicitMotion::save_tool(const std::size_t tool, StateWriter &writer) const {
+  const HeavyTool &heavy = tools_[tool];
+  if (heavy.inertia == 0.)
+    return;
+  writer.write("rate", {heavy.rate});
+  writer.write("acceleration", {heavy.acceleration, heavy.excess});
+}
+
+void ImplicitMotion::load_tool(const std::size_t tool, const StateReader &reader, const bool is_exact) {
+  HeavyTool &heavy = tools_[tool];
+  if (heavy.inertia == 0.)
+    return;
+  if (reader.read("flags").at(1) != 0.) { // gone
+    heavy = HeavyTool();
+    return;
+  }
+  if (reader.has("rate"))
+    heavy.rate = reader.number("rate");
+  if (is_exact) {
+    heavy.acceleration = reader.read("acceleration").at(0);
+    heavy.excess = reader.read("acceleration").at(1);
+  }
+}
+
+void ImplicitMotion::begin(const StateReader &reader, const OwnedNodes &nodes, const double t) {
+  if (reader.has("velocities"))
+    load_nodal(reader, "velocities", nodes, v_n_);
+  held_n_ = find_held_rates(t, scene_.parameters().time_stepping.initial_step);
+  supports_.homogeneous().distribute(v_n_);
+  v_n_ += held_n_.velocity;
+  held_ = held_n_;
+  v_ = v_n_;
+}
+
 Vector ImplicitMotion::held_change(const double from, const double to) const {
   Vector change = discretization_.make_owned_vector();
   bool moves = false;

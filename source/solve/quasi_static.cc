@@ -54,7 +54,8 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     nodes_ = std::make_unique<LocalNodes>(discretization);
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, *nodes_));
-    body_contacts_.back()->check_overlap();
+    if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
+      body_contacts_.back()->check_overlap();
   }
   state_.body_pair_loads.resize(body_contacts_.size());
   if (body_contacts_.empty()) // else when it is known who touches whom
@@ -87,6 +88,10 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   });
   state_.displacements = u_n_;
   choose_unknown_tools({});
+  if (scene.parameters().is_dynamic())
+    motion_ = std::make_unique<ImplicitMotion>(scene_, discretization_, supports_);
+  if (scene.parameters().restart.is_wanted()) // load() does the rest
+    return;
   if (!body_contacts_.empty()) {
     for (auto &contact : contacts_)
       contact.update(state_.displacements);
@@ -102,17 +107,20 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     start_motion();
 }
 
-void QuasiStatic::build_matrix() {
+void QuasiStatic::build_matrix(const bool couplings_are_known) {
   const auto &owned = discretization_.owned_dofs();
   dealii::IndexSet written = discretization_.relevant_dofs();
-  for (auto &contact : body_contacts_)
+  for (auto &contact : body_contacts_) {
+    if (!couplings_are_known)
+      contact->find_couplings(scene_.contact_tangent());
     contact->add_foreign_dofs(written);
+  }
   dealii::TrilinosWrappers::SparsityPattern pattern(owned, owned, written, discretization_.communicator());
   dealii::DoFTools::make_sparsity_pattern(
       discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
-  for (auto &contact : body_contacts_)
-    contact->add_couplings(scene_.contact_tangent(), pattern);
+  for (const auto &contact : body_contacts_)
+    contact->add_couplings(pattern);
   pattern.compress();
   if (linear_) {
     linear_->release();
@@ -220,6 +228,8 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
       total.add(fading(time_, tool), *fading_forces_[tool]);
   if (motion_)
     force_scale_ = std::max(force_scale_, motion_->add_loads(time_, trial_, total));
+  if (imbalance_)
+    total.add(-imbalance_left(time_), *imbalance_);
   support_forces_ = total;
   if (motion_)
     force_scale_ = std::max(force_scale_, motion_->complete(support_forces_n_, total));
@@ -310,7 +320,7 @@ bool QuasiStatic::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx
 
 bool QuasiStatic::stay_at_rest(const double t) {
   const double t_n = state_.time;
-  if (has_lost_pace_)
+  if (has_lost_pace_ || imbalance_left(t) != imbalance_left(t_n))
     return false;
   for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
     if (fading_forces_[i] && fading(t, i) != fading(t_n, i))
@@ -572,6 +582,9 @@ void QuasiStatic::commit(const double t) {
     if (fading_forces_[tool])
       state_.energies.external -=
           0.5 * (fading(t, tool) + fading(state_.time, tool)) * (*fading_forces_[tool] * last_increment_);
+  if (imbalance_)
+    state_.energies.external +=
+        0.5 * (imbalance_left(t) + imbalance_left(state_.time)) * (*imbalance_ * last_increment_);
   u_n_ = trial_;
   internal_.commit();
 

@@ -10,7 +10,6 @@
 namespace billet {
 
 void QuasiStatic::start_motion() {
-  motion_ = std::make_unique<ImplicitMotion>(scene_, discretization_, supports_);
   check_before_start([&] {
     Epetra_Vector x = unknowns(), ignored(x);
     if (!compute_residual(x, ignored))

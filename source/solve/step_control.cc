@@ -72,4 +72,40 @@ bool StepControl::reject() {
   return true;
 }
 
+std::vector<double> StepControl::rules() const {
+  const parameters::TimeStepping &p = parameters_;
+  return {p.control == parameters::TimeStepping::Control::fixed ? 1. : 0.,
+          p.initial_step,
+          p.smallest_step,
+          p.largest_step,
+          static_cast<double>(p.few_iterations),
+          static_cast<double>(p.many_iterations),
+          p.growth_factor,
+          p.shrink_factor,
+          p.cut_factor};
+}
+
+void StepControl::save(StateWriter &writer) const {
+  writer.write("rules", rules());
+  writer.write("state", {time_, step_, grid_start_, static_cast<double>(n_on_grid_),
+                         static_cast<double>(n_steps_), static_cast<double>(n_cuts_)});
+}
+
+void StepControl::load(const StateReader &reader) {
+  const std::vector<double> state = reader.read("state");
+  begin(state.at(0), static_cast<unsigned int>(state.at(4)));
+  n_cuts_ = static_cast<unsigned int>(state.at(5));
+  if (reader.read("rules") != rules())
+    return;
+  step_ = state.at(1);
+  grid_start_ = state.at(2);
+  n_on_grid_ = static_cast<unsigned int>(state.at(3));
+}
+
+void StepControl::begin(const double time, const unsigned int n_steps) {
+  time_ = grid_start_ = time;
+  n_on_grid_ = 0;
+  n_steps_ = n_steps;
+}
+
 } // namespace billet

@@ -5,6 +5,7 @@
 #include "billet/contact/contact_load.h"
 #include "billet/contact/facet_contact.h"
 #include "billet/discretization/local_nodes.h"
+#include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
 #include "billet/scene/rigid_motions.h"
 
@@ -52,10 +53,12 @@ public:
 
   /// Whether add_tangent() has entries of this rank that the last add_couplings() did not name.
   bool has_new_couplings() const { return contact_->has_new_couplings(); }
+  /// Finds which nodes add_tangent() may couple, after update(). Collective.
+  void find_couplings(ContactTangent kind);
   /// Adds the dofs whose rows add_tangent() writes to.
-  void add_foreign_dofs(dealii::IndexSet &dofs);
-  /// Adds the entries that add_tangent() writes. Both after update(). Collective.
-  void add_couplings(ContactTangent kind, dealii::TrilinosWrappers::SparsityPattern &pattern);
+  void add_foreign_dofs(dealii::IndexSet &dofs) const;
+  /// Adds the entries that add_tangent() writes.
+  void add_couplings(dealii::TrilinosWrappers::SparsityPattern &pattern) const;
 
   /// Adds what the other body does where it touches this one on this rank; none of a body that touches
   /// itself.
@@ -81,14 +84,32 @@ public:
   std::vector<ContactNodeReport> report() const;
   std::size_t history_size() const { return contact_->history_size(); }
 
+  /// The state at the start of the step.
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+  /// In place of load(), for a pair that is new at these displacements.
+  void begin(const NodalVectors &displacements);
+  /// The same of ghosted displacements; then update() and allow_overlap() make the start. Collective.
+  void begin(const Vector &displacements);
+  /// What the last find_couplings() found: with another matrix pattern a run would not go on bit by bit.
+  void save_couplings(StateWriter &writer) const;
+  /// In place of find_couplings(). False, on all ranks, if that was on other ranks, or for another tangent.
+  bool load_couplings(const StateReader &reader, ContactTangent kind);
+
 private:
-  void collect();
+  void collect(const NodeKeys &keys);
+  FacetContact::Positions positions_at(const NodalVectors &displacements) const;
   std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
   template <class DisplacementOf> void update(const DisplacementOf &displacement_of, double duration);
-  void find_ghost_dofs();
+  /// Of surface nodes and ghosts. Collective.
+  std::vector<std::array<DofIndex, 3>> find_all_dofs() const;
+  std::vector<double> first_dofs() const;
+  /// What decides on the couplings, besides where the nodes are.
+  std::vector<double> describe_couplings(ContactTangent kind) const;
 
   const BodyPair &pair_;
   const LocalNodes &nodes_;
+  std::vector<std::uint64_t> keys_;       ///< of each surface node
   std::vector<unsigned int> local_nodes_; ///< of each surface node
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it
@@ -98,7 +119,8 @@ private:
   FacetContact::Positions positions_n_, positions_;
   FacetContact::Positions forces_; ///< of one step, as row_sums_
   std::vector<double> row_sums_;
-  std::vector<std::array<DofIndex, 3>> all_dofs_; ///< of surface nodes and ghosts, after find_ghost_dofs()
+  std::vector<std::vector<DofIndex>> couplings_; ///< dofs of nodes that are coupled all with all, ascending
+  ContactTangent coupled_kind_ = ContactTangent::exact; ///< for which
 };
 
 } // namespace billet

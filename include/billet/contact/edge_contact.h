@@ -68,6 +68,10 @@ public:
   /// The pairs of the last find_crossings() are those of the step's start.
   void commit() { offsets_n_ = offsets_; }
 
+  /// Offsets at the start of the step, of this rank's pairs, in numbers, and back: those of any ranks.
+  std::vector<double> offsets() const;
+  void add_offsets(const std::vector<double> &numbers);
+
   std::size_t n_pairs() const { return pairs_.size(); }
 
 private:

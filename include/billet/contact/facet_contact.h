@@ -8,6 +8,7 @@
 #include "billet/contact/slave_traction.h"
 #include "billet/contact/surface_exchange.h"
 #include "billet/geometry/bilinear_facet.h"
+#include "billet/state.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -127,6 +128,9 @@ public:
                        const std::function<void(const std::vector<unsigned int> &)> &add);
   /// Whether visit_tangents() has blocks of this rank that the last visit_couplings() did not name.
   bool has_new_couplings() const;
+  /// What the last visit_couplings() took note of, in numbers, and back.
+  std::vector<double> couplings() const;
+  void set_couplings(const std::vector<double> &numbers);
   /// To bring data of own nodes to ghosts, and sums back.
   const SurfaceExchange &exchange() const { return exchange_; }
 
@@ -198,6 +202,11 @@ public:
     unsigned int n_changes;
   };
   std::vector<Restless> find_restless() const;
+
+  /// The state at the start of the step, by the keys of nodes and facets. The positions at the last commit()
+  /// are the caller's.
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
 
 private:
   struct SlaveState {
@@ -298,6 +307,7 @@ private:
   bool is_rebuilt_ = false;             ///< lists were made anew for the last add_forces()
   bool has_started_ = false;            ///< commit() has been called
   double duration_ = 0.;                ///< of the last add_forces()
+  std::vector<std::uint64_t> restored_keys_; ///< of facets touched, after load() and before facets are here
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only

@@ -4,9 +4,11 @@
 
 #include "billet/contact/contact_load.h"
 #include "billet/discretization/local_nodes.h"
+#include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
 #include "billet/geometry/frame.h"
 #include "billet/scene/rigid_motions.h"
+#include "billet/state.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -110,6 +112,14 @@ public:
   /// Doubles of history on this rank.
   std::size_t history_size() const;
 
+  /// The state at the start of the step.
+  void save(StateWriter &writer, const NodeKeys &keys) const;
+  void load(const StateReader &reader, const NodeKeys &keys);
+  /// In place of load(), for a pair that is new at these displacements (as of all dofs, or of bound nodes):
+  /// as if it had been there without contact.
+  void begin(const Placement &placement, const Vector &displacements);
+  void begin(const Placement &placement, const NodalVectors &displacements);
+
 private:
   struct Node {
     std::array<DofIndex, 3> dofs;
@@ -171,6 +181,8 @@ private:
                       FrictionHistory &history) const;
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
+  template <class DisplacementOf>
+  void begin_at(const Placement &placement, const DisplacementOf &displacement_of);
   /// Calls add(index of the slave node, its area at one facet).
   template <class Add> void for_each_area(const Add &add) const;
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.

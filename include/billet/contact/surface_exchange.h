@@ -31,6 +31,8 @@ public:
   /// nodes, ghosts after them are ignored. Indices of former ghosts are void.
   void rebuild(const Positions &positions_n, const Positions &positions, double distance);
 
+  /// Of own nodes.
+  const std::vector<std::uint64_t> &node_keys() const { return node_keys_; }
   std::size_t n_own_nodes() const { return node_keys_.size(); }
   std::size_t n_nodes() const { return node_keys_.size() + n_ghost_nodes_; }
   std::size_t n_own_facets() const { return n_own_facets_; }

@@ -42,6 +42,10 @@ public:
   /// Doubles of history on this rank.
   std::size_t history_size() const;
 
+  /// For checkpoints.
+  ElementBlock &block(const std::size_t body) { return *blocks_[body]; }
+  const ElementBlock &block(const std::size_t body) const { return *blocks_[body]; }
+
 private:
   const Discretization &discretization_;
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body

@@ -20,6 +20,7 @@ class HenckyElasticity {
 public:
   struct History {};
   static constexpr bool has_plasticity = false;
+  static constexpr unsigned int n_history = 0;
 
   explicit HenckyElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 

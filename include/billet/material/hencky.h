@@ -35,6 +35,9 @@ struct PrincipalElasticState {
 /// admissible and the step that led there has to be cut.
 bool compute_principal_state(const dealii::SymmetricTensor<2, 3> &b, PrincipalElasticState &state);
 
+/// exp(A), by its eigenvectors.
+dealii::SymmetricTensor<2, 3> exponential(const dealii::SymmetricTensor<2, 3> &A);
+
 /// What an isotropic law with logarithmic elasticity answers in the principal frame of the trial state: the
 /// Kirchhoff stress τ_A = κ tr ε + 2G β dev ε_A and its derivative
 ///   ∂τ_A/∂ε_B = κ + 2Gβ (δ_AB − 1/3) − 2G γ ν_A ν_B,   ν = dev ε / |dev ε|,

@@ -91,6 +91,34 @@ public:
                                                                  : 0.;
   }
 
+  /// The history with which `F` has the Kirchhoff stress of this deviator, where that is below the yield
+  /// stress: b̄_e = exp(dev τ/G), C_p⁻¹ = J^{2/3} F⁻¹ b̄_e F⁻ᵀ.
+  History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
+                       const double equivalent_plastic_strain) const {
+    const dealii::Tensor<2, 3> F_inverse = dealii::invert(F);
+    const dealii::Tensor<2, 3> b_e = exponential(deviator / elastic_.shear);
+    History history;
+    history.inverse_plastic_metric = std::pow(dealii::determinant(F), 2. / 3.) *
+                                     dealii::symmetrize(F_inverse * b_e * dealii::transpose(F_inverse));
+    history.equivalent_plastic_strain = equivalent_plastic_strain;
+    return history;
+  }
+
+  /// A history as numbers.
+  static constexpr unsigned int n_history = 7;
+  static void store(const History &history, double *numbers) {
+    for (unsigned int i = 0; i < 6; ++i)
+      numbers[i] = history.inverse_plastic_metric.access_raw_entry(i);
+    numbers[6] = history.equivalent_plastic_strain;
+  }
+  static History restore(const double *numbers) {
+    History history;
+    for (unsigned int i = 0; i < 6; ++i)
+      history.inverse_plastic_metric.access_raw_entry(i) = numbers[i];
+    history.equivalent_plastic_strain = numbers[6];
+    return history;
+  }
+
   double plastic_work(const History &history) const {
     return hardening_.work(history.equivalent_plastic_strain);
   }

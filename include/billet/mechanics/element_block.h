@@ -26,6 +26,13 @@ struct ElementSummary {
   double plastic_work = 0.;                    ///< integral [energy]
 };
 
+/// Where a material point stands, whatever law and kinematics it has: enough to go on with others.
+struct PointStress {
+  dealii::SymmetricTensor<2, 3> deviator; ///< of the Kirchhoff stress [stress]
+  double equivalent_plastic_strain = 0.;
+};
+using ElementStress = std::array<PointStress, n_element_points>;
+
 /// All elements of one body on one rank: the same law, history in one array. The law is fixed when the block
 /// is made; nothing is decided per element. History advances in two beats: evaluate() computes the end of the
 /// step from the history at its start, as often as it is called; commit() makes the last evaluation the new
@@ -52,6 +59,19 @@ public:
 
   /// Doubles of history kept per element, both beats counted.
   virtual std::size_t history_size() const = 0;
+
+  // For checkpoints: the history at the start of the step, as numbers.
+  virtual std::size_t state_size() const = 0; ///< of an element; 0 without history
+  virtual void get_state(std::size_t element, double *state) const = 0;
+  virtual void set_state(std::size_t element, const double *state) = 0;
+
+  // To go on with what another formulation has computed:
+  /// At the history at the start of the step and the displacements that belong to it.
+  virtual ElementStress compute_stress(std::size_t element, const ElementVectors &displacements) const = 0;
+  /// Makes the history the one which, at these displacements, has this stress; without history it follows
+  /// from the displacements alone.
+  virtual void set_stress(std::size_t element, const ElementVectors &displacements,
+                          const ElementStress &stress) = 0;
 };
 
 std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material);

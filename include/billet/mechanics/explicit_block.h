@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace billet {
@@ -96,7 +97,22 @@ public:
 
   /// Doubles of history kept per element.
   virtual std::size_t history_size() const = 0;
+
+  // For checkpoints: an element's history_size() numbers, after advance().
+  virtual void get_state(std::size_t element, double *state) const = 0;
+  virtual void set_state(std::size_t element, const double *state) = 0;
+
+  // To go on with what another formulation has computed:
+  /// At the displacements of the last call; of a one-point element eight times the same.
+  virtual ElementStress compute_stress(std::size_t element, const double *displacements) const = 0;
+  /// After initialize(). Makes the history the one which, at these displacements, has this stress, or its
+  /// mean where there is one point; without plasticity it follows from the displacements alone, unless the
+  /// law is hypoelastic.
+  virtual void set_stress(std::size_t element, const double *displacements, const ElementStress &stress) = 0;
 };
+
+/// What a history means: element and kinematics in words.
+std::string describe(const ExplicitFormulation &formulation);
 
 /// `density` is per reference volume. Throws std::invalid_argument, with the reason, for an instruction set
 /// that is not available and for numbers out of range. Every element goes with every kinematics.

@@ -53,6 +53,14 @@ public:
 
   /// Of the eight points, or of the one; empty where an element is inverted.
   std::vector<PointState> compute_states(std::size_t element, const double *displacements) const;
+  /// The other way about: one state for each of those, of which tensor and plastic strain are read; b_e is
+  /// that of determinant 1. `yield_stress`: of each, used if it is kept. A one-point element with plasticity
+  /// also forgets what its stabilisation holds.
+  void set_states(std::size_t element, const double *displacements, const std::vector<PointState> &states,
+                  const std::vector<double> &yield_stress);
+
+  void get_history(std::size_t element, double *numbers) const;
+  void set_history(std::size_t element, const double *numbers);
 
 private:
   using NodalMasses = std::array<double, n_element_nodes>;
@@ -72,6 +80,12 @@ private:
   double history(const std::size_t element, const std::size_t k) const {
     return history_[index(element, k, layout_.n_history)];
   }
+  /// The lanes beyond the last element repeat it.
+  void repeat_last(std::size_t element);
+  /// Calls visit(place of its history, its reference volume, J̄ of mean dilatation or J, ∂x/∂ξ up to a factor)
+  /// for each point; for none where the element is inverted.
+  template <class Visit>
+  void visit_points(std::size_t element, const double *displacements, const Visit &visit) const;
   ElementVectors gather(std::size_t element, const double *values) const;
   void resize(std::size_t n_elements);
   bool initialize_element(std::size_t element, const explicit_kernels::Material &material,

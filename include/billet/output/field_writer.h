@@ -3,6 +3,7 @@
 #define BILLET_OUTPUT_FIELD_WRITER_H
 
 #include "billet/solve/solution.h"
+#include "billet/state.h"
 
 #include <deal.II/base/data_out_base.h>
 
@@ -20,6 +21,10 @@ public:
 
   /// Collective.
   void write(const Solution &solution);
+
+  /// Goes on with the pictures of a run whose files are in the same folder.
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
 
   /// The file to open, once something was written; empty if the scene wants no fields.
   std::string file_to_open() const;

@@ -24,16 +24,28 @@ class HistoryFile {
 public:
   HistoryFile(const Scene &scene, const std::string &folder);
 
+  /// How far a history has come.
+  struct Mark {
+    std::string columns; ///< its first line
+    double n_bytes = 0.;
+  };
+  Mark mark();
+  /// Goes on behind the mark of a run in the same folder. If the file has other columns, or is shorter, it is
+  /// kept under another name that tells the `time` until which it goes, and a new one is begun.
+  HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, double time);
+
   void write(const StepReport &report, const SolutionState &state);
   /// Of an explicit scene: steps taken, and the length of the next.
   void write(unsigned int step, double length, const SolutionState &state);
 
 private:
+  static std::string columns(const Scene &scene);
+  void begin(const Scene &scene);
   void write_loads(const SolutionState &state);
   void write_momenta(const SolutionState &state);
   void end_line();
 
-  std::string name_;
+  std::string name_, columns_;
   std::ofstream stream_;
 };
 

@@ -22,6 +22,8 @@ public:
   void show_number_of_steps(double n_steps, double step);
   /// Of an explicit scene, where a line of the history is due.
   void show(unsigned int step, double length, const SolutionState &state);
+  /// A line of text, such as where a run goes on.
+  void note(const std::string &text);
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
   /// Of an explicit scene, at its end: how long its steps took without output, by the clock and of the

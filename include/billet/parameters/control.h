@@ -99,6 +99,27 @@ struct Output {
   bool stress, plastic_strain, contact;
   Verbosity verbosity;
 
+  /// Subsection Checkpoint.
+  struct Checkpoint {
+    unsigned int every_steps; ///< 0: not by steps
+    double interval;          ///< 0: not by time
+    unsigned int keep;        ///< the last ones
+
+    bool is_regular() const { return every_steps > 0 || interval > 0.; }
+  };
+  Checkpoint checkpoint;
+
+  static void declare(dealii::ParameterHandler &prm);
+  void parse(Reader &reader);
+};
+
+/// Subsection Restart.
+struct Restart {
+  Located<std::string> file; ///< a checkpoint to go on with; empty: the scene starts at time 0
+  double release_time;       ///< in which forces out of balance fade; 0: until the end time
+
+  bool is_wanted() const { return !file.value.empty(); }
+
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 };

@@ -25,9 +25,10 @@ struct Scene {
   ImplicitDynamics implicit_dynamics;
   Solver solver;
   Output output;
+  Restart restart;
 
-  /// Throws InputError.
-  static Scene read(const std::string &file_name);
+  /// Throws InputError. `restart_file`, unless it is empty, takes the place of the scene's own.
+  static Scene read(const std::string &file_name, const std::string &restart_file = "");
 
   bool is_explicit() const { return time_stepping.scheme == TimeStepping::Scheme::explicit_dynamics; }
   /// Whether bodies have inertia, in either scheme.

@@ -8,12 +8,15 @@
 #include "billet/forces/external_loads.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/solve/free_tool.h"
-#include "billet/solve/solution.h"
+#include "billet/solve/restart.h"
 
 #include <memory>
 #include <vector>
 
 namespace billet {
+
+/// What the scene says of a body's elements.
+ExplicitFormulation make_formulation(const parameters::Scene &scene, const parameters::Body &body);
 
 /// M a = F_ext + F_c − F_int by central differences with a lumped mass:
 ///   v_{n+½} = v_{n−½} + ½ (Δt_{n−1} + Δt_n) M⁻¹ F_n,   u_{n+1} = u_n + Δt_n v_{n+½}.
@@ -49,6 +52,14 @@ public:
   /// smallest_energy(), while that is larger.
   double relative_drift() const;
 
+  /// After finish_step(): the state from which the next prepare_step() goes on.
+  void save(StateWriter &writer) const;
+  /// Goes on from such a state, in place of the start at time 0: prepare_step() comes next. From another
+  /// method's, or another formulation's: its displacements, stresses and, if it has some, velocities.
+  RestartReport load(StateReader &reader);
+  /// After load(): steps that were planned before lead to this event from now on.
+  void plan_to(double event);
+
   const SolutionState &state() const override { return state_; }
   std::vector<ElementSummary> summarize(std::size_t body) const override;
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
@@ -76,6 +87,11 @@ private:
   void kick();
   /// What this step's forces do in the half step at velocities `v` that is `half` long.
   void add_works(const NodalVectors &v, double half);
+  // Of save() and load(), in solve/explicit_state.cc:
+  void load_nodal_state(StateReader &reader, const NodeKeys &keys, bool is_exact);
+  void load_clock(StateReader &reader);
+  void load_tools(StateReader &reader, const NodeKeys &keys, bool is_exact);
+  void load_contacts(StateReader &reader, const NodeKeys &keys);
   [[noreturn]] void fail(const std::string &why) const;
 
   const Scene &scene_;
@@ -107,6 +123,7 @@ private:
   bool is_growing_ = false; ///< steps were much shorter than they may be, and are not yet long
   double event_ = 0.;       ///< that the planned steps lead to
   unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
+  double time_before_ = 0.;                  ///< of the last forces, after finish_step()
   std::exception_ptr late_failure_;          ///< of this rank, since the last compute_forces()
   double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;

@@ -4,6 +4,7 @@
 
 #include "billet/contact/contact_load.h"
 #include "billet/scene/scene.h"
+#include "billet/state.h"
 
 namespace billet {
 
@@ -43,6 +44,13 @@ public:
   double motion_work(const ContactLoad &local) const;
   /// ... and by the load of the last kick, on all ranks the same.
   double load_work() const { return 0.5 * load_ * (offset_ - offset_before_); }
+
+  /// Into the group of a tool at hand.
+  void save(StateWriter &writer) const;
+  /// `is_exact`: of the same method; else what a tool at rest has.
+  void load(const StateReader &reader, bool is_exact);
+  /// Of a tool that is new at time t.
+  void begin(const double t) { before_ = now_ = tool_.placement(t); }
 
 private:
   bool is_free() const {

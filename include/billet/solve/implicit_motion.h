@@ -4,6 +4,7 @@
 
 #include "billet/forces/external_loads.h"
 #include "billet/forces/inertia.h"
+#include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/time_integrator.h"
 
@@ -67,6 +68,16 @@ public:
   double remove_tool(std::size_t tool);
   /// Velocities, kinetic energy and momenta.
   void update_state(SolutionState &state) const;
+
+  /// The state at the start of the step; that of a tool into the tool's group.
+  void save(StateWriter &writer, const OwnedNodes &nodes) const;
+  void load(const StateReader &reader, const OwnedNodes &nodes);
+  void save_tool(std::size_t tool, StateWriter &writer) const;
+  /// `is_exact`: with accelerations, which have to be found anew else.
+  void load_tool(std::size_t tool, const StateReader &reader, bool is_exact);
+  /// In place of load(), at time t of another method's state: with its velocities, if it has some, else the
+  /// initial ones.
+  void begin(const StateReader &reader, const OwnedNodes &nodes, double t);
 
 private:
   /// Of a tool with a mass: offset, rate and forces at the start of the step.

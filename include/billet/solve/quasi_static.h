@@ -7,6 +7,7 @@
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
+#include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/tangent_solver.h"
 
@@ -54,6 +55,14 @@ public:
   const BodyContact &body_contact(const std::size_t pair) const { return *body_contacts_[pair]; }
   const Supports &supports() const { return supports_; }
 
+  /// The state at the end of the last accepted step.
+  void save(StateWriter &writer) const;
+  /// Goes on from such a state, in place of the start at time 0, or from that of another method: its
+  /// displacements and stresses, and, in dynamic scenes, its velocities. Where a static scene has other tools
+  /// or pairs, or the state comes from elsewhere, what is out of balance fades over `release_time`, or, if
+  /// that is 0, until the end time. In dynamic ones it accelerates the bodies.
+  RestartReport load(StateReader &reader, double release_time);
+
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
   bool compute_tangent(const Epetra_Vector &x) override;
   bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
@@ -63,7 +72,8 @@ public:
   }
 
 private:
-  void build_matrix();
+  /// For the contacts as they are, or, after a restart, as they were when it was built last.
+  void build_matrix(bool couplings_are_known = false);
   /// Matrix and solver anew, if contact couples what it did not before.
   void follow_couplings();
   // First guesses of a step, into trial_. The last state, where nothing drives the bodies on; false where
@@ -125,6 +135,16 @@ private:
   std::string describe_freedom(std::size_t body, const std::set<std::string> &removed) const;
   /// Bodies that others may hold have to be held, or to touch them, at the start.
   void check_freedom() const;
+  // Of load(), in solve/quasi_static_state.cc:
+  void load_tools(StateReader &reader);
+  void load_contacts(StateReader &reader);
+  /// What touches what now, and a matrix for it.
+  void update_contacts(StateReader &reader, bool is_exact);
+  /// All forces at the state as it is: those of supports and tools, and what is out of balance.
+  void balance(RestartReport &report);
+  void load_motion(StateReader &reader, RestartReport &report);
+  /// Part of the imbalance that is left at t.
+  double imbalance_left(double t) const;
   /// Folds forces on constrained dofs into those that they depend on, and empties them.
   void condense(Vector &forces) const;
 
@@ -160,6 +180,8 @@ private:
   std::vector<Vector> tool_columns_, tool_rows_;       ///< B, condensed; C
   dealii::FullMatrix<double> tool_block_;              ///< D
   std::vector<std::unique_ptr<Vector>> fading_forces_; ///< residual of a removed tool's forces, as they were
+  std::unique_ptr<Vector> imbalance_; ///< residual at a restart, on dofs that are free; or none
+  double imbalance_begin_ = 0., imbalance_end_ = 0.; ///< when it begins to fade, and has gone
   SolutionState state_;
 };
 

@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_STEP_CONTROL_H
 
 #include "billet/parameters/control.h"
+#include "billet/state.h"
 
 #include <vector>
 
@@ -35,9 +36,18 @@ public:
   unsigned int n_steps() const { return n_steps_; }
   unsigned int n_cuts() const { return n_cuts_; }
 
+  void save(StateWriter &writer) const;
+  /// Goes on as if nothing had happened, or, where the scene now wants other steps, from that time with its
+  /// initial step.
+  void load(const StateReader &reader);
+  /// Begins after so many steps at a time that another method has reached.
+  void begin(double time, unsigned int n_steps);
+
 private:
   double target() const;
   double end_on_grid() const;
+  /// What the lengths of steps depend on.
+  std::vector<double> rules() const;
 
   parameters::TimeStepping parameters_;
   double interval_;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_NODE_KEYS_H
+#define BILLET_DISCRETIZATION_NODE_KEYS_H
+
+#include "billet/discretization/discretization.h"
+
+#include <cstdint>
+#include <unordered_map>
+
+namespace billet {
+
+/// A number of the element that no other has, the same on any number of ranks: its place in the whole mesh.
+inline std::uint64_t element_key(const CellIterator &cell) { return cell->id().get_coarse_cell_id(); }
+
+/// Numbers of nodes that are the same on any number of ranks: 8 times that of the first element of the whole
+/// mesh that has the node, plus the node's place in it. They ascend as dofs do on one rank.
+class NodeKeys {
+public:
+  explicit NodeKeys(const Discretization &discretization);
+
+  /// Of a node at an element that this rank owns, by its first dof.
+  std::uint64_t operator()(const DofIndex first_dof) const { return keys_.at(first_dof); }
+
+private:
+  std::unordered_map<DofIndex, std::uint64_t> keys_;
+};
+
+} // namespace billet
+
+#endif

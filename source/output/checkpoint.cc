@@ -1,0 +1,584 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/checkpoint.h"
+
+#include "billet/errors.h"
+#include "billet/version.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/crc.hpp>
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+constexpr std::size_t header_size = 512; // what HDF5 calls a user block
+constexpr std::size_t n_at_once = std::size_t{1} << 20U;
+const std::string magic = "billet checkpoint";
+
+// HDF5's identifiers are 64 bits wide, as a long is here.
+static_assert(sizeof(hid_t) <= sizeof(long), "identifiers are kept as long");
+
+/// Closes what HDF5 has opened.
+class Handle {
+public:
+  using Close = herr_t (*)(hid_t);
+  Handle(const hid_t id, const Close close) : id_(id), close_(close) {}
+  ~Handle() {
+    if (id_ >= 0)
+      close_(id_);
+  }
+  Handle(const Handle &) = delete;
+  Handle &operator=(const Handle &) = delete;
+
+  bool is_open() const { return id_ >= 0; }
+  hid_t id() const { return id_; }
+
+private:
+  hid_t id_;
+  Close close_;
+};
+
+/// No messages of HDF5's own: ours say what is wrong.
+void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+/// Of all bytes behind the header.
+std::string checksum(std::ifstream &in) {
+  boost::crc_32_type crc;
+  std::vector<char> buffer(n_at_once);
+  in.clear();
+  in.seekg(header_size);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
+    crc.process_bytes(buffer.data(), static_cast<std::size_t>(in.gcount()));
+  std::ostringstream text;
+  text << std::hex << std::setfill('0') << std::setw(8) << crc.checksum();
+  return text.str();
+}
+
+std::uintmax_t size_of(const std::string &file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  return error ? 0 : size;
+}
+
+std::string last_error() { return std::strerror(errno); }
+
+/// Waits until a file, or a folder's list of files, is on disk.
+bool synchronise(const std::string &name, const int flags) {
+  const int descriptor = open(name.c_str(), flags);
+  if (descriptor < 0)
+    return false;
+  const bool success = fsync(descriptor) == 0;
+  return close(descriptor) == 0 && success;
+}
+
+std::string folder_of(const std::string &file) {
+  const auto folder = std::filesystem::path(file).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+} // namespace
+
+// --- writing -----------------------------------------------------------------------------------------------
+
+namespace {
+
+// What HDF5 may need beside the data, at any time until the file is closed.
+constexpr std::size_t reserve_of_hdf5 = std::size_t{1} << 18U;
+
+} // namespace
+
+CheckpointWriter::CheckpointWriter(MPI_Comm communicator, std::string file_name)
+    : communicator_(communicator), is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
+      name_(std::move(file_name)) {
+  if (is_first_) {
+    silence_hdf5();
+    std::ofstream((name_ + ".tmp"), std::ios::trunc);
+    if (reserve(0)) {
+      const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+      H5Pset_userblock(creation.id(), header_size);
+      file_ = H5Fcreate((name_ + ".tmp").c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT);
+      if (check(file_ >= 0, "cannot be made"))
+        reserve(0); // again: it was emptied
+    }
+  }
+  write("ranks", {static_cast<double>(dealii::Utilities::MPI::n_mpi_processes(communicator))});
+}
+
+CheckpointWriter::~CheckpointWriter() {
+  if (!is_first_)
+    return;
+  close();
+  std::error_code ignored;
+  std::filesystem::remove(name_ + ".tmp", ignored);
+}
+
+void CheckpointWriter::close() {
+  if (file_ >= 0)
+    check(H5Fclose(file_) >= 0, "cannot be closed");
+  file_ = -1;
+}
+
+bool CheckpointWriter::reserve(const std::size_t n_bytes) {
+  // HDF5 cannot get out of a write that fails: at the program's end, if not before, it crashes.
+  hsize_t size = 0;
+  if (file_ >= 0)
+    H5Fget_filesize(file_, &size);
+  const int descriptor = open((name_ + ".tmp").c_str(), O_RDWR);
+  if (!check(descriptor >= 0, "cannot be made"))
+    return false;
+  const int error = posix_fallocate(descriptor, 0, static_cast<off_t>(size + n_bytes + reserve_of_hdf5));
+  ::close(descriptor);
+  return check(error == 0, "cannot be made as long as it has to be");
+}
+
+bool CheckpointWriter::check(const bool success, const std::string &what) {
+  if (!success && failure_.empty())
+    failure_ = name_ + ".tmp " + what + ": is the disk full?";
+  return failure_.empty();
+}
+
+void CheckpointWriter::enter(const std::string &name) {
+  group_ += name + "/";
+  if (is_first_ && failure_.empty()) {
+    const Handle made(H5Gcreate2(file_, group_.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    check(made.is_open(), "cannot be written");
+  }
+}
+
+void CheckpointWriter::leave() {
+  group_.pop_back();
+  group_.resize(group_.rfind('/') == std::string::npos ? 0 : group_.rfind('/') + 1);
+}
+
+void CheckpointWriter::write_array(const std::string &name, const long type, const std::size_t n_rows,
+                                   const std::size_t width, const void *values) {
+  if (!reserve(n_rows * width * H5Tget_size(type)))
+    return;
+  const std::array<hsize_t, 2> size{n_rows, width};
+  const Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
+  const Handle set(
+      H5Dcreate2(file_, (group_ + name).c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose);
+  if (check(set.is_open(), "cannot be written") && values != nullptr && n_rows * width > 0)
+    check(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, "cannot be written");
+}
+
+void CheckpointWriter::write(const std::string &name, const std::vector<double> &values) {
+  if (is_first_ && failure_.empty())
+    write_array(name, H5T_NATIVE_DOUBLE, 1, values.size(), values.data());
+}
+
+void CheckpointWriter::write_text(const std::string &name, const std::string &text) {
+  if (is_first_ && failure_.empty())
+    write_array(name, H5T_NATIVE_CHAR, 1, text.size(), text.data());
+}
+
+void CheckpointWriter::write_rows(const std::string &name, const std::size_t width,
+                                  const std::vector<std::uint64_t> &keys, const std::vector<double> &values) {
+  const std::uint64_t n_own = keys.size();
+  const auto counts = dealii::Utilities::MPI::all_gather(communicator_, n_own);
+  std::uint64_t n_rows = 0;
+  for (const auto count : counts)
+    n_rows += count;
+  enter(name);
+  if (is_first_ && failure_.empty()) {
+    write_array("keys", H5T_NATIVE_UINT64, n_rows, 1, nullptr);
+    write_array("rows", H5T_NATIVE_DOUBLE, n_rows, width, nullptr);
+  }
+  // The first rank takes the rows of all, a part at a time, in the order of the ranks.
+  const std::size_t n_part = std::max<std::size_t>(1, n_at_once / width);
+  const auto put = [&](const std::string &what, const long type, const std::uint64_t begin,
+                       const std::size_t n, const std::size_t columns, const void *data) {
+    if (!failure_.empty())
+      return;
+    const Handle set(H5Dopen2(file_, (group_ + what).c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle space(H5Dget_space(set.id()), H5Sclose);
+    const std::array<hsize_t, 2> start{begin, 0}, count{n, columns};
+    const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+    check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >=
+                  0 &&
+              H5Dwrite(set.id(), type, memory.id(), space.id(), H5P_DEFAULT, data) >= 0,
+          "cannot be written");
+  };
+  constexpr int tag = 73;
+  std::uint64_t begin = 0;
+  std::vector<std::uint64_t> other_keys;
+  std::vector<double> other_values;
+  for (unsigned int rank = 0; rank < counts.size(); ++rank)
+    for (std::uint64_t done = 0; done < counts[rank]; done += n_part) {
+      const std::size_t n = std::min<std::uint64_t>(n_part, counts[rank] - done);
+      const auto n_keys = static_cast<int>(n), n_values = static_cast<int>(n * width);
+      if (is_first_) {
+        const std::uint64_t *these_keys = keys.data() + done;
+        const double *these_values = values.data() + done * width;
+        if (rank > 0) {
+          other_keys.resize(n);
+          other_values.resize(n * width);
+          MPI_Recv(other_keys.data(), n_keys, MPI_UINT64_T, static_cast<int>(rank), tag, communicator_,
+                   MPI_STATUS_IGNORE);
+          MPI_Recv(other_values.data(), n_values, MPI_DOUBLE, static_cast<int>(rank), tag, communicator_,
+                   MPI_STATUS_IGNORE);
+          these_keys = other_keys.data();
+          these_values = other_values.data();
+        }
+        put("keys", H5T_NATIVE_UINT64, begin, n, 1, these_keys);
+        put("rows", H5T_NATIVE_DOUBLE, begin, n, width, these_values);
+        begin += n;
+      } else if (rank == dealii::Utilities::MPI::this_mpi_process(communicator_)) {
+        MPI_Send(keys.data() + done, n_keys, MPI_UINT64_T, 0, tag, communicator_);
+        MPI_Send(values.data() + done * width, n_values, MPI_DOUBLE, 0, tag, communicator_);
+      }
+    }
+  leave();
+}
+
+std::string CheckpointWriter::seal() const {
+  const std::string draft = name_ + ".tmp";
+  std::ifstream in(draft, std::ios::binary);
+  std::ostringstream header;
+  header << magic << "\nformat " << checkpoint_format << "\nprogram " << version << "\nbytes "
+         << size_of(draft) << "\nchecksum " << checksum(in) << "\n";
+  in.close();
+  std::fstream out(draft, std::ios::in | std::ios::out | std::ios::binary);
+  out << header.str();
+  out.close();
+  if (!out || !synchronise(draft, O_RDWR))
+    return draft + " cannot be written: " + last_error();
+  if (std::rename(draft.c_str(), name_.c_str()) != 0)
+    return draft + " cannot be renamed: " + last_error();
+  synchronise(folder_of(name_), O_RDONLY);
+  return "";
+}
+
+std::string CheckpointWriter::finish() {
+  if (is_first_) {
+    close();
+    if (failure_.empty())
+      failure_ = seal();
+  }
+  return dealii::Utilities::MPI::broadcast(communicator_, failure_, 0);
+}
+
+// --- reading -----------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Why the file cannot be gone on with; empty if it can.
+std::string find_fault(const std::string &name) {
+  std::error_code error;
+  if (std::filesystem::is_directory(name, error))
+    return "is a folder";
+  std::ifstream in(name, std::ios::binary);
+  if (!in)
+    return "cannot be read";
+  std::string text(header_size, '\0');
+  in.read(text.data(), header_size);
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.compare(0, magic.size() + 1, magic + "\n") != 0)
+    return "is no checkpoint of billet";
+  std::istringstream header(text.substr(magic.size() + 1));
+  std::string word, program, sum;
+  unsigned int format = 0;
+  std::uintmax_t n_bytes = 0;
+  header >> word >> format >> word >> program >> word >> n_bytes >> word >> sum;
+  if (format != checkpoint_format)
+    return "has format " + std::to_string(format) + ", this program reads format " +
+           std::to_string(checkpoint_format);
+  if (program != version)
+    return "was written by billet " + program + ", this is billet " + version;
+  const std::uintmax_t size = size_of(name);
+  if (size != n_bytes)
+    return "is cut short: " + std::to_string(size) + " of " + std::to_string(n_bytes) + " bytes are there";
+  if (checksum(in) != sum)
+    return "is damaged: its checksum does not fit";
+  return "";
+}
+
+} // namespace
+
+CheckpointReader::CheckpointReader(MPI_Comm communicator, const std::string &file_name,
+                                   const std::string &origin)
+    : communicator_(communicator), file_name_(file_name), origin_(origin) {
+  silence_hdf5();
+  fail_together(communicator, [&] {
+    std::string fault;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      fault = find_fault(file_name);
+    if (!fault.empty())
+      throw InputError(origin + ": '" + file_name + "' " + fault + "; allowed is a checkpoint that is whole");
+  });
+  fail_together(communicator, [&] {
+    file_ = H5Fopen(file_name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file_ < 0)
+      throw InputError(origin + ": '" + file_name +
+                       "' cannot be opened on every rank; allowed is a file that all of them see");
+  });
+  n_ranks_ = static_cast<unsigned int>(number("ranks"));
+}
+
+CheckpointReader::~CheckpointReader() {
+  if (file_ >= 0)
+    H5Fclose(file_);
+}
+
+void CheckpointReader::load(const std::string &group, const std::function<void()> &load) {
+  const std::string outside = group_;
+  try {
+    in(group, load);
+  } catch (const InputError &error) {
+    group_ = outside;
+    throw InputError(origin_ + ": '" + file_name_ + "' does not fit this scene: " + error.what());
+  }
+}
+
+void CheckpointReader::enter(const std::string &name) { group_ += name + "/"; }
+
+void CheckpointReader::leave() {
+  group_.pop_back();
+  group_.resize(group_.rfind('/') == std::string::npos ? 0 : group_.rfind('/') + 1);
+}
+
+bool CheckpointReader::has(const std::string &name) const {
+  return H5Lexists(file_, (group_ + name).c_str(), H5P_DEFAULT) > 0;
+}
+
+namespace {
+
+/// All of an array.
+template <class T>
+std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t type,
+                        std::array<hsize_t, 2> &size) {
+  const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.is_open())
+    throw InputError("it has no '" + name + "'");
+  const Handle space(H5Dget_space(set.id()), H5Sclose);
+  H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
+  std::vector<T> values(size[0] * size[1]);
+  if (!values.empty() && H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    throw InputError("its '" + name + "' cannot be read");
+  return values;
+}
+
+} // namespace
+
+std::vector<double> CheckpointReader::read(const std::string &name) const {
+  std::array<hsize_t, 2> size{};
+  return read_all<double>(file_, group_ + name, H5T_NATIVE_DOUBLE, size);
+}
+
+std::string CheckpointReader::read_text(const std::string &name) const {
+  std::array<hsize_t, 2> size{};
+  const auto letters = read_all<char>(file_, group_ + name, H5T_NATIVE_CHAR, size);
+  return {letters.begin(), letters.end()};
+}
+
+std::vector<double> CheckpointReader::read_rows(const std::string &name, const std::size_t width,
+                                                const std::vector<std::uint64_t> &keys,
+                                                std::vector<bool> *found) const {
+  std::vector<double> result(width * keys.size(), 0.);
+  std::vector<bool> is_there(keys.size(), false);
+  fail_together(communicator_, [&] {
+    const std::string path = group_ + name;
+    std::array<hsize_t, 2> size{};
+    const auto all_keys = read_all<std::uint64_t>(file_, path + "/keys", H5T_NATIVE_UINT64, size);
+    const Handle set(H5Dopen2(file_, (path + "/rows").c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle space(H5Dget_space(set.id()), H5Sclose);
+    H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
+    if (size[1] != width)
+      throw InputError("its '" + path + "' has " + std::to_string(size[1]) +
+                       " numbers in a row, expected are " + std::to_string(width));
+    std::vector<std::pair<std::uint64_t, std::size_t>> wanted; // with their places
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      wanted.emplace_back(keys[i], i);
+    std::sort(wanted.begin(), wanted.end());
+    // A part of the file at a time, if anything in it is wanted.
+    const std::size_t n_part = std::max<std::size_t>(1, n_at_once / std::max<std::size_t>(1, width) / 4);
+    std::vector<std::pair<std::size_t, std::size_t>> matches; // row, place
+    std::vector<double> part;
+    for (std::size_t begin = 0; begin < all_keys.size(); begin += n_part) {
+      const std::size_t n = std::min(n_part, all_keys.size() - begin);
+      matches.clear();
+      for (std::size_t row = begin; row < begin + n; ++row)
+        for (auto match = std::lower_bound(wanted.begin(), wanted.end(),
+                                           std::make_pair(all_keys[row], std::size_t{0}));
+             match != wanted.end() && match->first == all_keys[row]; ++match)
+          matches.emplace_back(row - begin, match->second);
+      if (matches.empty())
+        continue;
+      part.resize(n * width);
+      const std::array<hsize_t, 2> start{begin, 0}, count{n, width};
+      const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+      if (H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
+          H5Dread(set.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, part.data()) < 0)
+        throw InputError("its '" + path + "' cannot be read");
+      for (const auto &[row, place] : matches) {
+        std::copy_n(&part[row * width], width, &result[place * width]);
+        is_there[place] = true;
+      }
+    }
+    if (found == nullptr && std::count(is_there.begin(), is_there.end(), false) > 0)
+      throw InputError("its '" + path + "' lacks " +
+                       std::to_string(std::count(is_there.begin(), is_there.end(), false)) + " of " +
+                       std::to_string(keys.size()) +
+                       " nodes or elements: the boundaries of a contact pair may have changed");
+  });
+  if (found != nullptr)
+    *found = is_there;
+  return result;
+}
+
+// --- when --------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Of the interval, by which round-off may misplace its end.
+constexpr double slack = 1e-9;
+
+} // namespace
+
+Checkpoints::Checkpoints(const parameters::Output &parameters, MPI_Comm communicator)
+    : parameters_(parameters), communicator_(communicator) {}
+
+bool Checkpoints::is_due(const unsigned int step, const double time) const {
+  const auto &[every_steps, interval, keep] = parameters_.checkpoint;
+  return (every_steps > 0 && step % every_steps == 0) ||
+         (interval > 0. && time >= (n_intervals_ + 1) * interval * (1. - slack));
+}
+
+std::string Checkpoints::write(const double time, const std::function<void(StateWriter &)> &save) {
+  const Checkpoints before(*this);
+  std::ostringstream name;
+  name << parameters_.folder.value << "/checkpoint_" << std::setw(5) << std::setfill('0') << n_written_
+       << ".h5";
+  // What the file says of itself is how it will be once it is there.
+  ++n_written_;
+  if (parameters_.checkpoint.interval > 0.)
+    n_intervals_ = static_cast<unsigned int>(std::floor(time / parameters_.checkpoint.interval + slack));
+  files_.push_back(name.str());
+  std::vector<std::string> too_many;
+  while (files_.size() > parameters_.checkpoint.keep) {
+    too_many.push_back(files_.front());
+    files_.erase(files_.begin());
+  }
+  CheckpointWriter writer(communicator_, name.str());
+  save(writer);
+  std::string failure = writer.finish();
+  if (!failure.empty()) {
+    n_written_ = before.n_written_; // n_intervals_ stays: the next try is at the next interval
+    files_ = before.files_;
+  } else if (dealii::Utilities::MPI::this_mpi_process(communicator_) == 0) {
+    std::error_code ignored;
+    for (const auto &file : too_many)
+      std::filesystem::remove(file, ignored);
+  }
+  return failure;
+}
+
+void Checkpoints::save(StateWriter &writer) const {
+  std::string names;
+  for (const auto &file : files_)
+    names += std::filesystem::path(file).filename().string() + "\n";
+  writer.write_text("checkpoints", names);
+  writer.write("checkpoints written", {static_cast<double>(n_written_)});
+}
+
+void Checkpoints::load(const StateReader &reader, const double time, const bool is_same_folder) {
+  if (parameters_.checkpoint.interval > 0.)
+    n_intervals_ = static_cast<unsigned int>(std::floor(time / parameters_.checkpoint.interval + slack));
+  if (!is_same_folder)
+    return;
+  n_written_ = static_cast<unsigned int>(reader.number("checkpoints written"));
+  std::istringstream names(reader.read_text("checkpoints"));
+  for (std::string name; std::getline(names, name);)
+    files_.push_back(parameters_.folder.value + "/" + name);
+}
+
+// --- signals -----------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::array<int, 4> heeded{SIGTERM, SIGINT, SIGUSR1, SIGUSR2};
+// Written by the handler.
+volatile std::sig_atomic_t end_signal = 0, checkpoint_signal = 0;
+
+extern "C" void note_signal(const int signal) {
+  if (signal == SIGUSR2)
+    checkpoint_signal = 1;
+  else
+    end_signal = signal;
+}
+
+std::string name_of(const int signal) {
+  switch (signal) {
+  case SIGTERM:
+    return "SIGTERM";
+  case SIGINT:
+    return "SIGINT";
+  default:
+    return "SIGUSR1";
+  }
+}
+
+} // namespace
+
+Signals::Signals(MPI_Comm communicator)
+    : communicator_(communicator), last_look_(std::chrono::steady_clock::now()) {
+  end_signal = checkpoint_signal = 0;
+  for (const int signal : heeded) {
+    struct sigaction action {};
+    action.sa_handler = note_signal;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    if (signal == SIGTERM || signal == SIGINT)
+      action.sa_flags |= static_cast<int>(SA_RESETHAND);
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+Signals::~Signals() {
+  for (const int signal : heeded)
+    std::signal(signal, SIG_DFL);
+}
+
+Signals::Wish Signals::look() {
+  std::array<int, 2> wishes{end_signal, checkpoint_signal};
+  checkpoint_signal = 0;
+  MPI_Allreduce(MPI_IN_PLACE, wishes.data(), 2, MPI_INT, MPI_MAX, communicator_);
+  if (wishes[0] == 0)
+    return wishes[1] == 0 ? Wish::none : Wish::checkpoint;
+  name_ = name_of(wishes[0]);
+  return Wish::end;
+}
+
+Signals::Wish Signals::look_now_and_then() {
+  if (++n_calls_ < next_look_)
+    return Wish::none;
+  constexpr double between_looks = 0.1; // seconds
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_look_).count();
+  last_look_ = now;
+  const double wanted = n_calls_ * between_looks / std::max(seconds, 1e-9);
+  next_look_ = static_cast<unsigned int>(std::clamp(wanted, 1., std::min(1e6, 10. * n_calls_)));
+  next_look_ = dealii::Utilities::MPI::broadcast(communicator_, next_look_, 0);
+  n_calls_ = 0;
+  return look();
+}
+
+} // namespace billet

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/restart.h"
+
+#include "billet/discretization/local_nodes.h"
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+const char *const implicit_formulation = "implicit, mean dilatation, Hencky";
+
+namespace {
+
+std::string describe(const MaterialLaw &material) {
+  static const std::array<const char *, 5> names = {
+      {"elastic", "elastoplastic with linear hardening", "elastoplastic with Voce's hardening",
+       "elastoplastic with power-law hardening", "elastoplastic with tabulated hardening"}};
+  return names.at(material.hardening.index());
+}
+
+/// Number of elements, volume, and Σ w centre with a weight in [0, 1) that belongs to the element's key, so
+/// that another numbering shows.
+std::vector<double> measure(const Discretization &discretization, const std::size_t body) {
+  std::array<double, 5> own{};
+  for (const auto &element : discretization.elements(body)) {
+    std::uint64_t mixed = (element_key(element.cell) + 1) * 0x9e3779b97f4a7c15U;
+    mixed ^= mixed >> 31U;
+    const double weight = static_cast<double>(mixed % 1000003U) / 1000003.;
+    own[0] += 1.;
+    own[1] += element.cell->measure();
+    for (unsigned int i = 0; i < 3; ++i)
+      own[2 + i] += weight * element.cell->center()[i];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, own.data(), 5, MPI_DOUBLE, MPI_SUM, discretization.communicator());
+  return {own.begin(), own.end()};
+}
+
+std::optional<ExplicitFormulation> find_formulation(const std::string &words) {
+  using Element = ExplicitFormulation::Element;
+  using Kinematics = ExplicitFormulation::Kinematics;
+  ExplicitFormulation formulation;
+  formulation.instructions = InstructionSet::scalar;
+  for (const auto element : {Element::mean_dilatation, Element::one_point})
+    for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic}) {
+      formulation.element = element;
+      formulation.kinematics = kinematics;
+      if (describe(formulation) == words)
+        return formulation;
+    }
+  return {};
+}
+
+constexpr std::uint64_t most_ranks = 1U << 20U;
+
+} // namespace
+
+void save_scene(StateWriter &writer, const Scene &scene, const Discretization &discretization) {
+  writer.write("bodies", {static_cast<double>(scene.bodies().size())});
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b)
+    writer.in(group("body", b), [&] {
+      writer.write_text("name", scene.bodies()[b].name);
+      writer.write_text("material", describe(scene.bodies()[b].material));
+      writer.write("mesh", measure(discretization, b));
+    });
+}
+
+void check_scene(StateReader &reader, const Scene &scene, const Discretization &discretization) {
+  const double n_bodies = reader.number("bodies");
+  if (n_bodies != static_cast<double>(scene.bodies().size()))
+    throw InputError("it has " + std::to_string(std::lround(n_bodies)) + " bodies, this scene has " +
+                     std::to_string(scene.bodies().size()));
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b)
+    reader.in(group("body", b), [&] {
+      const Body &body = scene.bodies()[b];
+      const std::string name = reader.read_text("name"), material = reader.read_text("material");
+      if (name != body.name)
+        throw InputError("its body " + std::to_string(b + 1) + " is '" + name + "', here it is '" +
+                         body.name + "'");
+      if (material != describe(body.material))
+        throw InputError("its body '" + name + "' is " + material + ", here it is " +
+                         describe(body.material));
+      const std::vector<double> then = reader.read("mesh"), now = measure(discretization, b);
+      if (then.at(0) != now[0])
+        throw InputError("its body '" + name + "' has " + std::to_string(std::lround(then[0])) +
+                         " elements, here it has " + std::to_string(std::lround(now[0])));
+      // Round-off of another machine may be in them.
+      constexpr double tolerance = 1e-9;
+      const double radius = discretization.radius() + discretization.centre().norm();
+      bool is_same = std::abs(then.at(1) - now[1]) <= tolerance * now[1];
+      for (unsigned int i = 2; i < 5; ++i)
+        is_same = is_same && std::abs(then.at(i) - now[i]) <= tolerance * radius * now[0];
+      if (!is_same)
+        throw InputError("its body '" + name + "' has another mesh: the elements stand elsewhere, or are " +
+                         "numbered in another order");
+    });
+}
+
+OwnedNodes::OwnedNodes(const Discretization &discretization, const NodeKeys &node_keys) {
+  for (std::size_t body = 0; body < discretization.n_bodies(); ++body)
+    for (const auto &element : discretization.elements(body))
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        if (discretization.owned_dofs().is_element(element.dofs[std::size_t{3} * a]))
+          first_dofs.push_back(element.dofs[std::size_t{3} * a]);
+  std::sort(first_dofs.begin(), first_dofs.end());
+  first_dofs.erase(std::unique(first_dofs.begin(), first_dofs.end()), first_dofs.end());
+  for (const DofIndex dof : first_dofs)
+    keys.push_back(node_keys(dof));
+}
+
+void save_nodal(StateWriter &writer, const std::string &name, const OwnedNodes &nodes, const Vector &values) {
+  std::vector<double> rows;
+  for (const DofIndex dof : nodes.first_dofs)
+    for (unsigned int i = 0; i < 3; ++i)
+      rows.push_back(values(dof + i));
+  writer.write_rows(name, 3, nodes.keys, rows);
+}
+
+void load_nodal(const StateReader &reader, const std::string &name, const OwnedNodes &nodes, Vector &values) {
+  const std::vector<double> rows = reader.read_rows(name, 3, nodes.keys);
+  for (std::size_t n = 0; n < nodes.keys.size(); ++n)
+    for (unsigned int i = 0; i < 3; ++i)
+      values(nodes.first_dofs[n] + i) = rows[3 * n + i];
+  values.compress(dealii::VectorOperation::insert);
+}
+
+std::vector<std::uint64_t> element_keys(const Discretization &discretization, const std::size_t body) {
+  std::vector<std::uint64_t> keys;
+  for (const auto &element : discretization.elements(body))
+    keys.push_back(element_key(element.cell));
+  return keys;
+}
+
+std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, const std::size_t body,
+                                       const Discretization &discretization, const Vector &displacements) {
+  const std::string words = reader.read_text("formulation");
+  const auto keys = element_keys(discretization, body);
+  const MaterialLaw &material = scene.bodies()[body].material;
+  const auto &elements = discretization.elements(body);
+  std::vector<ElementStress> stresses;
+  std::size_t ignored = 0;
+  if (words == implicit_formulation) {
+    const auto block = make_element_block(material);
+    std::vector<ElementVectors> positions;
+    for (const auto &element : elements)
+      positions.push_back(nodal_positions(element.cell));
+    block->initialize(positions, ignored);
+    const std::size_t width = block->state_size();
+    std::vector<double> rows;
+    if (width > 0)
+      rows = reader.read_rows("history", width, keys);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      if (width > 0)
+        block->set_state(e, &rows[width * e]);
+      stresses.push_back(block->compute_stress(e, gather(displacements, elements[e].dofs)));
+    }
+    return stresses;
+  }
+  const auto formulation = find_formulation(words);
+  if (!formulation)
+    throw InputError("the history of its body '" + scene.bodies()[body].name + "' is of unknown kind: '" +
+                     words + "'");
+  const LocalNodes nodes(discretization);
+  NodalVectors u = nodes.make_vectors();
+  for (unsigned int node = 0; node < nodes.size(); ++node)
+    for (unsigned int i = 0; i < 3; ++i)
+      u[std::size_t{nodal_stride} * node + i] = displacements(nodes.dofs(node)[i]);
+  const auto block = make_explicit_block(material, 1., *formulation);
+  block->initialize(nodes.elements(body), nodes.positions().data(), ignored);
+  const std::size_t width = block->history_size();
+  const std::vector<double> rows = reader.read_rows("history", width, keys);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    block->set_state(e, &rows[width * e]);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    stresses.push_back(block->compute_stress(e, u.data()));
+  return stresses;
+}
+
+std::vector<std::string> group_names(StateReader &reader, const std::string &kind) {
+  std::vector<std::string> names;
+  while (reader.has(group(kind, names.size())))
+    reader.in(group(kind, names.size()), [&] { names.push_back(reader.read_text("name")); });
+  return names;
+}
+
+std::optional<std::size_t> find_group(StateReader &reader, const std::string &kind, const std::string &name) {
+  const auto names = group_names(reader, kind);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    return {};
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+void compare_parts(StateReader &reader, const Scene &scene, RestartReport &report) {
+  const auto compare = [&](const std::string &kind, const std::string &word, std::vector<std::string> now) {
+    for (const auto &name : group_names(reader, kind)) {
+      const auto found = std::find(now.begin(), now.end(), name);
+      if (found == now.end())
+        report.gone.push_back(word + " '" + name + "'");
+      else
+        now.erase(found);
+    }
+    report.is_exact = report.is_exact && now.empty();
+  };
+  std::vector<std::string> tools, pairs, body_pairs;
+  for (const auto &tool : scene.tools())
+    tools.push_back(tool.name());
+  for (const auto &pair : scene.pairs())
+    pairs.push_back(pair.name);
+  for (const auto &pair : scene.body_pairs())
+    body_pairs.push_back(pair.name);
+  compare("tool", "tool", tools);
+  compare("pair", "contact pair", pairs);
+  compare("body pair", "contact pair", body_pairs);
+  report.is_exact = report.is_exact && report.gone.empty();
+}
+
+std::string partners(const Scene &scene, const ContactPair &pair) {
+  return "body '" + scene.bodies()[pair.body].name + "' and tool '" + scene.tools()[pair.tool].name() + "'";
+}
+
+std::string partners(const Scene &scene, const BodyPair &pair) {
+  return "body '" + scene.bodies()[pair.bodies[0]].name + "' and body '" +
+         scene.bodies()[pair.bodies[1]].name + "'";
+}
+
+void check_partners(const StateReader &reader, const std::string &pair, const std::string &partners) {
+  const std::string then = reader.read_text("partners");
+  if (then != partners)
+    throw InputError("its contact pair '" + pair + "' joins " + then + ", here it joins " + partners +
+                     "; give a new pair a new name");
+}
+
+std::vector<double> to_numbers(const Placement &placement) {
+  std::vector<double> numbers;
+  RowWriter row(numbers);
+  for (unsigned int i = 0; i < 3; ++i)
+    row.vector(placement.rotation[i]);
+  row.vector(placement.translation).vector(placement.centre).number(placement.rotation_angle);
+  return numbers;
+}
+
+Placement to_placement(const std::vector<double> &numbers) {
+  Placement placement;
+  RowReader row(numbers.data());
+  for (unsigned int i = 0; i < 3; ++i) {
+    dealii::Tensor<1, 3> line;
+    row.vector(line);
+    placement.rotation[i] = line;
+  }
+  row.vector(placement.translation);
+  row.vector(placement.centre);
+  placement.rotation_angle = row.number();
+  return placement;
+}
+
+std::vector<double> to_numbers(const ContactLoad &load) {
+  std::vector<double> numbers;
+  RowWriter(numbers)
+      .vector(load.force)
+      .vector(load.moment)
+      .number(load.area)
+      .number(load.stored_energy)
+      .number(load.dissipation)
+      .number(load.deepest);
+  return numbers;
+}
+
+ContactLoad to_contact_load(const std::vector<double> &numbers) {
+  ContactLoad load;
+  RowReader row(numbers.data());
+  row.vector(load.force);
+  row.vector(load.moment);
+  load.area = row.number();
+  load.stored_energy = row.number();
+  load.dissipation = row.number();
+  load.deepest = row.number();
+  return load;
+}
+
+std::vector<double> to_numbers(const EnergyLedger &energies) {
+  return {energies.initial,  energies.kinetic, energies.elastic,   energies.plastic,   energies.contact,
+          energies.friction, energies.viscous, energies.hourglass, energies.numerical, energies.external};
+}
+
+EnergyLedger to_energies(const std::vector<double> &numbers) {
+  EnergyLedger energies;
+  RowReader row(numbers.data());
+  for (double *energy :
+       {&energies.initial, &energies.kinetic, &energies.elastic, &energies.plastic, &energies.contact,
+        &energies.friction, &energies.viscous, &energies.hourglass, &energies.numerical, &energies.external})
+    *energy = row.number();
+  return energies;
+}
+
+void save_parts(StateWriter &writer, const std::string &name, const unsigned int rank,
+                const std::vector<std::uint64_t> &keys, const std::vector<double> &values) {
+  std::vector<std::uint64_t> own = keys;
+  for (auto &key : own)
+    key = key * most_ranks + rank;
+  writer.write_rows(name, 3, own, values);
+}
+
+std::vector<double> load_part(const StateReader &reader, const std::string &name, const unsigned int rank,
+                              const std::vector<std::uint64_t> &keys) {
+  std::vector<std::uint64_t> own = keys;
+  for (auto &key : own)
+    key = key * most_ranks + rank;
+  std::vector<bool> found;
+  return reader.read_rows(name, 3, own, &found);
+}
+
+std::vector<double> load_sums(const StateReader &reader, const std::string &name,
+                              const std::vector<std::uint64_t> &keys) {
+  std::vector<double> sums(3 * keys.size(), 0.);
+  for (unsigned int rank = 0; rank < reader.n_ranks(); ++rank) {
+    const std::vector<double> part = load_part(reader, name, rank, keys);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      sums[i] += part[i];
+  }
+  return sums;
+}
+
+} // namespace billet

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Runs that stop and go on, through a file: the rest is that of the run without interruption, bit by bit on
+// as many ranks, to 1e-8 on others. A press with friction, plasticity, a tool with a force, one that stops,
+// one that is taken away; an impact with all that an explicit scene may have; a ring that touches itself.
+#include "restart_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::History;
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  {
+    parameters::Scene scene = testing::read_test_scene("restart_press.prm");
+    // What Newton's method leaves, and how many iterations it takes, depends on round-off, and so on the
+    // ranks.
+    scene.solver.force_tolerance = 1e-11;
+    testing::set_fixed_steps(scene, 25);
+    testing::test_going_on<testing::QuasiStaticRun>(
+        "Press", scene, {0.3, 0.6, 0.9},
+        [](auto &run, const double time, History &history) { run.run(time, history); });
+  }
+  {
+    parameters::Scene scene = testing::read_test_scene("explicit_ranks.prm");
+    scene.time_stepping.end_time = 0.1e-3;
+    scene.tools[0].motion.removal_time.value = 0.06e-3;
+    scene.tools[0].motion.release_time = 0.02e-3;
+    testing::test_going_on<testing::ExplicitStops>(
+        "Impact", scene, {0.04e-3, 0.07e-3},
+        [](auto &run, const double time, History &history) { run.run(time, 1, history); });
+  }
+  {
+    parameters::Scene scene = testing::read_test_scene("restart_ring.prm");
+    double area = 0.;
+    testing::test_going_on<testing::ExplicitStops>(
+        "Ring", scene, {2.5e-6, 4e-6}, [&](auto &run, const double time, History &history) {
+          run.run(time, 1, history);
+          for (const auto &row : history)
+            area = std::max(area, row[7]); // no tools: after time, force and moment
+        });
+    if (testing::is_first_rank())
+      check("Ring touches itself", area > 0.);
+  }
+  return testing::exit_code();
+}

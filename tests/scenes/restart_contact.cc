@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Runs that stop and go on, as in restart.cc: an elastic block is pressed onto another one and dragged over
+// it with friction, node against facet, and facet against facet with an augmented Lagrangian; a block falls
+// onto a floor and is hit by a hammer, by implicit dynamics.
+#include "restart_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::History;
+
+namespace {
+
+const auto until_then = [](auto &run, const double time, History &history) { run.run(time, history); };
+
+/// The blocks slide where they stop.
+void test_blocks(const std::string &name, const parameters::Scene &scene) {
+  testing::on_ranks(1, [&](MPI_Comm some) {
+    testing::QuasiStaticRun run(scene, some);
+    History ignored;
+    run.run(1.4, ignored);
+    double slip = 0.;
+    const auto reports = run.problem.report_contacts();
+    for (const auto &node : reports[0])
+      slip += node.status == ContactStatus::slip ? node.area : 0.;
+    check(name + ": they slide", slip > 1.);
+    run.run(2., ignored);
+    check(name + ": friction", run.problem.state().energies.friction > 0.);
+  });
+  testing::test_going_on<testing::QuasiStaticRun>(name, scene, {1.4}, until_then);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  parameters::Scene blocks = testing::read_test_scene("restart_blocks.prm");
+  blocks.solver.force_tolerance = 1e-11;
+  test_blocks("Blocks", blocks);
+  blocks.pairs[0].facets.value = parameters::ContactPair::Facets::overlap;
+  blocks.pairs[0].penetration_tolerance = 1e-4;
+  test_blocks("Augmented overlaps", blocks);
+
+  parameters::Scene drop = testing::read_test_scene("../cli/drop.prm");
+  drop.solver.force_tolerance = 1e-11;
+  if (testing::n_ranks() == 1) // on others, steps that follow the error differ in their last bits
+    testing::test_going_on<testing::QuasiStaticRun>("Drop", drop, {0.1e-3, 0.3e-3}, until_then);
+  testing::set_fixed_steps(drop, 25);
+  drop.implicit_dynamics.error_tolerance = 0.;
+  testing::test_going_on<testing::QuasiStaticRun>("Drop in fixed steps", drop, {0.11e-3, 0.31e-3},
+                                                  until_then);
+  return testing::exit_code();
+}
