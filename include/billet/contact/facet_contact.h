@@ -302,11 +302,11 @@ private:
   Positions positions_n_, positions_;       ///< with ghosts
   MovedFacets moved_{search_, positions_};
   std::vector<TouchedFacet> touched_n_;
-  std::vector<unsigned int> n_changes_; ///< of slaves, if they are counted
-  std::vector<std::uint64_t> seen_;     ///< the same: facet and status at the last add_forces()
-  bool is_rebuilt_ = false;             ///< lists were made anew for the last add_forces()
-  bool has_started_ = false;            ///< commit() has been called
-  double duration_ = 0.;                ///< of the last add_forces()
+  std::vector<unsigned int> n_changes_;      ///< of slaves, if they are counted
+  std::vector<std::uint64_t> seen_;          ///< the same: facet and status at the last add_forces()
+  bool is_rebuilt_ = false;                  ///< lists were made anew for the last add_forces()
+  bool has_started_ = false;                 ///< commit() has been called
+  double duration_ = 0.;                     ///< of the last add_forces()
   std::vector<std::uint64_t> restored_keys_; ///< of facets touched, after load() and before facets are here
   std::vector<SlaveState> states_;
   std::vector<FacetShare> shares_;                ///< slave by slave

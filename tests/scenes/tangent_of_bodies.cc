@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The assembled tangent of scenes with contact between bodies against central differences of the residual,
+// for each kind of facet, with supports at nodes in contact, and on several ranks.
+#include "tangent_check.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::is_first_rank;
+using billet::testing::SceneRun;
+using billet::testing::tangent_error;
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  using Facets = parameters::ContactPair::Facets;
+  for (const auto &[facets, name] : {std::pair<Facets, std::string>{Facets::planed, "planed"},
+                                     {Facets::bilinear, "bilinear"},
+                                     {Facets::overlap, "overlap"}})
+    for (const double friction : {0., 0.3}) {
+      parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/dragged_blocks.prm");
+      scene.pairs[0].facets.value = facets;
+      scene.pairs[0].friction_coefficient = friction;
+      scene.solver.contact_tangent = parameters::ContactTangent::exact;
+      SceneRun run(scene);
+      const double error = tangent_error(run, 0.75, 2);
+      unsigned int n_touch = 0;
+      const auto reports = run.problem.report_contacts();
+      for (const auto &node : reports[0])
+        n_touch += node.status != ContactStatus::open;
+      n_touch = dealii::Utilities::MPI::sum(n_touch, MPI_COMM_WORLD);
+      if (is_first_rank()) {
+        check(name + (friction > 0. ? ", friction" : ", no friction") + ": exact tangent", error, 1e-6);
+        check(name + (friction > 0. ? ", friction" : ", no friction") + ": nodes touch", n_touch > 5);
+      }
+    }
+  return is_first_rank() ? testing::exit_code() : 0;
+}
