@@ -4,7 +4,8 @@
 The last state of a quarter or an eighth of a body, mirrored to all of it but one quarter, so that its inside is seen:
 equivalent plastic strain, element edges, the tools half transparent, and the body's outline at time 0. It is an eighth
 where scene.prm beside the scene has a symmetry plane z = 0. Scenes without symmetry planes x = 0 and y = 0 are shown as they
-are, without tools, at the times given, side by side.
+are, without tools, at the times given, side by side; scenes that are flat along y are seen along it, one time below the other,
+whole where they have a symmetry plane x = 0. What does not yield shows the von Mises stress.
 """
 
 import sys
@@ -15,7 +16,8 @@ from paraview.simple import (AppendDatasets, CellDatatoPointData, CleantoGrid, C
                              ExtractSurface, FeatureEdges, GetColorTransferFunction, GetScalarBar, Reflect,
                              SaveScreenshot, Show, XMLPartitionedUnstructuredGridReader, XMLPolyDataReader)
 
-FIELD, TITLE = "equivalent_plastic_strain", "Equivalent plastic strain"
+STRAIN = ("equivalent_plastic_strain", "Equivalent plastic strain")
+STRESS = ("von_mises_stress", "Von Mises stress")
 scene_file, picture_file = Path(sys.argv[1]), sys.argv[2]
 planes = "".join(line for line in (scene_file.parent / "scene.prm").read_text().splitlines()
                  if line.strip().startswith("set Symmetry planes"))
@@ -59,6 +61,12 @@ def three_quarters(quarter):
     return merged(AppendDatasets(Input=[quarter, left, image(left, "Y")]))
 
 
+def box(source):
+    source.UpdatePipeline()
+    bounds = source.GetDataInformation().GetBounds()
+    return [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)], [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
+
+
 def body_at(file):
     body = XMLPartitionedUnstructuredGridReader(FileName=[file])
     return three_quarters(mirrored(body, "Z") if is_eighth else body)
@@ -91,44 +99,56 @@ def make_view(width):
     return view
 
 
-def show_strain(body, view, largest=None, with_bar=True):
+def show_field(body, view, largest=None, with_bar=True):
     """The body with its elements; its field smoothed from them to the nodes."""
+    name, title = FIELD
     shown = Show(body, view)
     shown.Representation = "Surface With Edges"
     shown.EdgeColor = [0.12, 0.12, 0.12]
     shown.LineWidth = 1.3
-    ColorBy(shown, ("POINTS", FIELD))
+    ColorBy(shown, ("POINTS", name))
     shown.Ambient, shown.Diffuse = 0.52, 0.56
     body.UpdatePipeline()
-    colours = GetColorTransferFunction(FIELD)
+    colours = GetColorTransferFunction(name)
     colours.ApplyPreset("Viridis (matplotlib)", True)
-    low, high = body.PointData[FIELD].GetRange()
+    low, high = body.PointData[name].GetRange()
     colours.RescaleTransferFunction(low if largest is None else 0.0, largest or high)
     if with_bar:
         bar = GetScalarBar(colours, view)
-        bar.Title, bar.ComponentTitle = TITLE, ""
+        bar.Title, bar.ComponentTitle = title, ""
         bar.Orientation, bar.WindowLocation, bar.Position = "Horizontal", "Any Location", [0.03, 0.03]
         bar.ScalarBarLength, bar.ScalarBarThickness = 0.28, 16
         bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
         bar.TitleFontSize, bar.LabelFontSize = 19, 17
-        digits = "%.1f" if high > 0.5 else "%.2f"
+        digits = "%.0f" if high > 10 else "%.1f" if high > 0.5 else "%.2f"
         bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, digits, digits
         shown.SetScalarBarVisibility(view, True)
     return shown
 
 
-def draw_as_it_is(times):
-    """The bodies at each of the times, from left to right along y."""
-    bodies = [merged(XMLPartitionedUnstructuredGridReader(FileName=[file_at(time)])) for time in times]
-    for body in bodies:
-        body.UpdatePipeline()
-    largest = max(body.PointData[FIELD].GetRange()[1] for body in bodies)
-    view = make_view(800 * len(times))
-    bounds = bodies[0].GetDataInformation().GetBounds()
-    centre = [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)]
-    size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
+def draw_flat(bodies, largest):
+    """Along y, from above to below."""
+    centres, sizes = zip(*[box(body) for body in bodies])
+    width, gap = max(size[0] for size in sizes), 0.3 * sizes[0][2]
+    height = sum(size[2] + gap for size in sizes) + 0.08 * width  # the bar below
+    view = make_view(1200)
+    view.ViewSize = [1200, int(1200 * height / (1.06 * width))]
+    view.CameraParallelProjection, view.CameraParallelScale = 1, 0.5 * height
+    top = 0.5 * height - 0.01 * width
+    for i, (body, centre, size) in enumerate(zip(bodies, centres, sizes)):
+        show_field(body, view, largest, i == 0).Position = [-centre[0], 0.0, top - 0.5 * size[2] - centre[2]]
+        top -= size[2] + gap
+    view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp = [0, 0, 0], [0, -10 * width, 0], [0, 0, 1]
+    SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
+
+
+def draw_as_it_is(bodies, largest):
+    """From left to right along y."""
+    view = make_view(800 * len(bodies))
+    centre, sizes = box(bodies[0])
+    size = max(sizes)
     for i, body in enumerate(bodies):
-        show_strain(body, view, largest, i == 0).Position = [0.0, 1.25 * size * (0.5 * (len(times) - 1) - i), 0.0]
+        show_field(body, view, largest, i == 0).Position = [0.0, 1.25 * size * (0.5 * (len(bodies) - 1) - i), 0.0]
     view.CameraFocalPoint = centre
     view.CameraPosition = [c + size * d for c, d in zip(centre, (-3.0, -0.35, 0.75))]
     view.CameraViewUp = [0.0, 0.0, 1.0]
@@ -136,13 +156,28 @@ def draw_as_it_is(times):
     SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
 
 
-if not is_quarter:
-    last = max(float(e.get("timestep")) for e in ElementTree.parse(scene_file).iter("DataSet"))
-    draw_as_it_is([float(time) for time in sys.argv[3:]] or [last])
+def largest_of(sources, name):
+    """0 where there is no such field: elastic scenes have no plastic strain."""
+    for source in sources:
+        source.UpdatePipeline()
+    return max(source.PointData[name].GetRange()[1] if source.PointData[name] else 0.0 for source in sources)
+
+
+last = max(float(e.get("timestep")) for e in ElementTree.parse(scene_file).iter("DataSet"))
+shown_times = [float(time) for time in sys.argv[3:]] or [last]
+plain = [XMLPartitionedUnstructuredGridReader(FileName=[file_at(time)]) for time in shown_times]
+extent = box(plain[0])[1]
+is_flat = extent[1] < 0.2 * min(extent[0], extent[2])
+FIELD = STRAIN if largest_of(plain, STRAIN[0]) > 0.0 else STRESS
+if is_flat:
+    plain = [mirrored(body, "X") for body in plain] if "x = 0" in planes else plain
+if is_flat or not is_quarter:
+    plain = [merged(body) for body in plain]
+    (draw_flat if is_flat else draw_as_it_is)(plain, largest_of(plain, FIELD[0]))
     sys.exit()
 
 view = make_view(1200)
-show_strain(CellDatatoPointData(Input=body_at(files("bodies")[-1]), CellDataArraytoprocess=[FIELD]), view)
+show_field(CellDatatoPointData(Input=body_at(files("bodies")[-1]), CellDataArraytoprocess=[FIELD[0]]), view)
 
 # What it was at time 0.
 start = ExtractSurface(Input=body_at(files("bodies")[0]))

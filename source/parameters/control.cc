@@ -197,7 +197,9 @@ const std::vector<std::pair<std::string, Solver::LinearSolver>> linear_solver_na
 void Solver::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Contact tangent", "automatic", Patterns::Selection(selection(tangent_names)),
-      "automatic: exact with friction, consistent without, so that the matrix is symmetric where it can be; "
+      "automatic: exact with friction and between bodies, else consistent, so that the matrix is symmetric, "
+      "as "
+      "also between bodies without friction if a linear solver for symmetric matrices is chosen; "
       "exact: the full derivative of the contact forces, with the turning of the tool's normal and the "
       "change of area; "
       "numerical: the same by central differences, eq. (43), slow, for comparison; consistent, "

@@ -179,18 +179,22 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &pair : body_pairs_)
     capabilities_.friction |= pair.has_friction();
   using Tangent = parameters::ContactTangent;
+  using LinearSolver = parameters::Solver::LinearSolver;
+  const LinearSolver solver = parameters.solver.linear_solver.value;
+  const bool wants_symmetry =
+      solver == LinearSolver::mumps_symmetric || solver == LinearSolver::conjugate_gradients;
   contact_tangent_ = parameters.solver.contact_tangent;
+  // Where bodies fold onto each other Newton's method does not converge with areas and normals held.
   if (contact_tangent_ == Tangent::automatic)
-    contact_tangent_ = capabilities_.friction ? Tangent::exact : Tangent::consistent;
+    contact_tangent_ = capabilities_.friction || (capabilities_.body_contact && !wants_symmetry)
+                           ? Tangent::exact
+                           : Tangent::consistent;
   capabilities_.unsymmetric_matrix =
       capabilities_.contact &&
       (contact_tangent_ == Tangent::exact || contact_tangent_ == Tangent::numerical ||
        (capabilities_.friction &&
         (contact_tangent_ == Tangent::consistent || contact_tangent_ == Tangent::continuum)));
-  using LinearSolver = parameters::Solver::LinearSolver;
-  const LinearSolver solver = parameters.solver.linear_solver.value;
-  if (capabilities_.unsymmetric_matrix &&
-      (solver == LinearSolver::mumps_symmetric || solver == LinearSolver::conjugate_gradients))
+  if (capabilities_.unsymmetric_matrix && wants_symmetry)
     throw InputError(parameters.solver.linear_solver.origin + ": found '" +
                      (solver == LinearSolver::conjugate_gradients ? "CG" : "MUMPS symmetric") +
                      "', but this scene's contact tangent is unsymmetric; "

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Shallow ironing: forces of a deformable die on a deformable slab, by facets and by the length of the steps."""
+
+from billet_runs import ROOT, Run, arguments, number, percent, publish, table
+
+options = arguments("ironing")
+SCENE = ROOT / "prm/ironing.prm"
+PAIR = "Contact pairs/face/"
+FACET = 0.5  # mm, of the slab
+FROM, SLIDE = 0.6, 1.8  # mm: means are over this stretch of the path
+PRESSING = 10  # steps
+METHODS = [("overlap", "one"), ("planed", "one"), ("planed", "two"), ("bilinear", "two")]
+PARTS = (0.02, 0.1, 0.6) if options.quick else (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6)
+
+
+def method(facets, passes):
+    return {PAIR + "Facets": facets, PAIR + "Passes": passes}
+
+
+def sweep(facets, passes, part):
+    """The slide alone, in equal steps of 1, of `part` of a facet each. Means of both forces over the stretch."""
+    n = round(SLIDE / (part * FACET))
+    run = Run({**method(facets, passes),
+               "Amplitudes/down/Times": f"0, {PRESSING}", "Amplitudes/down/Values": "0, -0.6",
+               "Amplitudes/along/Times": f"{PRESSING}, {PRESSING + n}", "Amplitudes/along/Values": f"0, {SLIDE}",
+               "Time stepping/End time": PRESSING + n, "Time stepping/Stops": "", "Time stepping/Step control": "fixed",
+               "Time stepping/Initial step": 1}, options.ranks, SCENE, "face")
+    if not run.converged:
+        return None, None, run
+    path = [(FACET * part * (float(row["time"]) - PRESSING), -float(row["face.force_x"]), float(row["face.force_z"]))
+            for row in run.rows]
+    path = [row for row in path if row[0] > FROM - 1e-6]
+
+    def mean(k):
+        return sum(0.5 * (a[k] + b[k]) * (b[0] - a[0]) for a, b in zip(path, path[1:])) / (path[-1][0] - path[0][0])
+
+    return mean(1), mean(2), run
+
+
+def ratio(run, time):
+    row = min(run.rows, key=lambda r: abs(float(r["time"]) - time))
+    return -float(row["face.force_x"]) / float(row["face.force_z"])
+
+
+rows = []
+for facets, passes in METHODS:
+    run = Run(method(facets, passes), options.ranks, SCENE, "face")
+    drawn = [-float(r["face.force_x"]) / float(r["face.force_z"]) for r in run.rows
+             if 1.2 - 1e-6 < float(r["time"]) < 2.8 + 1e-6]
+    after = run.rows[-1]
+    rows.append([facets, passes] +
+                ([run.steps, run.iterations, run.cuts, f"{min(drawn):.4f} to {max(drawn):.4f}",
+                  number(max(float(r["face.deepest_penetration"]) for r in run.rows) / FACET, 2),
+                  number(max(abs(float(after["face.force_" + i])) for i in "xyz"), 2), number(float(after["elastic_energy"]), 2)]
+                 if run.converged else [f"{run.failure} at {number(run.times[-1])}"] + ["–"] * 6))
+
+sweeps = [[sweep(facets, passes, part) for facets, passes in METHODS] for part in PARTS]
+
+
+def spread(k):
+    ratios = [line[k][0] / line[k][1] for line in sweeps if line[k][0] is not None]
+    return percent((max(ratios) - min(ratios)) / min(ratios)) if len(ratios) == len(sweeps) else "–"
+
+
+publish(
+    "ironing", "Shallow ironing", options,
+    "`prm/ironing.prm`: an elastic die (E 1000 MPa) is pressed 0.6 mm into an elastic slab (E 100 MPa, facets of 0.5 mm), "
+    "drawn 10 mm over it with a friction coefficient of 0.3, and lifted. Forces are those in the plane of 0.5 mm.",
+    "## All of the scene, steps as they come",
+    table(["facets", "passes", "steps", "iterations", "failed steps", "horizontal / vertical force, from 1 to 9 mm",
+           "deepest penetration / facet", "largest force after lifting [N]", "elastic energy after lifting [N mm]"], rows),
+    "## Steps of equal length",
+    f"Horizontal over vertical force, means over the slide from {FROM} to {SLIDE} mm (trapezoidal rule), which steps "
+    "of each length reach; in brackets Newton iterations for each step of all of the run.",
+    table(["slide in a step / facet"] + [f"{facets}, {passes} pass{'es' if passes == 'two' else ''}" for facets, passes in METHODS],
+          [[part] + [f"{x / z:.4f} ({run.iterations / run.steps:.1f})" if x is not None else f"{run.failure} after {run.steps} steps"
+                     for x, z, run in line] for part, line in zip(PARTS, sweeps)] +
+          [["largest less smallest"] + [spread(k) for k in range(len(METHODS))]]),
+    "CalculiX 2.20 (own measurements, the same bodies): node-to-surface contact stops; surface-to-surface contact gives 0.88, 0.37, 0.31 "
+    "and 0.30 as the increments shrink.")

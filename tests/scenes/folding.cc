@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A ring and a hollow block are pressed until their insides touch themselves, and released. All is elastic
+// and without friction, so that forces and energies are functions of the travel alone: the same on the way
+// back as on the way there, while the insides touch, too. The work done is that energy, and comes back.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+using billet::testing::WorstError;
+
+namespace {
+
+struct FoldState {
+  double force, energy, work, area;
+};
+
+/// `n` steps on each way. The third pair is that of the inside.
+void test(const std::string &name, const std::string &scene, const unsigned int n,
+          const parameters::ContactPair::Facets facets) {
+  parameters::Scene parameters = testing::read_shipped_scene(scene);
+  parameters.pairs[2].facets.value = facets;
+  parameters.time_stepping.control = parameters::TimeStepping::Control::fixed;
+  parameters.time_stepping.initial_step = 1. / n;
+  SceneRun run(parameters);
+  std::vector<FoldState> states{{0., 0., 0., 0.}};
+  run.finish([&](const NewtonReport &) {
+    const SolutionState &state = run.problem.state();
+    states.push_back({-state.tool_loads[0].force[2], state.energies.elastic + state.energies.contact,
+                      state.energies.external, state.body_pair_loads[0].area});
+  });
+  const FoldState pressed = states[n];
+  const auto first =
+      std::find_if(states.begin(), states.end(), [](const FoldState &s) { return s.area > 0.; });
+  check(name + ": the inside touches itself, but not at first",
+        first - states.begin() > n / 5 && first - states.begin() < n);
+  WorstError force, energy;
+  for (unsigned int i = 1; i < n; ++i) {
+    force.add(std::abs(states[n + i].force - states[n - i].force) / pressed.force);
+    energy.add(std::abs(states[n + i].energy - states[n - i].energy) / pressed.energy);
+  }
+  check(name + ": force on the way back", force.value(), 1e-4);
+  check(name + ": energy on the way back", energy.value(), 1e-5);
+  check(name + ": work done", std::abs(pressed.work / pressed.energy - 1.), 0.01);
+  check(name + ": work given back", std::abs(states.back().work) / pressed.work, 0.01);
+  check(name + ": no energy is left", states.back().energy / pressed.energy, 1e-12);
+  const auto reports = run.problem.report_contacts();
+  bool is_open = true;
+  for (const auto &node : reports[2])
+    is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
+  check(name + ": the inside is open", is_open && !reports[2].empty());
+  WorstError left;
+  for (const auto &load : run.problem.state().tool_loads)
+    left.add(load.force.norm() / pressed.force);
+  check(name + ": no force is left", left.value(), 1e-9);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  using Facets = parameters::ContactPair::Facets;
+  test("ring, overlap", "ring_crush.prm", 100, Facets::overlap);
+  test("ring, planed", "ring_crush.prm", 100, Facets::planed);
+  test("block, overlap", "hollow_block.prm", 20, Facets::overlap);
+  return testing::exit_code();
+}
