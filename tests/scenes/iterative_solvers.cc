@@ -44,7 +44,9 @@ double distance(const Result &a, const Result &b) {
          dealii::Utilities::MPI::max(size, MPI_COMM_WORLD);
 }
 
-void compare(const std::string &name, const parameters::Scene &scene, const Kind iterative) {
+/// `more`: by how many iterations Newton's method may differ between solvers that both are exact.
+void compare(const std::string &name, const parameters::Scene &scene, const Kind iterative,
+             const unsigned int more = 0) {
   parameters::Scene parameters = scene;
   parameters.solver.force_tolerance = 1e-8;
   parameters.solver.linear_solver.value = Kind::automatic;
@@ -56,7 +58,7 @@ void compare(const std::string &name, const parameters::Scene &scene, const Kind
   parameters.solver.linear_tolerance = 1e-11;
   const Result exact = run(parameters);
   check(name + ", solved exactly: as many iterations of Newton's method",
-        exact.iterations == direct.iterations);
+        exact.iterations <= direct.iterations + more && direct.iterations <= exact.iterations + more);
   check(name + ", solved exactly: force", std::abs(exact.force / direct.force - 1.), 1e-8);
   check(name + ", solved exactly: displacements", distance(exact, direct), 1e-8);
   check(name + ", solved exactly: no direct solver", exact.notes.find("takes over") == std::string::npos);
@@ -99,6 +101,7 @@ int main(int argc, char *argv[]) {
   compare("two blocks, GMRES", blocks, Kind::gmres);
   blocks.pairs[0].friction_coefficient = 0.;
   blocks.solver.contact_tangent = parameters::ContactTangent::consistent; // for the direct solver, too
-  compare("two blocks without friction, CG", blocks, Kind::conjugate_gradients);
+  // That tangent converges linearly, over some twenty iterations a step: round-off tells which is the last.
+  compare("two blocks without friction, CG", blocks, Kind::conjugate_gradients, 3);
   return billet::testing::exit_code();
 }
