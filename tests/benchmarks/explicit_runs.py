@@ -36,7 +36,7 @@ class ExplicitRun:
 
     @property
     def steps(self):
-        return int(self.rows[-1]["step"])
+        return int(self.rows[-1]["step"]) if self.rows else 0
 
     def largest_drift(self):
         """Of the energy ledger, relative to the largest sum of energies."""

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Patch test in statics with overlapping facets: meshes that do not match, distorted by 30 % and turned, pass
+// on a uniform stress to round-off, whatever the penalty, the passes and the augmentation; and it is that of
+// the closed form with the penetration p/k. A block with an inclined cut that friction holds comes as close
+// to that as penalties are stiff.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <sstream>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+using dealii::SymmetricTensor;
+
+namespace {
+
+std::string print(const double number) {
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
+
+constexpr double E = 2e5, edge = 0.5;
+
+/// Largest difference of an element's stress from `exact`, relative to that.
+double stress_error(const SceneRun &run, const SymmetricTensor<2, 3> &exact) {
+  testing::WorstError worst;
+  for (unsigned int body = 0; body < 2; ++body)
+    for (const auto &element : run.problem.summarize(body))
+      worst.add((element.cauchy_stress - exact).norm() / exact.norm());
+  return worst.value();
+}
+
+/// Uniaxial strain of Hencky's law along n: τ = (λ + 2μ) ln s and λ ln s across, σ = τ/s, where the stretch s
+/// of 4 mm and the penetration −σ/k make up the travel.
+SymmetricTensor<2, 3> exact_stress(const dealii::Tensor<1, 3> &n, const double nu, const double travel,
+                                   const double penalty) {
+  const double lame = E * nu / (1. + nu) / (1. - 2. * nu), along = lame + E / (1. + nu);
+  double low = 0.9, high = 1.;
+  for (unsigned int i = 0; i < 100; ++i) {
+    const double s = 0.5 * (low + high), penetration = penalty > 0. ? -along * std::log(s) / s / penalty : 0.;
+    (4. * (1. - s) + penetration > travel ? low : high) = s;
+  }
+  SymmetricTensor<2, 3> stress;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = i; j < 3; ++j)
+      stress[i][j] = std::log(low) / low * ((i == j ? lame : 0.) + (along - lame) * n[i] * n[j]);
+  return stress;
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const dealii::Tensor<1, 3> n({2. / 3., -1. / 3., 2. / 3.});
+  const auto turned = testing::read_shipped_scene("patch_test.prm");
+  using Passes = parameters::ContactPair::Passes;
+  for (const auto passes : {Passes::one, Passes::two}) {
+    const std::string name = passes == Passes::one ? "one pass" : "two passes";
+    for (const double factor : {0.01, 1., 100., 1e4}) {
+      auto scene = turned;
+      scene.pairs[0].passes = passes;
+      scene.pairs[0].normal_penalty = factor * E / edge;
+      SceneRun run(scene);
+      run.finish();
+      check(name + ", penalty " + print(factor) + " E/h",
+            stress_error(run, exact_stress(n, 0.3, 0.2, scene.pairs[0].normal_penalty)), 1e-8);
+    }
+    for (const double factor : {1., 100.}) {
+      auto scene = turned;
+      scene.pairs[0].passes = passes;
+      scene.pairs[0].normal_penalty = factor * E / edge;
+      scene.pairs[0].penetration_tolerance = 1e-9;
+      scene.solver.most_augmentations = 100;
+      SceneRun run(scene);
+      run.finish();
+      check(name + ", augmented, " + print(factor) + " E/h", stress_error(run, exact_stress(n, 0.3, 0.2, 0.)),
+            1e-8);
+    }
+  }
+
+  // The upper part is displaced by s along the cut, and is not below, or above, the other one at its ends.
+  const auto cut = testing::read_shipped_scene("patch_test_cut.prm");
+  for (const double factor : {1., 10., 100.}) {
+    auto scene = cut;
+    scene.pairs[0].normal_penalty = scene.pairs[0].tangential_penalty = factor * E / edge;
+    SceneRun run(scene);
+    run.finish();
+    // Vertical tractions on an inclined area, so that the vertical spring is stiffer.
+    const auto exact = exact_stress(dealii::Tensor<1, 3>({0., 0., 1.}), 0., 0.004,
+                                    scene.pairs[0].normal_penalty * std::hypot(1., 0.3));
+    check("inclined cut, penalty " + print(factor) + " E/h", stress_error(run, exact),
+          run.problem.state().body_pair_loads[0].deepest / edge);
+    check("inclined cut sticks, penalty " + print(factor) + " E/h",
+          run.problem.state().energies.friction == 0.);
+  }
+  return testing::exit_code();
+}
