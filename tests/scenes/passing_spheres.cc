@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Two hemispheres pushed past each other, large sliding on rough meshes that do not match. Without friction
+// nothing is left of the work when they have parted, and the force on the way out is the mirror image of that
+// on the way in; with friction the work is what friction took. Both part without forces.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (const double friction : {0., 0.3}) {
+    const std::string name = friction == 0. ? "frictionless: " : "friction: ";
+    auto scene = testing::read_shipped_scene("passing_spheres.prm");
+    scene.pairs[0].friction_coefficient = friction;
+    testing::set_fixed_steps(scene, 24);
+    SceneRun run(scene);
+    const SolutionState &state = run.problem.state();
+    std::vector<dealii::Tensor<1, 3>> forces{{}};
+    double largest_energy = 0., largest_force = 0.;
+    run.finish([&](const NewtonReport &) {
+      forces.push_back(state.body_pair_loads[0].force);
+      largest_energy = std::max(largest_energy, state.energies.elastic);
+      largest_force = std::max(largest_force, forces.back().norm());
+    });
+    check(name + "they meet", largest_force > 100.);
+    if (friction == 0.) {
+      testing::WorstError mirrored;
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        const auto &there = forces[forces.size() - 1 - i];
+        mirrored.add(std::hypot(forces[i][0] + there[0], forces[i][2] - there[2]) / largest_force);
+      }
+      check(name + "mirrored force", mirrored.value(), 1e-4);
+      check(name + "work", std::abs(state.energies.external) / largest_energy, 1e-3);
+    } else
+      check(name + "work", std::abs(state.energies.external / state.energies.friction - 1.), 0.03);
+    check(name + "elastic energy at the end", state.energies.elastic / largest_energy, 1e-10);
+    check(name + "force at the end", forces.back().norm() / largest_force, 1e-12);
+    bool is_open = true;
+    for (const auto &node : run.problem.body_contact(0).report())
+      is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
+    check(name + "open at the end", is_open);
+  }
+  return testing::exit_code();
+}
