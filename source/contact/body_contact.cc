@@ -126,8 +126,13 @@ std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene)
   std::vector<ContactStiffness> stiffness;
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
     const unsigned int other = pair_.is_self_contact ? 0 : 1 - surface_of_[i];
-    const double own_side = young(surface_of_[i]) / sizes_[i];
-    const double other_side = young(other) / std::sqrt(totals[other] / totals[2 + other]);
+    const auto mean_size = [&](const unsigned int surface) {
+      return std::sqrt(totals[surface] / totals[2 + surface]);
+    };
+    // Overlapping facets pass a uniform pressure exactly if all nodes have the same penalty.
+    const bool is_uniform = pair_.facets == parameters::ContactPair::Facets::overlap;
+    const double own_side = young(surface_of_[i]) / (is_uniform ? mean_size(surface_of_[i]) : sizes_[i]);
+    const double other_side = young(other) / mean_size(other);
     double unit = 1.;
     if (pair_.penalty_is_factor)
       unit = pair_.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
