@@ -85,6 +85,7 @@ void compare(const std::string &name, const parameters::Scene &scene, const Kind
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostringstream silence;
+  std::streambuf *const console = std::cout.rdbuf();
   if (!testing::is_first_rank())
     std::cout.rdbuf(silence.rdbuf());
   // Fine enough for multigrid to have two levels.
@@ -103,5 +104,6 @@ int main(int argc, char *argv[]) {
   blocks.solver.contact_tangent = parameters::ContactTangent::consistent; // for the direct solver, too
   // That tangent converges linearly, over some twenty iterations a step: round-off tells which is the last.
   compare("two blocks without friction, CG", blocks, Kind::conjugate_gradients, 3);
+  std::cout.rdbuf(console); // `silence` goes first
   return billet::testing::exit_code();
 }

@@ -23,7 +23,8 @@ int main(int argc, char *argv[]) {
       scene.pairs[0].friction_coefficient = friction;
       scene.solver.contact_tangent = parameters::ContactTangent::exact;
       SceneRun run(scene);
-      const double error = tangent_error(run, 0.75, 2);
+      // At 0.75 a node changes its status within the differences of one direction.
+      const double error = tangent_error(run, 0.65, 2);
       unsigned int n_touch = 0;
       const auto reports = run.problem.report_contacts();
       for (const auto &node : reports[0])

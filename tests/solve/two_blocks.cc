@@ -73,6 +73,7 @@ Outcome solve_and_check(const std::string &name, TwoBlocks &blocks, const double
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::ostringstream silence;
+  std::streambuf *const console = std::cout.rdbuf();
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
     std::cout.rdbuf(silence.rdbuf());
 
@@ -180,5 +181,6 @@ int main(int argc, char *argv[]) {
                 (found == std::string::npos || note.find(text, found + 1) == std::string::npos));
       check(name + ": has told", solver.take_note().empty() && solver.take_iterations() < 200);
     }
+  std::cout.rdbuf(console); // `silence` goes first
   return billet::testing::exit_code();
 }
