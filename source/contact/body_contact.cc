@@ -106,7 +106,6 @@ void BodyContact::collect(const NodeKeys &keys) {
       facets_.push_back(facet);
     }
   positions_.resize(local_nodes_.size());
-  positions_n_.clear();
   const auto sizes = compute_facet_sizes(discretization, all);
   for (const unsigned int node : local_nodes_)
     sizes_.push_back(sizes.at(nodes_.dofs(node)[0]));
@@ -123,14 +122,14 @@ std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene)
   const auto young = [&](const unsigned int surface) {
     return scene.bodies()[pair_.bodies[surface]].young_modulus;
   };
+  const auto mean_size = [&](const unsigned int surface) {
+    return std::sqrt(totals[surface] / totals[2 + surface]);
+  };
+  // Overlapping facets pass a uniform pressure exactly if all nodes have the same penalty.
+  const bool is_uniform = pair_.facets == parameters::ContactPair::Facets::overlap;
   std::vector<ContactStiffness> stiffness;
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
     const unsigned int other = pair_.is_self_contact ? 0 : 1 - surface_of_[i];
-    const auto mean_size = [&](const unsigned int surface) {
-      return std::sqrt(totals[surface] / totals[2 + surface]);
-    };
-    // Overlapping facets pass a uniform pressure exactly if all nodes have the same penalty.
-    const bool is_uniform = pair_.facets == parameters::ContactPair::Facets::overlap;
     const double own_side = young(surface_of_[i]) / (is_uniform ? mean_size(surface_of_[i]) : sizes_[i]);
     const double other_side = young(other) / mean_size(other);
     double unit = 1.;

@@ -135,9 +135,7 @@ void FacetContact::find_overlaps(const std::size_t s) {
   state.first_share = shares_.size();
   double largest = 0.;
   search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
-    const auto &nodes = search_.facets()[f].nodes;
-    const auto corner =
-        static_cast<unsigned int>(std::find(nodes.begin(), nodes.end(), slaves_[s].node) - nodes.begin());
+    const unsigned int corner = corner_of(search_.facets()[f], slaves_[s].node);
     overlaps_->visit(f, [&](const FacetOverlaps::Overlap &overlap) {
       shares_.push_back(share_of_overlap(overlap.integrals, corner, f, overlap.target, overlap.depth));
       const double area = shares_.back().share;
@@ -163,10 +161,8 @@ void FacetContact::find_overlaps(const std::size_t s) {
 
 void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) const {
   search_.visit_around(slave.node, [&](const unsigned int f) {
-    const SurfaceFacet &facet = search_.facets()[f];
-    const auto corner = static_cast<unsigned int>(
-        std::find(facet.nodes.begin(), facet.nodes.end(), slave.node) - facet.nodes.begin());
-    const double share = moved_.areas(f).share(corner, state.contact.normal);
+    const double share =
+        moved_.areas(f).share(corner_of(search_.facets()[f], slave.node), state.contact.normal);
     state.area += share;
     if (f < exchange_.n_own_facets())
       state.own_area += share;

@@ -186,8 +186,7 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
     for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
       const FacetShare &share = shares_[i];
       const SurfaceFacet &own = search_.facets()[share.slave_facet];
-      const auto corner = static_cast<unsigned int>(
-          std::find(own.nodes.begin(), own.nodes.end(), slaves_[s].node) - own.nodes.begin());
+      const unsigned int corner = corner_of(own, slaves_[s].node);
       const auto corners = corners_now(share.slave_facet);
       const auto overlap =
           follow_overlap<Number>(corners, corners_now(share.facet), share.depth, lifts_of(own.nodes));
@@ -261,11 +260,9 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
   }
   area = 0.;
   search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
-    const auto &facet_nodes = search_.facets()[f].nodes;
-    const auto corner = static_cast<unsigned int>(
-        std::find(facet_nodes.begin(), facet_nodes.end(), slaves_[s].node) - facet_nodes.begin());
     if (f < exchange_.n_own_facets())
-      area += FacetAreasOf<Number>(corners_now(f)).share(corner, contact.normal);
+      area += FacetAreasOf<Number>(corners_now(f))
+                  .share(corner_of(search_.facets()[f], slaves_[s].node), contact.normal);
   });
   const Tensor<1, 3, Number> force = area * traction;
   forces[0] = force;

@@ -160,14 +160,12 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   }
   for (std::size_t p = 0; p < contacts_.size(); ++p)
     writer.in(group("pair", p), [&] {
-      writer.write_text("name", scene_.pairs()[p].name);
-      writer.write_text("partners", partners(scene_, scene_.pairs()[p]));
+      save_pair(writer, scene_, scene_.pairs()[p]);
       contacts_[p].save(writer, keys);
     });
   for (std::size_t p = 0; p < body_contacts_.size(); ++p)
     writer.in(group("body pair", p), [&] {
-      writer.write_text("name", scene_.body_pairs()[p].name);
-      writer.write_text("partners", partners(scene_, scene_.body_pairs()[p]));
+      save_pair(writer, scene_, scene_.body_pairs()[p]);
       body_contacts_[p]->save(writer);
     });
 }

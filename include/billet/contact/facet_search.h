@@ -20,6 +20,14 @@ struct SurfaceFacet {
   double reach;
 };
 
+/// Which corner of the facet this one of its nodes is.
+inline unsigned int corner_of(const SurfaceFacet &facet, const unsigned int node) {
+  unsigned int corner = 0;
+  while (facet.nodes[corner] != node)
+    ++corner;
+  return corner;
+}
+
 /// A node that may touch facets.
 struct SlaveNode {
   unsigned int node;

@@ -65,6 +65,11 @@ void compare_parts(StateReader &reader, const Scene &scene, RestartReport &repor
 /// Whom a pair joins. A pair that keeps its name must keep its partners: InputError.
 std::string partners(const Scene &scene, const ContactPair &pair);
 std::string partners(const Scene &scene, const BodyPair &pair);
+/// What names the pair in its group.
+template <class Pair> void save_pair(StateWriter &writer, const Scene &scene, const Pair &pair) {
+  writer.write_text("name", pair.name);
+  writer.write_text("partners", partners(scene, pair));
+}
 void check_partners(const StateReader &reader, const std::string &pair, const std::string &partners);
 
 std::vector<double> to_numbers(const Placement &placement);
