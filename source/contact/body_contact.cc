@@ -366,6 +366,7 @@ ContactLoad BodyContact::compute_load() const {
   const FacetContactLoad all = contact_->compute_load();
   ContactLoad load;
   load.force = all.force;
+  load.moment = all.moment;
   load.area = all.area;
   load.stored_energy = all.stored_energy;
   load.dissipation = all.dissipation;

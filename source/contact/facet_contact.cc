@@ -15,6 +15,12 @@ namespace billet {
 
 using dealii::Tensor;
 
+namespace {
+
+constexpr double rounding = 1e-13; ///< penetration that round-off makes, relative to a facet's size
+
+} // namespace
+
 FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &settings,
                            std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
                            std::vector<ContactStiffness> stiffness, std::vector<double> sizes)
@@ -156,7 +162,14 @@ void FacetContact::find_overlaps(const std::size_t s) {
   if (!state.touched.exists())
     return;
   state.contact = combine(shares_, state.first_share);
-  state.rests = !(state.contact.gap < 0.);
+  state.contact.gap -= lift(s).now;
+  if (state.contact.gap < -rounding * sizes_[s])
+    return;
+  // Facets that fit just touch; others are within the lifts of their other corners.
+  state.contact.gap = std::max(0., state.contact.gap);
+  state.rests = state.contact.gap <= flush_gap(s);
+  if (!state.rests)
+    state.touched = TouchedFacet();
 }
 
 void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) const {
@@ -243,7 +256,7 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s) {
 }
 
 SlaveMotion FacetContact::compute_motion(const std::size_t s, const double duration) const {
-  SlaveMotion mean{Tensor<1, 3>(), Tensor<2, 3>(), duration};
+  SlaveMotion mean{Tensor<1, 3>(), Tensor<2, 3>(), duration, augmentation(s), flush_gap(s)};
   for (std::size_t i = states_[s].first_share; i < states_[s].end_of_shares; ++i) {
     const FacetShare &share = shares_[i];
     const SlaveMotion motion = compute_slave_motion(corners_of(search_.facets()[share.facet], positions_n_),
@@ -381,8 +394,10 @@ void FacetContact::add_edges(FacetContactLoad &load) const {
       load.residual_force += forces[i];
       load.residual_moment +=
           dealii::cross_product_3d(positions_[crossing.nodes[i]] - positions_[crossing.nodes[0]], forces[i]);
-      if (crossing.surfaces[i / 2] == 0)
+      if (crossing.surfaces[i / 2] == 0) {
         load.force += forces[i];
+        load.moment += dealii::cross_product_3d(positions_[crossing.nodes[i]], forces[i]);
+      }
     }
     load.absolute_force += (forces[0] + forces[1]).norm();
     load.stored_energy += 0.5 * stiffness * crossing.area * crossing.counted_gap() * crossing.counted_gap();
@@ -406,17 +421,22 @@ FacetContactLoad FacetContact::compute_load() const {
         load.residual_moment +=
             dealii::cross_product_3d(corners[a] - slave_point(s, share, positions_), reaction[a]);
       }
-      if (slaves_[s].surface == 0)
+      if (slaves_[s].surface == 0) {
         load.force += force;
-      if (search_.facets()[share.facet].surface == 0)
+        load.moment += dealii::cross_product_3d(slave_point(s, share, positions_), force);
+      }
+      if (search_.facets()[share.facet].surface == 0) {
         load.force -= force;
+        for (unsigned int a = 0; a < 4; ++a)
+          load.moment += dealii::cross_product_3d(corners[a], reaction[a]);
+      }
     });
     load.absolute_force += state.own_area * state.traction.traction.norm();
     // What augmented tractions hold is no stretch of a spring.
-    load.stored_energy += lifts_.empty()
-                              ? state.own_area * state.traction.stored_energy
-                              : 0.5 * state.own_area * stiffness_[s].normal *
-                                    (state.contact.gap + lifts_[s]) * (state.contact.gap + lifts_[s]);
+    load.stored_energy += lifts_.empty() ? state.own_area * state.traction.stored_energy
+                                         : 0.5 * state.own_area * stiffness_[s].normal *
+                                               (state.contact.gap + augmentation(s)) *
+                                               (state.contact.gap + augmentation(s));
     load.dissipation += state.own_area * state.traction.dissipation;
     load.area += state.own_area;
     load.n_touching += 1.;
@@ -428,11 +448,12 @@ FacetContactLoad FacetContact::compute_load() const {
     load.deepest_relative = std::max(load.deepest_relative, depth / size);
   }
   add_edges(load);
-  std::array<double, 14> sums{load.stored_energy, load.dissipation, load.area, load.n_touching,
+  std::array<double, 17> sums{load.stored_energy, load.dissipation, load.area, load.n_touching,
                               load.absolute_force};
   std::array<double, 2> largest{load.deepest, load.deepest_relative};
-  const std::array<Tensor<1, 3> *, 3> vectors{&load.force, &load.residual_force, &load.residual_moment};
-  for (unsigned int v = 0; v < 3; ++v)
+  const std::array<Tensor<1, 3> *, 4> vectors{&load.force, &load.moment, &load.residual_force,
+                                              &load.residual_moment};
+  for (unsigned int v = 0; v < vectors.size(); ++v)
     for (unsigned int i = 0; i < 3; ++i)
       sums[5 + 3 * v + i] = (*vectors[v])[i];
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator_);
@@ -442,7 +463,7 @@ FacetContactLoad FacetContact::compute_load() const {
   load.area = sums[2];
   load.n_touching = sums[3];
   load.absolute_force = sums[4];
-  for (unsigned int v = 0; v < 3; ++v)
+  for (unsigned int v = 0; v < vectors.size(); ++v)
     for (unsigned int i = 0; i < 3; ++i)
       (*vectors[v])[i] = sums[5 + 3 * v + i];
   load.deepest = largest[0];
@@ -485,14 +506,38 @@ void FacetContact::restart() {
   base_ = history_n_;
 }
 
+bool FacetContact::was_touching(const std::size_t s) const {
+  if (history_n_[s].is_active)
+    return true;
+  const SlaveState &state = states_[s];
+  const SlaveMotion motion = compute_motion(s, duration_);
+  return state.contact.gap + motion.lift - motion.displacement * state.contact.normal <= motion.flush;
+}
+
+void FacetContact::augment_friction(const std::size_t s) {
+  SlaveHistory &base = base_[s];
+  const SlaveHistory &now = history_[s];
+  if (base.is_active) {
+    base.tangential = now.tangential;
+    return;
+  }
+  // A frame that does not depend on the normal that is sought: from_normal() jumps.
+  const Tensor<2, 3> rotation = compute_motion(s, duration_).rotation;
+  base.is_active = true;
+  base.frame = Frame::from_normal(dealii::transpose(rotation) * now.frame.n);
+  const Frame frame = base.frame.transported(rotation, now.frame.n);
+  const Tensor<1, 3> traction = now.tangential[0] * now.frame.q + now.tangential[1] * now.frame.r;
+  base.tangential = {traction * frame.q, traction * frame.r};
+}
+
 void FacetContact::augment() {
   has_lifts_ = true;
   lifts_.resize(slaves_.size());
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    lifts_[s] = states_[s].presses() ? states_[s].traction.pressure / stiffness_[s].normal : 0.;
-    // One that came in within the step does not go back to where it was before.
-    if (!base_.empty() && states_[s].presses() && history_n_[s].is_active)
-      base_[s].tangential = history_[s].tangential;
+    const bool presses = states_[s].presses();
+    if (!base_.empty() && presses && was_touching(s)) // asks for the lift so far
+      augment_friction(s);
+    lifts_[s] = presses ? states_[s].traction.pressure / stiffness_[s].normal : 0.;
   }
 }
 
@@ -502,8 +547,8 @@ double FacetContact::augmentation_error() const {
     const SlaveState &state = states_[s];
     if (!state.presses() || !(state.traction.pressure > 0.))
       continue;
-    worst = std::max(worst, std::abs(state.contact.gap + (lifts_.empty() ? 0. : lifts_[s])) / sizes_[s]);
-    if (!base_.empty() && history_n_[s].is_active && state.traction.status == ContactStatus::stick)
+    worst = std::max(worst, std::abs(state.contact.gap + augmentation(s)) / sizes_[s]);
+    if (!base_.empty() && was_touching(s) && state.traction.status == ContactStatus::stick)
       worst = std::max(worst, std::hypot(history_[s].tangential[0] - base_[s].tangential[0],
                                          history_[s].tangential[1] - base_[s].tangential[1]) /
                                   (stiffness_[s].tangential * sizes_[s]));

@@ -211,14 +211,14 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
     contact = {shares[0].projection.normal, shares[0].projection.gap};
   } else
     contact = combine(shares, 0);
-  if constexpr (!std::is_same_v<Facet, OverlapFacet>)
-    contact.gap += state.touched.offset - lift(s).now;
+  contact.gap += state.touched.offset - lift(s).now;
 
   Tensor<1, 3, Number> traction;
   if constexpr (std::is_same_v<Law, Frictionless>)
     traction = compute_slave_traction(law, stiffness_[s].normal, contact.normal, contact.gap).traction;
   else {
-    SlaveMotionOf<Number> mean{Tensor<1, 3, Number>(), Tensor<2, 3, Number>(), duration_};
+    SlaveMotionOf<Number> mean{Tensor<1, 3, Number>(), Tensor<2, 3, Number>(), duration_, augmentation(s),
+                               flush_gap(s)};
     for (std::size_t i = 0; i < shares.size(); ++i) {
       const auto &share = shares[i];
       Tensor<1, 3, Number> point_n = positions_n_[slaves_[s].node];

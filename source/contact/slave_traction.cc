@@ -18,7 +18,7 @@ compute_slave_motion(const FacetCorners &corners_n, const FacetCornersOf<Number>
     arm_n -= weights[a] * corners_n[a];
     arm -= weights[a] * corners[a];
   }
-  return {arm - rotation * arm_n, rotation, duration};
+  return {arm - rotation * arm_n, rotation, duration, 0., 0.};
 }
 
 template SlaveMotion compute_slave_motion(const FacetCorners &, const FacetCorners &,

@@ -64,9 +64,11 @@ FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness
       for (unsigned int j = 0; j < 3; ++j)
         trial_tangent[i][j] = k_t * increment.gradient[i][j];
 
-  if (trial_norm <= limit.value) {
+  const bool rests = !(gap < 0.);
+  if (trial_norm <= limit.value || rests) {
     traction.status = ContactStatus::stick;
-    traction.tangential = trial;
+    if (!rests)
+      traction.tangential = trial;
     for (unsigned int i = 0; i < 2; ++i)
       K[i] = trial_tangent[i];
     return traction;

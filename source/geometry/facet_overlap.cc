@@ -206,8 +206,11 @@ FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
       integrate(polygon, above, below, gap, overlap);
     }
   }
-  for (const auto &area : overlap.areas)
-    overlap.exists = overlap.exists || area > 0.;
+  for (unsigned int a = 0; a < 4; ++a) {
+    overlap.exists = overlap.exists || overlap.areas[a] > 0.;
+    for (unsigned int b = 0; b < 4; ++b) // Σ φ_b a_b is the distance by which it was lowered
+      overlap.gaps[a] += lifts[b] * overlap.slave_parts[a][b];
+  }
   return overlap;
 }
 

@@ -75,7 +75,8 @@ std::string HistoryFile::columns(const Scene &scene) {
           "deepest_penetration", "travel_x", "travel_y", "travel_z", "turn"})
       stream << "," << column_name(tool.name()) << "." << quantity;
   for (const auto &pair : scene.body_pairs())
-    for (const char *quantity : {"force_x", "force_y", "force_z", "contact_area", "deepest_penetration"})
+    for (const char *quantity : {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z",
+                                 "contact_area", "deepest_penetration"})
       stream << "," << column_name(pair.name) << "." << quantity;
   stream << (is_dynamic ? ",kinetic_energy" : "")
          << ",elastic_energy,plastic_work,contact_energy,friction_dissipation"
@@ -139,9 +140,13 @@ void HistoryFile::write_loads(const SolutionState &state) {
       stream_ << "," << placement.translation[c];
     stream_ << "," << placement.rotation_angle;
   }
-  for (const auto &load : state.body_pair_loads)
-    stream_ << "," << load.force[0] << "," << load.force[1] << "," << load.force[2] << "," << load.area << ","
-            << load.deepest;
+  for (const auto &load : state.body_pair_loads) {
+    for (unsigned int c = 0; c < 3; ++c)
+      stream_ << "," << load.force[c];
+    for (unsigned int c = 0; c < 3; ++c)
+      stream_ << "," << load.moment[c];
+    stream_ << "," << load.area << "," << load.deepest;
+  }
 }
 
 void HistoryFile::end_line() {

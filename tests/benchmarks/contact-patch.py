@@ -55,7 +55,8 @@ def run(geometry, facets, passes, slave, penalty=10):
 
 METHODS = [("planed", "two", "upper"), ("planed", "one", "upper"), ("planed", "one", "lower"),
            ("mean gap", "two", "upper"), ("mean gap", "one", "upper"),
-           ("bilinear", "two", "upper"), ("bilinear", "one", "upper"), ("bilinear", "one", "lower")]
+           ("bilinear", "two", "upper"), ("bilinear", "one", "upper"), ("bilinear", "one", "lower"),
+           ("overlap", "two", "upper"), ("overlap", "one", "upper"), ("overlap", "one", "lower")]
 HEAD = ["facets", "passes", "slaves", "largest error at the interface", "L2 error at the interface", "largest error anywhere",
         "penetration / edge", "largest drift of energy", "kinetic / elastic energy"]
 

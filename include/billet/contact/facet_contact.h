@@ -75,6 +75,7 @@ struct FacetContactSettings {
 /// What contact between surfaces does in one step, over all ranks.
 struct FacetContactLoad {
   dealii::Tensor<1, 3> force;           ///< on surface 0, by the others
+  dealii::Tensor<1, 3> moment;          ///< the same about the origin [force length]
   double stored_energy = 0.;            ///< in the penalty springs [energy]
   double dissipation = 0.;              ///< by friction in this step [energy]
   double area = 0.;                     ///< of slaves in contact, of both passes [length²]
@@ -243,6 +244,15 @@ private:
     }
     return lift;
   }
+  /// The largest gap of facets that fit each other [length].
+  double flush_gap(const std::size_t s) const { return 1e-9 * sizes_[s]; }
+  /// What augmentation alone lifts slave s by.
+  double augmentation(const std::size_t s) const { return lifts_.empty() ? 0. : lifts_[s]; }
+  /// Whether what slave s touches was there at the start of the step: one that came in within the step does
+  /// not go back to where it was before.
+  bool was_touching(std::size_t s) const;
+  /// What the friction of slave s starts from becomes what it is.
+  void augment_friction(std::size_t s);
   std::array<double, 4> lifts_of(const std::array<unsigned int, 4> &nodes) const {
     return nodal_lifts_.empty() ? std::array<double, 4>{}
                                 : std::array<double, 4>{nodal_lifts_[nodes[0]], nodal_lifts_[nodes[1]],

@@ -29,6 +29,8 @@ template <class Number> struct SlaveMotionOf {
   dealii::Tensor<1, 3, Number> displacement;
   dealii::Tensor<2, 3, Number> rotation; ///< R, of the facet
   double duration;                       ///< [time]; 0 in a step that takes no time
+  double lift = 0.;  ///< of augmentation: the gap is the distance less this [length]
+  double flush = 0.; ///< a node no farther than this from its facet counts as touching it [length]
 };
 using SlaveMotion = SlaveMotionOf<double>;
 
@@ -76,11 +78,22 @@ dealii::Tensor<2, 3> to_space(const FrameOf<Number> &frame, const FrameTraction 
   return tangent;
 }
 
+/// The part φ = g/(g − g_n) of the step for which a node has been behind the facet that has come through it
+/// within the step, at the distance g now; 1 if it touched it at the start.
+template <class Number>
+Number part_in_contact(const Number &distance, const dealii::Tensor<1, 3, Number> &normal,
+                       const SlaveMotionOf<Number> &motion) {
+  const Number distance_n = distance - motion.displacement * normal;
+  if (!(distance_n > motion.flush))
+    return 1.;
+  return distance < 0. ? Number(distance / (distance - distance_n)) : Number(0.);
+}
+
 /// Friction in the contact frame, eqs. (4), (5), (32)-(40) of Bittencourt & Creus (1998) as in
 /// contact/traction.h. The frame of the last step's end goes along with the facet's rotation and is turned
 /// onto the new normal, so that a pair that sticks and rotates keeps its traction components and creates
-/// none. A node that has come through the facet within the step slides for the part φ = g/(g − g_n) of it
-/// only. `gap` < 0; `history` becomes the state at the end of the step, and may be what `history_n` is.
+/// none. A node that has come through the facet within the step slides for its part_in_contact() only.
+/// `gap` < 0; `history` becomes the state at the end of the step, and may be what `history_n` is.
 ///
 /// With Derivative as Number the traction has its exact derivatives; the rest, and `history`, is of the
 /// values. `tangent`, where it is asked for, becomes −∂t/∂x of the kind of tangent that is named, as
@@ -95,9 +108,8 @@ SlaveTractionOf<Number> compute_slave_traction(const Law &law, const ContactStif
   static_assert(!std::is_same_v<Law, Frictionless>, "nothing is kept for it");
   const FrameOf<Number> frame = history_n.is_active ? history_n.frame.transported(motion.rotation, normal)
                                                     : FrameOf<Number>::from_normal(normal);
-  const Number gap_n = gap - motion.displacement * normal;
   const Number fraction =
-      !history_n.is_active && gap_n > 0. && gap < 0. ? Number(gap / (gap - gap_n)) : Number(1.);
+      history_n.is_active ? Number(1.) : part_in_contact(Number(gap + motion.lift), normal, motion);
   const std::array<Number, 2> slid{fraction * (motion.displacement * frame.q),
                                    fraction * (motion.displacement * frame.r)};
   TangentialIncrement increment{{value_of(slid[0]), value_of(slid[1])}};

@@ -47,7 +47,9 @@ struct TangentialIncrement {
 /// - stick, if |t*| ≤ L(p, 0): t = t*;
 /// - slip otherwise: |t*| − k_t γ = L(p, γ/Δt), t = L t*/|t*|.
 ///
-/// `gap` < 0; `tangential_n` is the traction at the start of the step. Tangents per area, with β = L/|t*|,
+/// Where `gap` >= 0 the node only just touches: it has no traction, and sticks once it is pressed.
+///
+/// `tangential_n` is the traction at the start of the step. Tangents per area, with β = L/|t*|,
 /// t̂ = t*/|t*|, ρ = L_v/(k_t Δt + L_v), and L_p and L_v the limit's slopes:
 /// - stick: k_n n⊗n + k_t P, eq. (58);
 /// - consistent: k_n n⊗n + β k_t (P − t̂⊗t̂) + L_p (1 − ρ) k_n t̂⊗n + ρ k_t t̂⊗t̂, eqs. (55)-(57);
