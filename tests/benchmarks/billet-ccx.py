@@ -10,7 +10,7 @@ from pathlib import Path
 
 from billet_runs import (PAIR, PENALTY, PROGRAM, SCENE, Run, arguments, children_seconds, fixed_steps,
                          frictionless_force, interpolate, mesh, n_elements, number, publish, table, variant)
-from ccx_decks import CCX_ENVIRONMENT, FACES, read_bricks
+from ccx_decks import FACES, CcxJob, read_bricks
 
 options = arguments("billet-ccx")
 REPEAT = 3
@@ -72,29 +72,20 @@ def write_deck(path, nodes, bricks, element, contact, friction, increment):
 
 
 class CcxRun:
-    """A run of CalculiX: `seconds`, `iterations` (with those of cut increments), `steps`, `cuts`, `converged`,
+    """A run of CalculiX: `seconds`, `megabytes`, `iterations` (with those of cut increments), `steps`, `cuts`, `converged`,
     `times` and `forces` (on the whole billet, in kN, from time 0 on), as a run of billet has them."""
 
     def __init__(self, nodes, bricks, element, contact, friction=0.1, increment=0.02):
         with tempfile.TemporaryDirectory() as folder:
             write_deck(Path(folder, "deck.inp"), nodes, bricks, element, contact, friction, increment)
-            before = children_seconds()
-            subprocess.run(["ccx", "deck"], cwd=folder, env=CCX_ENVIRONMENT, stdout=subprocess.DEVNULL)
-            self.seconds = children_seconds() - before
-
-            def records(name):
-                lines = [line.split() for line in Path(folder, name).read_text().splitlines()]
-                return [words for words in lines if words and words[0].isdigit()]
-
-            increments = records("deck.sta")
-            self.iterations = len(records("deck.cvg"))
+            job = CcxJob(folder, 1.0)
             forces = re.findall(r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)",
                                 Path(folder, "deck.dat").read_text(), re.S)
+        self.seconds, self.megabytes, self.iterations, self.cuts = job.seconds, job.megabytes, job.iterations, job.cuts
         self.steps = len(forces)
-        self.cuts = sum(words[2].endswith("U") for words in increments)
         self.times = [0.0] + [float(time) for time, _, _, _ in forces]
         self.forces = [0.0] + [-4e-3 * float(force) for _, _, _, force in forces]
-        self.converged = self.times[-1] > 1.0 - 1e-6
+        self.converged = not job.failure
         print(f"[ccx {element} {contact}, {len(bricks)} bricks] {self.iterations} iterations, {self.seconds:.3g} s",
               file=sys.stderr, flush=True)
 
@@ -124,6 +115,8 @@ for level in (1,) if options.quick else (1, 2, 3) if options.large else (1, 2):
         run = repeated[0]
         rows.append([n_elements(level), name, run.steps, run.cuts, run.iterations,
                      number(statistics.median(r.seconds for r in repeated), 3),
+                     number(statistics.median(r.seconds for r in repeated) / run.iterations, 2),
+                     number(round(run.megabytes)),
                      number(interpolate(run.times, run.forces, 0.8), 4),
                      number(run.forces[-1], 4) if run.converged else f"stops at {run.times[-1]:.2g}"])
 
@@ -155,7 +148,7 @@ publish(
     f"{' (one each on 3840 bricks)' if options.large else ''}. "
     f"{start:.2g} of billet's seconds are its start: MPI and the loading of libraries. Iterations count those of cut "
     "steps. Forces on the whole billet in kN, at 80 % and at the end of the travel.",
-    table(["bricks", "program", "steps", "cuts", "iterations", "CPU seconds", "force at 80 %", "force at the end"],
+    table(["bricks", "program", "steps", "cuts", "iterations", "CPU seconds", "for each iteration", "peak memory [MB]", "force at 80 %", "force at the end"],
           rows),
     "C3D8R: one point and hourglass control; C3D8: full integration, which locks; C3D8I: incompatible modes, which "
     "collapse. In both programs the force depends on the step with friction (see "
