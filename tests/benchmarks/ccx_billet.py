@@ -70,13 +70,13 @@ def write_deck(path, nodes, bricks, element, contact, friction, increment, part)
 
 
 class CcxRun:
-    """A run of CalculiX until that part of the travel: `seconds`, `megabytes`, `iterations` (with those of cut increments), `steps`, `cuts`, `converged`,
+    """A run of CalculiX until that part of the travel, of so many CPU seconds at most: `seconds`, `megabytes`, `iterations` (with those of cut increments), `steps`, `cuts`, `converged`,
     `times` and `forces` (on the whole billet, in kN, from time 0 on), as a run of billet has them."""
 
-    def __init__(self, nodes, bricks, element, contact, friction=0.1, increment=0.02, part=1.0):
+    def __init__(self, nodes, bricks, element, contact, friction=0.1, increment=0.02, part=1.0, limit=None):
         with tempfile.TemporaryDirectory() as folder:
             write_deck(Path(folder, "deck.inp"), nodes, bricks, element, contact, friction, increment, part)
-            job = CcxJob(folder, part)
+            job = CcxJob(folder, part, limit)
             forces = re.findall(r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)",
                                 Path(folder, "deck.dat").read_text(), re.S)
         self.seconds, self.megabytes, self.iterations, self.cuts = job.seconds, job.megabytes, job.iterations, job.cuts
