@@ -73,10 +73,29 @@ def children_seconds():
     return usage.ru_utime + usage.ru_stime
 
 
+class Measured:
+    """A program that has run in `folder`: `code`, `stdout`, `stderr`, `seconds` (user and system, of all its processes) and
+    `megabytes` (at most at a time, of the largest one). After `limit` seconds of a processor the system ends it."""
+
+    def __init__(self, command, folder, limit=None, **options):
+        def restrict():
+            if limit:
+                resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
+
+        with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+            process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=err, preexec_fn=restrict, **options)
+            _, status, usage = os.wait4(process.pid, 0)
+            self.code = process.returncode = os.waitstatus_to_exitcode(status)
+            out.seek(0), err.seek(0)
+            self.stdout, self.stderr = out.read(), err.read()
+        self.seconds = usage.ru_utime + usage.ru_stime
+        self.megabytes = usage.ru_maxrss / 1024
+
+
 class Run:
     """A finished run: `converged`, `failure` (why not, in short), `times` and `forces` (on the whole body, in kN,
     from time 0 on), `steps`, `iterations` (with those of cut steps), `cuts`, `seconds` (user and system, of all ranks),
-    `rows` of the history, what was `said` on the console. Results stay in `folder`, if there is one."""
+    `megabytes` (of the largest rank), `rows` of the history, what was `said` on the console. Results stay in `folder`, if there is one."""
 
     def __init__(self, changes=None, ranks=1, scene=SCENE, tool="die", folder=None):
         text = variant(read_scene(scene), {"Output/Format": "none", "Output/Verbosity": "quiet",
@@ -86,14 +105,13 @@ class Run:
             place = Path(folder or temporary)
             place.mkdir(parents=True, exist_ok=True)
             (place / "scene.prm").write_text(text)
-            before = children_seconds()
-            done = subprocess.run(command, cwd=place, capture_output=True, text=True)
-            self.seconds = children_seconds() - before
-            if done.returncode not in (0, 3):
-                sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
+            done = Measured(command, place)
+            self.seconds, self.megabytes = done.seconds, done.megabytes
+            if done.code not in (0, 3):
+                sys.exit(f"billet ended with {done.code}: {done.stderr}")
             with open(place / "results/history.csv", newline="") as file:
                 rows = list(csv.DictReader(file))
-        self.converged = done.returncode == 0
+        self.converged = done.code == 0
         self.failure = ("" if self.converged else "inside out" if "inadmissible" in done.stderr else
                         "no convergence" if re.search("no convergence|given up", done.stderr) else
                         done.stderr.strip())

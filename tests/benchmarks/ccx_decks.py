@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the comparisons with CalculiX share: billet's mesh from its own output."""
+"""What the comparisons with CalculiX share: billet's mesh from its own output, runs of CalculiX."""
 
 import base64
 import os
 import re
 import struct
 import zlib
+from pathlib import Path
+
+from billet_runs import Measured
 
 CCX_ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "CCX_NPROC_EQUATION_SOLVER": "1",
                    "CCX_NPROC_RESULTS": "1", "NUMBER_OF_CPUS": "1"}
@@ -26,18 +29,52 @@ def data_array(text, name, form):
     return [value for value, in struct.iter_unpack("<" + form, values)]
 
 
-def read_bricks(text, digits):
-    """Nodes and bricks (in VTK's order, which is Abaqus', too) of the fields that billet writes at time 0. Corners that
-    agree to so many decimals are one node."""
+def read_bodies(text, digits):
+    """Nodes, and the bricks (in VTK's order, which is Abaqus', too) of each body, of the fields that billet writes at time 0.
+    Corners of a body that agree to so many decimals are one node."""
     flat = data_array(text, "", "f")
     points = list(zip(flat[0::3], flat[1::3], flat[2::3]))
     corners = data_array(text, "connectivity", "i")
+    body_of = [int(body) for body in data_array(text, "body", "f")]
     index, nodes, of_point = {}, [], []
-    for point in points:  # deal.II writes each brick's own corners
-        key = tuple(round(x, digits) for x in point)
+    for point, body in zip(points, body_of):  # deal.II writes each brick's own corners
+        place = tuple(round(x, digits) for x in point)
+        key = (body,) + place
         if key not in index:
             index[key] = len(nodes)
-            nodes.append(key)
+            nodes.append(place)
         of_point.append(index[key])
-    bricks = [[of_point[corner] for corner in corners[i:i + 8]] for i in range(0, len(corners), 8)]
+    bodies = {body: [] for body in sorted(set(body_of))}
+    for i in range(0, len(corners), 8):
+        bodies[body_of[corners[i]]].append([of_point[corner] for corner in corners[i:i + 8]])
+    return nodes, list(bodies.values())
+
+
+def read_bricks(text, digits):
+    """The same where there is one body."""
+    nodes, (bricks,) = read_bodies(text, digits)
     return nodes, bricks
+
+
+class CcxJob:
+    """A run of `deck.inp` in `folder`, of so many seconds of a processor at most: `seconds`, `megabytes`, `iterations` (with
+    those of cut increments), `steps`, `cuts`, the `time` until which it has come, and `failure`: why not farther."""
+
+    def __init__(self, folder, end, limit=None):
+        def records(name):
+            path = Path(folder, name)
+            lines = [line.split() for line in path.read_text().splitlines()] if path.exists() else []
+            return [words for words in lines if words and words[0].isdigit()]
+
+        done = Measured(["ccx", "deck"], folder, limit, env=CCX_ENVIRONMENT)
+        self.seconds, self.megabytes = done.seconds, done.megabytes
+        increments = records("deck.sta")
+        self.iterations = len(records("deck.cvg"))
+        self.cuts = sum(words[2].endswith("U") for words in increments)
+        accepted = [words for words in increments if not words[2].endswith("U")]
+        self.steps = len(accepted)
+        self.time = float(accepted[-1][4]) if accepted else 0.0
+        said = [line.strip() for line in (done.stdout + done.stderr).splitlines() if "*ERROR" in line]
+        self.failure = ("" if self.time > end * (1 - 1e-6) else
+                        f"{limit} s are over" if limit and self.seconds > 0.99 * limit else
+                        re.sub(r"\s+", " ", said[0]) if said else f"ends with code {done.code}")

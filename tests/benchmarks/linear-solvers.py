@@ -14,6 +14,7 @@ parser.add_argument("--quick", action="store_true", help="50 000 dofs only")
 parser.add_argument("--large", action="store_true", help="add 500 000 dofs")
 parser.add_argument("--ranks", type=int, default=2, help="processes of the parallel runs (2)")
 parser.add_argument("--keep", type=Path, help="folder for what each run printed; what is there already does not run again")
+parser.add_argument("--kept", action="store_true", help="with --keep: nothing runs, what is not there is a dash")
 options = parser.parse_args()
 
 program = Path(PROGRAM).parent.parent / "tests/benchmarks/bin/linear_solvers"
@@ -21,6 +22,7 @@ SIZES = (50_000,) if options.quick else (50_000, 150_000, 500_000) if options.la
 PENALTIES = ("1", "100", "10000")
 TIES = (("sticking", "CG"), ("frictionless", "CG"), ("sliding", "GMRES"))
 DIRECT_BYTES = {"sticking": 300, "sliding": 500}  # of n^(4/3), enough to be safe
+SEVERAL_RANKS = 1.7  # times that
 
 def available_memory():
     with open("/proc/meminfo") as file:
@@ -32,8 +34,10 @@ def run(solver, size, penalty, tie, ranks, preconditioner="softened"):
     kept = options.keep / name if options.keep else None
     if kept and kept.exists():
         words = kept.read_text().split()
+    elif options.kept:
+        return None
     else:
-        if solver == "MUMPS" and DIRECT_BYTES[tie] * size ** (4 / 3) > available_memory():
+        if solver == "MUMPS" and DIRECT_BYTES[tie] * (SEVERAL_RANKS if ranks > 1 else 1) * size ** (4 / 3) > available_memory():
             print(f"{name}: too little memory", file=sys.stderr, flush=True)
             return None
         command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [str(program), solver, str(size), penalty, tie, preconditioner]
@@ -49,11 +53,11 @@ def run(solver, size, penalty, tie, ranks, preconditioner="softened"):
 
 def cells(result):
     if result is None:
-        return ["–"] * 4
+        return ["–"] * 5
     iterations = (number(int(result["iterations"])) if result["success"] else "none in " + number(int(result["iterations"]))) if result["iterations"] else "direct"
-    return [iterations, number(result["set_up"]), number(result["solve"]), number(round(result["peak"]))]
+    return [iterations, number(result["set_up"]), number(result["solve"]), number(result["set_up"] + result["solve"]), number(round(result["peak"]))]
 
-head = ["dofs", "contact nodes", "contact", "k h / E", "solver", "ranks", "iterations", "set-up [CPU s]", "solve [CPU s]", "peak memory [MB]"]
+head = ["dofs", "contact nodes", "contact", "k h / E", "solver", "ranks", "iterations", "set-up [CPU s]", "solve [CPU s]", "both [CPU s]", "peak memory [MB]"]
 rows, variants = [], []
 for size in SIZES:
     for ranks in (1, options.ranks):
@@ -62,28 +66,49 @@ for size in SIZES:
                 result = run(krylov, size, penalty, tie, ranks)
                 rows.append([int(result["dofs"]), int(result["pairs"]), tie, penalty, krylov, ranks] + cells(result) if result else
                             [size, "–", tie, penalty, krylov, ranks] + cells(None))
-            if tie == "frictionless" or (ranks > 1 and size > 150_000):  # MUMPS does as for sticking; there it does not fit
+            if tie == "frictionless":  # MUMPS does as for sticking
                 continue
             result = run("MUMPS", size, PENALTIES[-1], tie, ranks)
             rows.append([int(result["dofs"]) if result else size, int(result["pairs"]) if result else "–", tie, PENALTIES[-1],
                          "MUMPS symmetric" if tie == "sticking" else "MUMPS", ranks] + cells(result))
 
+def memory():
+    """Where MUMPS has not run: what it would need, by its growth."""
+    found = {}
+    for size in SIZES:
+        for ranks in (1, options.ranks):
+            for tie in DIRECT_BYTES:
+                result = run("MUMPS", size, PENALTIES[-1], tie, ranks)
+                if result:
+                    found[size, tie, ranks] = result["peak"]
+    largest, middle = SIZES[-1], SIZES[-2] if len(SIZES) > 1 else None
+    if (largest, "sticking", 1) not in found or (middle, "sticking", 1) not in found:
+        return None
+    growth = found[largest, "sticking", 1] / found[middle, "sticking", 1]
+    missing = [f"{'symmetric' if tie == 'sticking' else 'unsymmetric'} on {ranks} rank{'s' if ranks > 1 else ''}, {number(round(growth * found[middle, tie, ranks], -2))} MB"
+               for ranks in (1, options.ranks) for tie in DIRECT_BYTES if (largest, tie, ranks) not in found and (middle, tie, ranks) in found]
+    return ("MUMPS at the largest size, where it did not run, would need, growing as the symmetric factors on one rank do: " + "; ".join(missing) + "."
+            if missing else None)
+
+
 for tie, krylov in TIES:
     for penalty in PENALTIES:
         variants.append([tie, penalty, krylov] + [cells(run(krylov, SIZES[0], penalty, tie, 1, kind))[0] for kind in ("plain", "block", "softened")])
 
-page = "\n\n".join([
+page = "\n\n".join(part for part in [
     "# Two bodies in contact: linear solvers",
     "Written by `scripts/benchmarks linear-solvers" + (" --large" if options.large else "") + "`.",
     "Two elastic cubes with meshes that do not fit, one on the other, tied node to facet by a penalty k: sticking, k in all directions; frictionless, "
     "along the normal alone; sliding, along the normal, with a friction of 0.3 of the pressure, so that the matrix is unsymmetric. One linear system, "
     "solved to 1e-8, as an exact Newton step would; Newton's forcing asks for 1e-2 most of the time, in a quarter of the iterations. CPU seconds are of all ranks, "
     "each run once, on a busy machine: they are to be read as ratios. The peak memory is of all ranks, mesh, matrix and libraries included. "
-    "On several ranks each has a part of both cubes. A dash: the machine had not enough memory.",
+    "On several ranks each has a part of both cubes. What a direct solver does depends on the pattern of the matrix, and not on k: one k is enough. A step of Newton's "
+    "method sets up and solves once. A dash: not measured, or not enough memory.",
     table(head, rows),
+    memory(),
     f"## What does it\n\nIterations at {SIZES[0]} dofs on one rank: multigrid alone; then with the contact dofs solved directly after each cycle; then with the cycle for "
     "softened contact, too, which is what the program does (theory: *Solution*).",
-    table(["contact", "k h / E", "solver", "multigrid", "and contact block", "and softened contact"], variants)]) + "\n"
+    table(["contact", "k h / E", "solver", "multigrid", "and contact block", "and softened contact"], variants)] if part) + "\n"
 print(page)
 if options.quick:
     print("A quick run: doc/results/linear-solvers.md stays as it is.")

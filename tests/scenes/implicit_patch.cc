@@ -2,11 +2,12 @@
 // Patch test in statics with overlapping facets: meshes that do not match, distorted by 30 % and turned, pass
 // on a uniform stress to round-off, whatever the penalty, the passes and the augmentation; and it is that of
 // the closed form with the penetration p/k. A block with an inclined cut that friction holds comes as close
-// to that as penalties are stiff, or as augmentation is asked to.
-#include "scene_run.h"
+// to that as penalties are stiff, or as augmentation is asked to. Lifted, neither keeps a stress.
+#include "unloaded.h"
 
 #include <deal.II/base/mpi.h>
 
+#include <iomanip>
 #include <sstream>
 
 using namespace billet;
@@ -19,6 +20,11 @@ namespace {
 std::string print(const double number) {
   std::ostringstream out;
   out << number;
+  return out.str();
+}
+std::string print_exactly(const double number) {
+  std::ostringstream out;
+  out << std::setprecision(17) << number;
   return out.str();
 }
 
@@ -48,6 +54,26 @@ SymmetricTensor<2, 3> exact_stress(const dealii::Tensor<1, 3> &n, const double n
     for (unsigned int j = i; j < 3; ++j)
       stress[i][j] = std::log(low) / low * ((i == j ? lame : 0.) + (along - lame) * n[i] * n[j]);
   return stress;
+}
+
+/// Presses until 1, then lifts by two fifths of the travel, in steps of a half.
+void test_unloading(const std::string &name, parameters::Scene scene, const double travel,
+                    const dealii::Tensor<1, 3> &direction) {
+  for (unsigned int i = 0; i < 3; ++i)
+    scene.bodies[1].supports[0].displacement.value[i] =
+        print_exactly(travel * direction[i]) + "*(t < 1 ? t : 2.4 - 1.4*t)";
+  scene.time_stepping.end_time = 2.;
+  SceneRun run(scene);
+  double stored = 0.;
+  run.finish([&](const NewtonReport &) {
+    const SolutionState &state = run.problem.state();
+    stored = std::max(stored, state.energies.elastic);
+    if (state.time < 1.8)
+      check(name + " at " + print(state.time) + ": it is pressed",
+            state.body_pair_loads[0].force.norm() > 0.);
+  });
+  testing::check_unloaded(name + ": ", run, stored);
+  check(name + ": nothing has slipped", run.problem.state().energies.friction == 0.);
 }
 
 } // namespace
@@ -110,5 +136,19 @@ int main(int argc, char *argv[]) {
           stress_error(run, exact_stress(dealii::Tensor<1, 3>({0., 0., 1.}), 0., 0.004, 0.)),
           2. * 1e-6 * edge / 0.004);
   }
+
+  using Facets = parameters::ContactPair::Facets;
+  for (const auto facets : {Facets::overlap, Facets::planed}) {
+    const std::string name = facets == Facets::overlap ? "overlap" : "planed";
+    auto scene = turned;
+    scene.pairs[0].facets.value = facets;
+    test_unloading("turned block, " + name, scene, 0.2, -n);
+    scene = cut;
+    scene.pairs[0].facets.value = facets;
+    test_unloading("inclined cut, " + name, scene, 0.004, dealii::Tensor<1, 3>({0., 0., -1.}));
+  }
+  auto augmented = turned;
+  augmented.pairs[0].penetration_tolerance = 1e-6;
+  test_unloading("turned block, augmented", augmented, 0.2, -n);
   return testing::exit_code();
 }
