@@ -19,7 +19,9 @@ inline double compute_elastic_energy(const ElasticModuli &elastic, const Princip
 class HenckyElasticity {
 public:
   struct History {};
-  static constexpr bool has_plasticity = false;
+  using Moduli = SpatialModuli;
+  static constexpr bool has_plasticity = false, has_history = false, is_rate_form = false,
+                        has_symmetric_moduli = true;
   static constexpr unsigned int n_history = 0;
 
   explicit HenckyElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}

@@ -44,7 +44,9 @@ public:
     dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>(); ///< C_p⁻¹
     double equivalent_plastic_strain = 0.;                                                     ///< α
   };
-  static constexpr bool has_plasticity = true;
+  using Moduli = SpatialModuli;
+  static constexpr bool has_plasticity = true, has_history = true, is_rate_form = false,
+                        has_symmetric_moduli = true;
 
   HenckyPlasticity(const ElasticModuli &elastic, Hardening hardening)
       : elastic_(elastic), hardening_(std::move(hardening)) {}
@@ -119,6 +121,9 @@ public:
     return history;
   }
 
+  double yield_stress(const History &history) const {
+    return hardening_.stress(history.equivalent_plastic_strain);
+  }
   double plastic_work(const History &history) const {
     return hardening_.work(history.equivalent_plastic_strain);
   }
