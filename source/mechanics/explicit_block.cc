@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mechanics/explicit_block.h"
 
-#include "billet/material/plastic.h"
+#include "billet/material/neo_hookean.h"
 #include "billet/mechanics/explicit_instructions.h"
 #include "billet/mechanics/explicit_storage.h"
 
@@ -213,16 +213,7 @@ private:
     const dealii::SymmetricTensor<2, 3> X = dev_tau / material_.shear;
     if (formulation_.kinematics == Kinematics::hencky)
       return exponential(X);
-    // b̄_e = X + x I with the largest x for which det b̄_e = x³ − i_2 x + i_3 is 1; Newton comes down to it.
-    const double i_2 = 0.5 * (X * X), i_3 = dealii::determinant(X);
-    double x = 1. + X.norm();
-    for (unsigned int i = 0; i < 100; ++i) {
-      const double change = (x * x * x - i_2 * x + i_3 - 1.) / (3. * x * x - i_2);
-      x -= change;
-      if (!(change > 1e-16 * x))
-        break;
-    }
-    return X + x * dealii::unit_symmetric_tensor<3>();
+    return X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>();
   }
 
   /// dev τ and the energy that it stores per reference volume, from a PointState's tensor.

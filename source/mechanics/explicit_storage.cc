@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mechanics/explicit_storage.h"
 
+#include "billet/mechanics/modal_geometry.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +15,6 @@ using Kinematics = ExplicitFormulation::Kinematics;
 namespace {
 
 constexpr std::size_t n_last = 3; ///< what history keeps of the last call, see kernel.h
-
-double corner(const unsigned int a, const unsigned int i) { return ((a >> i) & 1U) != 0U ? 1. : -1.; }
 
 /// ∂ξ/∂X at a point: the gradient of the field that has the corners' coordinates ξ as nodal values.
 Tensor<2, 3> compute_inverse_jacobian(const ReferenceElement &reference, const unsigned int q) {
@@ -51,57 +51,24 @@ template <std::size_t n> double bound_by_rows(const std::array<std::array<double
   return largest;
 }
 
-/// The one-point element's geometry, see one_point.h.
-struct ModalGeometry {
-  std::array<Tensor<1, 3>, 7> modes; ///< a_1, a_2, a_3, b_1, b_2, b_3, c
-  double volume;
-  std::array<std::array<double, 3>, 6> beta;
-
-  explicit ModalGeometry(const ElementVectors &positions) {
-    constexpr unsigned int bits[7] = {1, 2, 4, 6, 5, 3, 7};
-    for (unsigned int m = 0; m < 7; ++m)
-      for (unsigned int a = 0; a < n_element_nodes; ++a) {
-        double sign = 0.125;
-        for (unsigned int i = 0; i < 3; ++i)
-          sign *= ((bits[m] >> i) & 1U) != 0U ? corner(a, i) : 1.;
-        for (unsigned int i = 0; i < 3; ++i)
-          modes[m][i] += sign * positions[3 * a + i];
-      }
-    volume = 0.;
-    std::array<Tensor<1, 3>, 6> derivatives; // ∂V/∂m
-    for (unsigned int i = 0; i < 3; ++i) {
-      const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
-      derivatives[i] =
-          8. * cross_product_3d(modes[j], modes[k]) - 8. / 3. * cross_product_3d(modes[3 + j], modes[3 + k]);
-      derivatives[3 + i] =
-          -8. / 3. * (cross_product_3d(modes[j], modes[3 + k]) + cross_product_3d(modes[3 + j], modes[k]));
+/// λ_max of J̄ᵀJ̄ per squared displacement, and of J̄ and the modes b and c together: modes are orthogonal, of
+/// squared length 1/8.
+void bound(const ModalGeometry &geometry, double &mean, double &all) {
+  std::array<std::array<double, 3>, 3> mean_matrix{};
+  std::array<std::array<double, 7>, 7> matrix{};
+  for (unsigned int k = 0; k < 3; ++k) {
+    for (unsigned int l = 0; l < 3; ++l) {
+      for (const auto &row : geometry.beta)
+        mean_matrix[k][l] += row[k] * row[l];
+      matrix[k][l] = mean_matrix[k][l];
+      matrix[k][3 + l] = matrix[3 + l][k] = geometry.beta[3 + l][k];
     }
-    for (unsigned int m = 0; m < 6; ++m)
-      volume += derivatives[m] * modes[m] / 3.; // homogeneous of degree three
-    for (unsigned int m = 0; m < 6; ++m)
-      for (unsigned int k = 0; k < 3; ++k)
-        beta[m][k] = derivatives[m] * modes[k] / volume;
   }
-
-  /// λ_max of J̄ᵀJ̄ per squared displacement, and of J̄ and the modes b and c together: modes are orthogonal, of
-  /// squared length 1/8.
-  void bound(double &mean, double &all) const {
-    std::array<std::array<double, 3>, 3> mean_matrix{};
-    std::array<std::array<double, 7>, 7> matrix{};
-    for (unsigned int k = 0; k < 3; ++k) {
-      for (unsigned int l = 0; l < 3; ++l) {
-        for (const auto &row : beta)
-          mean_matrix[k][l] += row[k] * row[l];
-        matrix[k][l] = mean_matrix[k][l];
-        matrix[k][3 + l] = matrix[3 + l][k] = beta[3 + l][k];
-      }
-    }
-    for (unsigned int k = 3; k < 7; ++k)
-      matrix[k][k] = 1.;
-    mean = bound_by_rows(mean_matrix) / 8.;
-    all = bound_by_rows(matrix) / 8.;
-  }
-};
+  for (unsigned int k = 3; k < 7; ++k)
+    matrix[k][k] = 1.;
+  mean = bound_by_rows(mean_matrix) / 8.;
+  all = bound_by_rows(matrix) / 8.;
+}
 
 } // namespace
 
@@ -220,7 +187,7 @@ bool ExplicitStorage::initialize_element(const std::size_t element,
       return false;
     const Tensor<2, 3> inverse = invert(jacobian);
     double mean = 0., all = 0.;
-    geometry.bound(mean, all);
+    bound(geometry, mean, all);
     lambda = volume * bound_metric(inverse) * mean;
     constant(element, 0) = volume;
     constant(element, 1) = 1. / det;

@@ -90,7 +90,7 @@ bool compute_kinematics(const ReferenceElement &element, const ElementVectors &d
   }
   for (double &b : kinematics.mean_divergence)
     b /= kinematics.current_volume;
-  const double J_bar = kinematics.current_volume / reference_volume;
+  const double J_bar = kinematics.volume_ratio = kinematics.current_volume / reference_volume;
   for (unsigned int q = 0; q < n_element_points; ++q)
     kinematics.F_bar[q] *= std::cbrt(J_bar / J[q]);
   return true;
@@ -114,11 +114,13 @@ void add_internal_force(const ReferenceElement &element, const MeanDilatationKin
     force[k] += volumetric * kinematics.mean_divergence[k];
 }
 
-void compute_internal_tangent(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
-                              const std::array<SymmetricTensor<2, 3>, n_element_points> &tau,
-                              const std::array<SpatialModuli, n_element_points> &moduli,
-                              ElementMatrix &matrix) {
-  // Only the upper triangle is computed, then mirrored.
+namespace {
+
+/// Where it is symmetric only the upper triangle is computed, then mirrored.
+template <bool is_symmetric>
+void compute_tangent(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
+                     const std::array<SymmetricTensor<2, 3>, n_element_points> &tau,
+                     const std::array<SpatialModuli, n_element_points> &moduli, ElementMatrix &matrix) {
   matrix.fill(0.);
   double volumetric = 0.; // Π
   for (unsigned int q = 0; q < n_element_points; ++q)
@@ -166,18 +168,18 @@ void compute_internal_tangent(const ReferenceElement &element, const MeanDilatat
       const double theta_factor = 2. * tau_grad[r] + 2. * w * trace * theta[r];
       const double tau_factor = 2. * theta[r];
       const double div_factor = dilate * divergence[r];
-      for (unsigned int c = r; c < n_element_dofs; ++c)
+      for (unsigned int c = is_symmetric ? r : 0; c < n_element_dofs; ++c)
         row[c] += B[0][r] * cB[0][c] + B[1][r] * cB[1][c] + B[2][r] * cB[2][c] + B[3][r] * cB[3][c] +
                   B[4][r] * cB[4][c] + B[5][r] * cB[5][c] + theta_factor * theta[c] +
                   tau_factor * tau_grad[c] + div_factor * divergence[c];
-      for (std::size_t b = a; b < n_element_nodes; ++b) {
+      for (std::size_t b = is_symmetric ? a : 0; b < n_element_nodes; ++b) {
         const auto &g_a = gradients[a];
         const auto &g_b = gradients[b];
         // tr(δL L) couples (a, i) and (b, j) through ∂N_a/∂x_j ∂N_b/∂x_i.
         for (unsigned int j = 0; j < 3; ++j)
-          if (3 * b + j >= r)
+          if (!is_symmetric || 3 * b + j >= r)
             row[3 * b + j] += swap * g_a[j] * g_b[i];
-        if (3 * b + i >= r)
+        if (!is_symmetric || 3 * b + i >= r)
           row[3 * b + i] +=
               g_a[0] * tau_grad[3 * b] + g_a[1] * tau_grad[3 * b + 1] + g_a[2] * tau_grad[3 * b + 2];
       }
@@ -185,12 +187,30 @@ void compute_internal_tangent(const ReferenceElement &element, const MeanDilatat
   }
 
   for (unsigned int r = 0; r < n_element_dofs; ++r)
-    for (unsigned int c = r; c < n_element_dofs; ++c) {
+    for (unsigned int c = is_symmetric ? r : 0; c < n_element_dofs; ++c) {
       const double value = matrix[static_cast<std::size_t>(r) * n_element_dofs + c] -
                            volumetric * kinematics.mean_divergence[r] * kinematics.mean_divergence[c];
       matrix[static_cast<std::size_t>(r) * n_element_dofs + c] = value;
-      matrix[static_cast<std::size_t>(c) * n_element_dofs + r] = value;
+      if (is_symmetric)
+        matrix[static_cast<std::size_t>(c) * n_element_dofs + r] = value;
     }
+}
+
+} // namespace
+
+void compute_internal_tangent(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
+                              const std::array<SymmetricTensor<2, 3>, n_element_points> &tau,
+                              const std::array<SpatialModuli, n_element_points> &moduli,
+                              ElementMatrix &matrix) {
+  compute_tangent<true>(element, kinematics, tau, moduli, matrix);
+}
+
+void compute_unsymmetric_internal_tangent(const ReferenceElement &element,
+                                          const MeanDilatationKinematics &kinematics,
+                                          const std::array<SymmetricTensor<2, 3>, n_element_points> &tau,
+                                          const std::array<SpatialModuli, n_element_points> &moduli,
+                                          ElementMatrix &matrix) {
+  compute_tangent<false>(element, kinematics, tau, moduli, matrix);
 }
 
 } // namespace billet

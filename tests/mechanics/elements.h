@@ -90,8 +90,27 @@ inline NodalTensor distorted_cube() {
 /// Displacements of the uniform deformation gradient F.
 inline NodalTensor displace(const Tensor<2, 3> &F, const NodalTensor &X) { return transform(F - unit, X); }
 
-inline std::unique_ptr<ElementBlock> make_block(const MaterialLaw &material, const NodalTensor &X) {
-  auto block = make_element_block(material);
+inline std::string name_of(const ElementFormulation &formulation) {
+  return describe(formulation).substr(std::string("implicit, ").size());
+}
+
+/// Calls run(formulation) for every element and kinematics.
+template <class Function> void for_each_formulation(const Function &run) {
+  using Formulation = ElementFormulation;
+  for (const auto element :
+       {Formulation::Element::mean_dilatation, Formulation::Element::full, Formulation::Element::one_point})
+    for (const auto kinematics : {Formulation::Kinematics::hencky, Formulation::Kinematics::neo_hookean,
+                                  Formulation::Kinematics::hypoelastic}) {
+      Formulation formulation;
+      formulation.element = element;
+      formulation.kinematics = kinematics;
+      run(formulation);
+    }
+}
+
+inline std::unique_ptr<ElementBlock> make_block(const MaterialLaw &material, const NodalTensor &X,
+                                                const ElementFormulation &formulation = {}) {
+  auto block = make_element_block(material, formulation);
   std::size_t offender = 0;
   AssertThrow(block->initialize({to_array(X)}, offender), dealii::ExcInternalError());
   return block;

@@ -69,7 +69,14 @@ int main() {
     check(testing::name_of(formulation) + ", history given to another",
           (twin.advance(1.01 * u, 1.) - f).norm(), 0.);
   });
-  testing::Random other;
+  testing::for_each_formulation([&](const ElementFormulation &formulation) {
+    const auto block = testing::make_block(material, X, formulation);
+    for (unsigned int i = 1; i <= 50; ++i) {
+      testing::compute_force(*block, i / 50. * u);
+      block->commit();
+    }
+    sources.emplace_back(describe(formulation), block->compute_stress(0, testing::to_array(u)));
+  });
   bool all_yield = true;
   for (const auto &[name, stress] : sources)
     for (const auto &point : stress)
@@ -100,15 +107,30 @@ int main() {
         check(to + ", forces", (f - testing::to_tensor(force)).norm() / testing::to_tensor(force).norm(),
               1e-9);
     });
-    std::vector<double> numbers(implicit->state_size());
-    implicit->get_state(0, numbers.data());
-    const auto twin = make_element_block(material);
-    twin->initialize({testing::to_array(X)}, ignored);
-    twin->set_state(0, numbers.data());
-    ElementVectors same{};
-    twin->evaluate(0, testing::to_array(u), same, nullptr);
-    check(name + " to implicit, history given to another",
-          (testing::to_tensor(same) - testing::to_tensor(force)).norm(), 0.);
+
+    testing::WorstError hourglass_energy, twin_error;
+    testing::for_each_formulation([&, &from = name, &wanted = stress](const ElementFormulation &formulation) {
+      const auto block = testing::make_block(material, X, formulation);
+      block->set_stress(0, testing::to_array(u), wanted);
+      const bool has_one = formulation.element == ElementFormulation::Element::one_point;
+      const std::string to = from + " to " + describe(formulation);
+      check(to, distance(block->compute_stress(0, testing::to_array(u)), has_one ? mean_of(wanted) : wanted),
+            1e-9);
+      hourglass_energy.add(block->summarize(0, testing::to_array(u)).hourglass_energy);
+      testing::compute_force(*block, 1.01 * u);
+      block->commit();
+      std::vector<double> numbers(block->state_size());
+      block->get_state(0, numbers.data());
+      const auto twin = testing::make_block(material, X, formulation);
+      twin->set_state(0, numbers.data());
+      const NodalTensor expected = testing::compute_force(*block, 1.02 * u);
+      twin_error.add((testing::compute_force(*twin, 1.02 * u) - expected).norm());
+      std::vector<double> again(twin->state_size());
+      twin->get_state(0, again.data());
+      twin_error.add(again == numbers ? 0. : NAN);
+    });
+    check(name + " to implicit, no hourglass energy", hourglass_energy.value(), 1e-9);
+    check(name + " to implicit, history given to another and taken back", twin_error.value(), 0.);
   }
   return testing::exit_code();
 }

@@ -6,6 +6,7 @@
 #include "billet/mechanics/mean_dilatation.h"
 
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -18,12 +19,40 @@ struct MaterialLaw {
       hardening;
 };
 
+/// How the elements of a body are computed in static scenes and implicit dynamics.
+struct ElementFormulation {
+  enum class Element {
+    mean_dilatation, ///< 2 × 2 × 2 points, F̄ of MeanDilatationKinematics
+    full,            ///< 2 × 2 × 2 points, F itself: locks where volume is kept
+    one_point        ///< mean gradient with physical stabilisation, see OnePointElement
+  };
+  /// All share the volumetric law κ ln J (Kirchhoff) and the yield condition in Kirchhoff stress.
+  enum class Kinematics {
+    hencky,      ///< F = F_e F_p, stress linear in the elastic logarithmic strain: HenckyPlasticity
+    neo_hookean, ///< F = F_e F_p, dev τ = G dev b̄_e: NeoHookeanPlasticity
+    hypoelastic  ///< rate form, midpoint strain increments and the final rotation: HypoelasticPlasticity
+  };
+
+  Element element = Element::mean_dilatation;
+  Kinematics kinematics = Kinematics::hencky;
+  double hourglass_stiffness = 1.; ///< factor on the one-point element's physical stabilisation; > 0
+  bool is_symmetrised = false; ///< the symmetric part of an unsymmetric tangent, see has_symmetric_tangent()
+};
+
+/// Whether the exact tangent of a body is symmetric: not with the hypoelastic law; where `is_plastic` not
+/// with the neo-Hookean law, nor with the one-point element, whose stabilisation yields with the point.
+bool has_symmetric_tangent(const ElementFormulation &formulation, bool is_plastic);
+
+/// What a history means: element and kinematics in words.
+std::string describe(const ElementFormulation &formulation);
+
 /// Averages and integrals over one element, for output.
 struct ElementSummary {
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< average over the current volume [stress]
   double equivalent_plastic_strain = 0.;       ///< average over the reference volume
   double elastic_energy = 0.;                  ///< integral [energy]
   double plastic_work = 0.;                    ///< integral [energy]
+  double hourglass_energy = 0.;                ///< stored in the stabilisation, and lost there [energy]
 };
 
 /// Where a material point stands, whatever law and kinematics it has: enough to go on with others.
@@ -74,7 +103,9 @@ public:
                           const ElementStress &stress) = 0;
 };
 
-std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material);
+/// Every element goes with every kinematics and hardening.
+std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material,
+                                                 const ElementFormulation &formulation = {});
 
 } // namespace billet
 

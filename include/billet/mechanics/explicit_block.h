@@ -28,12 +28,7 @@ struct ExplicitFormulation {
     mean_dilatation, ///< 2 × 2 × 2 points, the element of MeanDilatationKinematics
     one_point        ///< uniform gradient with physical stabilisation, see doc/theory.md
   };
-  /// All share the volumetric law κ ln J (Kirchhoff) and the yield condition in Kirchhoff stress.
-  enum class Kinematics {
-    hencky,      ///< F = F_e F_p, stress linear in the elastic logarithmic strain: HenckyPlasticity
-    neo_hookean, ///< F = F_e F_p, dev τ = G dev b̄_e (Simo & Hughes 1998, box 9.1, with det b̄_e = 1 kept)
-    hypoelastic  ///< rate form: midpoint strain increments, rotation of Hughes & Winget (1980)
-  };
+  using Kinematics = ElementFormulation::Kinematics;
 
   Element element = Element::mean_dilatation;
   Kinematics kinematics = Kinematics::hencky;

@@ -39,6 +39,7 @@ struct MeanDilatationKinematics {
   std::array<std::array<std::array<double, 3>, n_element_nodes>, n_element_points> gradients;
   std::array<double, n_element_points> current_volumes; ///< J w, [length³]
   double current_volume;                                ///< v
+  double volume_ratio;                                  ///< J̄
   ElementVectors mean_divergence;                       ///< (1/v) Σ J w ∂N_a/∂x_i
 };
 
@@ -57,11 +58,17 @@ void add_internal_force(const ReferenceElement &element, const MeanDilatationKin
 /// configuration and d̄ = sym L + θ I (bars over the virtual field likewise),
 ///   K = Σ_q w { δd̄ : c : d̄ + ∇N_a·τ·∇N_b I + 2 θ τ:δd + 2 δθ τ:d + 2 θ δθ tr τ + tr τ/3 tr(δL L) }
 ///       + Π { (1/v) Σ_q J w [tr δL tr L − tr(δL L)] − δdiv̄ div̄ }.
-/// Symmetric for the symmetric moduli of this program's laws.
+/// Symmetric where the moduli are, which has to be known: of unsymmetric ones only a part would be used.
 void compute_internal_tangent(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
                               const std::array<dealii::SymmetricTensor<2, 3>, n_element_points> &tau,
                               const std::array<SpatialModuli, n_element_points> &moduli,
                               ElementMatrix &matrix);
+
+/// The same for moduli of any kind.
+void compute_unsymmetric_internal_tangent(
+    const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
+    const std::array<dealii::SymmetricTensor<2, 3>, n_element_points> &tau,
+    const std::array<SpatialModuli, n_element_points> &moduli, ElementMatrix &matrix);
 
 } // namespace billet
 

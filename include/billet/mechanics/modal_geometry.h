@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_MODAL_GEOMETRY_H
+#define BILLET_MECHANICS_MODAL_GEOMETRY_H
+
+#include "billet/mechanics/mean_dilatation.h"
+
+namespace billet {
+
+/// ±1: coordinate i of corner a of the bi-unit cube.
+inline double corner(const unsigned int a, const unsigned int i) { return ((a >> i) & 1U) != 0U ? 1. : -1.; }
+
+constexpr unsigned int n_element_modes = 7; ///< a_1, a_2, a_3, b_1, b_2, b_3, c
+constexpr unsigned int n_linear_modes = 6;  ///< those which the mean gradient sees: all but c
+
+/// Value of mode m at node a, ±1; a nodal vector's mode is the mean of its products with these.
+inline double mode_at(const unsigned int m, const unsigned int a) {
+  constexpr unsigned int bits[n_element_modes] = {1, 2, 4, 6, 5, 3, 7};
+  double sign = 1.;
+  for (unsigned int i = 0; i < 3; ++i)
+    sign *= ((bits[m] >> i) & 1U) != 0U ? corner(a, i) : 1.;
+  return sign;
+}
+
+/// Modes of a nodal vector.
+inline std::array<dealii::Tensor<1, 3>, n_element_modes> compute_modes(const ElementVectors &values) {
+  std::array<dealii::Tensor<1, 3>, n_element_modes> modes;
+  for (unsigned int m = 0; m < n_element_modes; ++m)
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        modes[m][i] += 0.125 * mode_at(m, a) * values[3 * a + i];
+  return modes;
+}
+
+/// A brick by its modes, x = a_0 + a_1 ξ + a_2 η + a_3 ζ + b_1 ηζ + b_2 ζξ + b_3 ξη + c ξηζ, the one-point
+/// element's geometry: doc/theory.md, (X1), (X2).
+struct ModalGeometry {
+  std::array<dealii::Tensor<1, 3>, n_element_modes> modes;
+  double volume = 0.;
+  /// The mean of F over the undeformed brick times (a_1 a_2 a_3)_0 has the columns Σ_m β_mk x_m.
+  std::array<std::array<double, 3>, n_linear_modes> beta;
+
+  explicit ModalGeometry(const ElementVectors &positions) : modes(compute_modes(positions)) {
+    std::array<dealii::Tensor<1, 3>, n_linear_modes> derivatives; // ∂V/∂m
+    for (unsigned int i = 0; i < 3; ++i) {
+      const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+      derivatives[i] =
+          8. * cross_product_3d(modes[j], modes[k]) - 8. / 3. * cross_product_3d(modes[3 + j], modes[3 + k]);
+      derivatives[3 + i] =
+          -8. / 3. * (cross_product_3d(modes[j], modes[3 + k]) + cross_product_3d(modes[3 + j], modes[k]));
+    }
+    for (unsigned int m = 0; m < n_linear_modes; ++m)
+      volume += derivatives[m] * modes[m] / 3.; // homogeneous of degree three
+    for (unsigned int m = 0; m < n_linear_modes; ++m)
+      for (unsigned int k = 0; k < 3; ++k)
+        beta[m][k] = derivatives[m] * modes[k] / volume;
+  }
+};
+
+} // namespace billet
+
+#endif

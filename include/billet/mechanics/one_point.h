@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_ONE_POINT_H
+#define BILLET_MECHANICS_ONE_POINT_H
+
+#include "billet/mechanics/element_block.h"
+#include "billet/mechanics/modal_geometry.h"
+#include "billet/mechanics/point_tangent.h"
+
+namespace billet {
+
+/// The one-point brick of the explicit kernels, with its tangent: stored energy V ψ(F̄) of the mean gradient
+/// F̄, and that of the hourglass strains ĥ which F̄ does not see, (X4), (X5) of doc/theory.md. Where the body
+/// is plastic the latter is limited to what a yielding point stores, σ_y²/6G, by moving ĥ_0.
+class OnePointElement {
+public:
+  static constexpr unsigned int n_points = 1;
+  static constexpr bool is_stabilised = true;
+
+  /// Of b_1, b_2, b_3, c, in the element's own directions.
+  using HourglassVector = std::array<std::array<double, 3>, 4>;
+
+  struct Reference {
+    std::array<std::array<double, 3>, n_linear_modes> beta;
+    double volume;
+    dealii::Tensor<2, 3> jacobian, inverse_jacobian; ///< (a_1 a_2 a_3)_0
+    HourglassVector strain;                          ///< ĥ_0 of the undeformed element
+    std::array<double, 6> ratios; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
+  };
+  struct Kinematics {
+    dealii::Tensor<2, 3> F;                ///< F̄
+    double J;                              ///< det F̄
+    dealii::Tensor<2, 3> inverse_jacobian; ///< J̄⁻¹
+    Gradients<n_linear_modes> gradients;   ///< J̄⁻ᵀ β: of the modes' values, as ∂N_a/∂x of nodes'
+    HourglassVector strain;                ///< ĉ = J̄⁻¹ (b_1, b_2, b_3, c)
+    double volume;                         ///< V J
+  };
+  /// What the stabilisation keeps: how far plastic flow has moved ĥ_0, and the energy lost with it.
+  struct History {
+    HourglassVector shift{};
+    double lost = 0.;
+  };
+  static constexpr unsigned int n_history = 13;
+  static void store(const History &history, double *numbers);
+  static History restore(const double *numbers);
+
+  /// The stabilisation's answer.
+  struct Stabilisation {
+    HourglassVector strain, stress; ///< ĥ and V ∂W/∂ĥ after the limit
+    bool is_limited = false;
+    double root = 1.;   ///< what the limit has multiplied them with
+    double limit = 0.;  ///< [energy/volume]
+    double energy = 0.; ///< stored
+  };
+
+  OnePointElement(const ElasticModuli &elastic, const ElementFormulation &formulation);
+
+  static bool initialize(const ElementVectors &positions, Reference &reference);
+  static bool compute(const Reference &reference, const ElementVectors &displacements,
+                      Kinematics &kinematics);
+
+  template <bool>
+  static const dealii::Tensor<2, 3> &deformation(const Reference &, const Kinematics &kinematics,
+                                                 unsigned int) {
+    return kinematics.F;
+  }
+  static double volume_ratio(const Kinematics &kinematics, unsigned int) { return kinematics.J; }
+  static double reference_volume(const Reference &reference, unsigned int) { return reference.volume; }
+  static double current_volume(const Kinematics &kinematics) { return kinematics.volume; }
+  template <bool> static double weight(const Reference &reference, const Kinematics &, unsigned int) {
+    return reference.volume;
+  }
+
+  /// Elastic.
+  Stabilisation stabilise(const Reference &reference, const Kinematics &kinematics,
+                          const History &history_n) const;
+  /// With the yield stress [stress] at the end of the step; `yield_slack` as in HenckyPlasticity::update().
+  Stabilisation stabilise(const Reference &reference, const Kinematics &kinematics, double yield_stress,
+                          double yield_slack, const History &history_n, History &history) const;
+  /// The history with which the element's hourglass strains hold no energy.
+  static History find_history(const Reference &reference, const Kinematics &kinematics);
+
+  static void add_force(const Reference &reference, const Kinematics &kinematics,
+                        const dealii::SymmetricTensor<2, 3> &tau, const Stabilisation &stabilisation,
+                        ElementVectors &force);
+
+  /// `yields`: the limit follows the point's stress, on the yield surface. Symmetric where the moduli are and
+  /// it does not; else, if `is_symmetrised`, made so.
+  template <class Moduli>
+  void compute_tangent(const Reference &reference, const Kinematics &kinematics,
+                       const dealii::SymmetricTensor<2, 3> &tau, const Moduli &moduli,
+                       const Stabilisation &stabilisation, bool yields, bool is_symmetrised,
+                       ElementMatrix &matrix) const;
+
+private:
+  HourglassVector respond(const HourglassVector &h, const std::array<double, 6> &ratios) const;
+
+  double bulk_, shear_;
+  double plane_, coupling_; ///< E/(1 − ν²)/3, and ν times that
+  double torsion_, axial_;  ///< G/3, E/9
+  double stiffness_;        ///< the scene's factor
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/eight_point_elements.h"
+
+#include <cmath>
+
+namespace billet {
+
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+PointStresses MeanDilatationElement::weigh(const Reference &reference, const Kinematics &kinematics,
+                                           const PointStresses &tau) {
+  PointStresses weighed = tau;
+  for (unsigned int q = 0; q < n_points; ++q) {
+    const double ratio = kinematics.current_volumes[q] / reference.volumes[q] / kinematics.volume_ratio;
+    weighed[q] += (ratio - 1.) * dealii::deviator(tau[q]);
+  }
+  return weighed;
+}
+
+void MeanDilatationElement::compute_rate_tangent(const Reference &reference, const Kinematics &kinematics,
+                                                 const PointStresses &tau,
+                                                 const PointModuli<GradientModuli> &moduli,
+                                                 ElementMatrix &matrix) const {
+  matrix.fill(0.);
+  const ElementVectors &mean = kinematics.mean_divergence;
+  double reference_volume = 0., volumetric = 0.; // V, Π
+  for (unsigned int q = 0; q < n_points; ++q) {
+    reference_volume += reference.volumes[q];
+    volumetric += reference.volumes[q] * dealii::trace(tau[q]) / 3.;
+  }
+  for (unsigned int q = 0; q < n_points; ++q) {
+    const auto &g = kinematics.gradients[q];
+    const double weight = kinematics.current_volumes[q] / kinematics.volume_ratio;
+    const SymmetricTensor<2, 3> s = dealii::deviator(tau[q]);
+    auto rates = multiply_gradients(moduli[q], g);
+    for (unsigned int r = 0; r < 6; ++r)
+      for (unsigned int k = 0; k < n_element_dofs; ++k)
+        rates[r][k] += s.access_raw_entry(r) * (g[k / 3][k % 3] - mean[k]);
+    add_point_tangent(weight, g, s, rates, matrix.data(), n_element_dofs);
+    const double dilate = volumetric / kinematics.current_volume * kinematics.current_volumes[q];
+    for (std::size_t r = 0; r < n_element_dofs; ++r)
+      for (std::size_t c = 0; c < n_element_dofs; ++c)
+        matrix[r * n_element_dofs + c] +=
+            dilate * (g[r / 3][r % 3] * g[c / 3][c % 3] - g[r / 3][c % 3] * g[c / 3][r % 3]);
+  }
+  const double factor = bulk_ * reference_volume - volumetric;
+  for (std::size_t r = 0; r < n_element_dofs; ++r)
+    for (std::size_t c = 0; c < n_element_dofs; ++c)
+      matrix[r * n_element_dofs + c] += factor * mean[r] * mean[c];
+}
+
+bool FullElement::compute(const Reference &reference, const ElementVectors &displacements,
+                          Kinematics &kinematics) {
+  kinematics.current_volume = 0.;
+  for (unsigned int q = 0; q < n_points; ++q) {
+    Tensor<2, 3> &F = kinematics.F[q];
+    F = dealii::unit_symmetric_tensor<3>();
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          F[i][j] += displacements[3 * a + i] * reference.gradients[q][a][j];
+    const double J = kinematics.J[q] = dealii::determinant(F);
+    if (!(J > 0.) || !std::isfinite(J))
+      return false;
+    const Tensor<2, 3> inverse = dealii::invert(F);
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        kinematics.gradients[q][a][i] = reference.gradients[q][a][0] * inverse[0][i] +
+                                        reference.gradients[q][a][1] * inverse[1][i] +
+                                        reference.gradients[q][a][2] * inverse[2][i];
+    kinematics.current_volume += J * reference.volumes[q];
+  }
+  return true;
+}
+
+void FullElement::compute_symmetric_tangent(const Reference &reference, const Kinematics &kinematics,
+                                            const PointStresses &tau,
+                                            const PointModuli<SpatialModuli> &moduli, ElementMatrix &matrix) {
+  matrix.fill(0.);
+  for (unsigned int q = 0; q < n_points; ++q)
+    add_point_tangent(reference.volumes[q], kinematics.gradients[q], tau[q], moduli[q], matrix.data(),
+                      n_element_dofs);
+}
+
+void FullElement::compute_rate_tangent(const Reference &reference, const Kinematics &kinematics,
+                                       const PointStresses &tau, const PointModuli<GradientModuli> &moduli,
+                                       ElementMatrix &matrix) const {
+  matrix.fill(0.);
+  for (unsigned int q = 0; q < n_points; ++q) {
+    auto rates = multiply_gradients(moduli[q], kinematics.gradients[q]);
+    for (unsigned int k = 0; k < n_element_dofs; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+        rates[i][k] += bulk_ * kinematics.gradients[q][k / 3][k % 3];
+    add_point_tangent(reference.volumes[q], kinematics.gradients[q], tau[q], rates, matrix.data(),
+                      n_element_dofs);
+  }
+}
+
+} // namespace billet

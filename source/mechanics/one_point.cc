@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/one_point.h"
+
+#include <cmath>
+
+namespace billet {
+
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace {
+
+constexpr std::size_t n_modal_dofs = std::size_t{3} * n_element_modes;
+using ModalMatrix = std::array<double, n_modal_dofs * n_modal_dofs>;
+using ModalForces = std::array<std::array<double, 3>, n_element_modes>;
+
+double contract(const OnePointElement::HourglassVector &a, const OnePointElement::HourglassVector &b) {
+  double sum = 0.;
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      sum += a[m][k] * b[m][k];
+  return sum;
+}
+
+/// J̄⁻¹ (b_1, b_2, b_3, c).
+OnePointElement::HourglassVector pull_modes(const Tensor<2, 3> &inverse, const ModalGeometry &geometry) {
+  OnePointElement::HourglassVector strain;
+  for (unsigned int m = 0; m < 4; ++m) {
+    const Tensor<1, 3> pulled = inverse * geometry.modes[3 + m];
+    for (unsigned int k = 0; k < 3; ++k)
+      strain[m][k] = pulled[k];
+  }
+  return strain;
+}
+
+/// Forces and stiffness of modes to those of nodes: x_m = Σ_a mode_at(m, a) x_a/8.
+void scatter(const ModalMatrix &modal, ElementMatrix &matrix) {
+  std::array<double, n_element_dofs * n_modal_dofs> half{};
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    for (unsigned int m = 0; m < n_element_modes; ++m) {
+      const double sign = 0.125 * mode_at(m, a);
+      for (unsigned int i = 0; i < 3; ++i)
+        for (std::size_t c = 0; c < n_modal_dofs; ++c)
+          half[(3 * a + i) * n_modal_dofs + c] += sign * modal[(3 * m + i) * n_modal_dofs + c];
+    }
+  matrix.fill(0.);
+  for (std::size_t b = 0; b < n_element_nodes; ++b)
+    for (std::size_t m = 0; m < n_element_modes; ++m) {
+      const double sign = 0.125 * mode_at(static_cast<unsigned int>(m), static_cast<unsigned int>(b));
+      for (std::size_t r = 0; r < n_element_dofs; ++r)
+        for (std::size_t j = 0; j < 3; ++j)
+          matrix[r * n_element_dofs + 3 * b + j] += sign * half[r * n_modal_dofs + 3 * m + j];
+    }
+}
+
+void add_mean_tangent(const double volume, const Gradients<n_linear_modes> &gradients,
+                      const SymmetricTensor<2, 3> &tau, const SpatialModuli &moduli, double,
+                      ModalMatrix &matrix) {
+  add_point_tangent(volume, gradients, tau, moduli, matrix.data(), n_modal_dofs);
+}
+
+void add_mean_tangent(const double volume, const Gradients<n_linear_modes> &gradients,
+                      const SymmetricTensor<2, 3> &tau, const GradientModuli &moduli, const double bulk,
+                      ModalMatrix &matrix) {
+  auto rates = multiply_gradients(moduli, gradients);
+  for (unsigned int k = 0; k < 3 * n_linear_modes; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      rates[i][k] += bulk * gradients[k / 3][k % 3];
+  add_point_tangent(volume, gradients, tau, rates, matrix.data(), n_modal_dofs);
+}
+
+/// s : δτ as a tensor that is contracted with L, s = dev τ; of moduli with or without the pressure's part,
+/// which s does not see.
+Tensor<2, 3> project(const SymmetricTensor<2, 3> &tau, const SpatialModuli &moduli) {
+  const SymmetricTensor<2, 3> s = dealii::deviator(tau);
+  SymmetricTensor<2, 3> projected;
+  for (unsigned int j = 0; j < 6; ++j) {
+    double sum = 0.;
+    for (unsigned int i = 0; i < 6; ++i)
+      sum += (i < 3 ? 1. : 2.) * s.access_raw_entry(i) * moduli[i][j];
+    projected.access_raw_entry(j) = sum;
+  }
+  return static_cast<Tensor<2, 3>>(projected) +
+         2. * static_cast<Tensor<2, 3>>(s) * static_cast<Tensor<2, 3>>(tau);
+}
+
+Tensor<2, 3> project(const SymmetricTensor<2, 3> &tau, const GradientModuli &moduli) {
+  const SymmetricTensor<2, 3> s = dealii::deviator(tau);
+  Tensor<2, 3> projected;
+  for (unsigned int j = 0; j < 9; ++j)
+    for (unsigned int i = 0; i < 6; ++i)
+      projected[j / 3][j % 3] += (i < 3 ? 1. : 2.) * s.access_raw_entry(i) * moduli[i][j];
+  return projected;
+}
+
+} // namespace
+
+void OnePointElement::store(const History &history, double *numbers) {
+  for (unsigned int k = 0; k < 12; ++k)
+    numbers[k] = history.shift[k / 3][k % 3];
+  numbers[12] = history.lost;
+}
+
+OnePointElement::History OnePointElement::restore(const double *numbers) {
+  History history;
+  for (unsigned int k = 0; k < 12; ++k)
+    history.shift[k / 3][k % 3] = numbers[k];
+  history.lost = numbers[12];
+  return history;
+}
+
+OnePointElement::OnePointElement(const ElasticModuli &elastic, const ElementFormulation &formulation)
+    : bulk_(elastic.bulk), shear_(elastic.shear), torsion_(elastic.shear / 3.),
+      stiffness_(formulation.hourglass_stiffness) {
+  const double E = 9. * bulk_ * shear_ / (3. * bulk_ + shear_),
+               nu = (3. * bulk_ - 2. * shear_) / (6. * bulk_ + 2. * shear_);
+  plane_ = E / (1. - nu * nu) / 3.;
+  coupling_ = nu * plane_;
+  axial_ = E / 9.;
+}
+
+bool OnePointElement::initialize(const ElementVectors &positions, Reference &reference) {
+  ReferenceElement points; // a mesh that eight points refuse is refused with one, too
+  if (!compute_reference_element(positions, points))
+    return false;
+  const ModalGeometry geometry(positions);
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      reference.jacobian[i][k] = geometry.modes[k][i];
+  if (!(dealii::determinant(reference.jacobian) > 0.))
+    return false;
+  reference.beta = geometry.beta;
+  reference.volume = geometry.volume;
+  reference.inverse_jacobian = dealii::invert(reference.jacobian);
+  reference.strain = pull_modes(reference.inverse_jacobian, geometry);
+  unsigned int place = 0;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int l = 0; l < 3; ++l)
+      if (k != l)
+        reference.ratios[place++] = geometry.modes[k].norm() / geometry.modes[l].norm();
+  return true;
+}
+
+bool OnePointElement::compute(const Reference &reference, const ElementVectors &displacements,
+                              Kinematics &kinematics) {
+  // Modes are linear in the positions: here are only those of the displacements.
+  const auto moved = compute_modes(displacements);
+  Tensor<2, 3> H; // F̄ − 1
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int m = 0; m < n_linear_modes; ++m)
+        H[i][k] += reference.beta[m][k] * moved[m][i];
+  H = H * reference.inverse_jacobian;
+  kinematics.F = H;
+  for (unsigned int i = 0; i < 3; ++i)
+    kinematics.F[i][i] += 1.;
+  kinematics.J = dealii::determinant(kinematics.F);
+  if (!(kinematics.J > 0.) || !std::isfinite(kinematics.J))
+    return false;
+  kinematics.volume = kinematics.J * reference.volume;
+  kinematics.inverse_jacobian = reference.inverse_jacobian * dealii::invert(kinematics.F);
+  const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
+  for (unsigned int m = 0; m < n_linear_modes; ++m)
+    for (unsigned int i = 0; i < 3; ++i)
+      kinematics.gradients[m][i] =
+          Z[0][i] * reference.beta[m][0] + Z[1][i] * reference.beta[m][1] + Z[2][i] * reference.beta[m][2];
+  // J̄⁻¹ (b_0 + δb), b_0 = J̄_0 ĥ_0, without round-off in the undeformed element
+  Tensor<2, 3> carried = dealii::invert(kinematics.F);
+  for (unsigned int i = 0; i < 3; ++i)
+    carried[i][i] -= 1.;
+  carried = reference.inverse_jacobian * carried * reference.jacobian;
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k) {
+      double sum = reference.strain[m][k];
+      for (unsigned int i = 0; i < 3; ++i)
+        sum += carried[k][i] * reference.strain[m][i] + Z[k][i] * moved[3 + m][i];
+      kinematics.strain[m][k] = sum;
+    }
+  return true;
+}
+
+OnePointElement::HourglassVector OnePointElement::respond(const HourglassVector &h,
+                                                          const std::array<double, 6> &ratio) const {
+  // Bending stretches two edges linearly along the third direction; torsion shears linearly.
+  HourglassVector s;
+  for (unsigned int i = 0; i < 3; ++i) {
+    const unsigned int j = (i + 1) % 3, k = (i + 2) % 3; // linear along i: h_k has (i, j), h_j has (i, k)
+    s[k][j] = plane_ * h[k][j] + coupling_ * h[j][k];
+    s[j][k] = plane_ * h[j][k] + coupling_ * h[k][j];
+    s[3][i] = axial_ * h[3][i];
+  }
+  const double g12 = torsion_ * (h[0][0] * ratio[0] + h[1][1] * ratio[2]),
+               g13 = torsion_ * (h[0][0] * ratio[1] + h[2][2] * ratio[4]),
+               g23 = torsion_ * (h[1][1] * ratio[3] + h[2][2] * ratio[5]);
+  s[0][0] = g12 * ratio[0] + g13 * ratio[1];
+  s[1][1] = g12 * ratio[2] + g23 * ratio[3];
+  s[2][2] = g13 * ratio[4] + g23 * ratio[5];
+  return s;
+}
+
+OnePointElement::Stabilisation OnePointElement::stabilise(const Reference &reference,
+                                                          const Kinematics &kinematics,
+                                                          const History &history_n) const {
+  Stabilisation result;
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      result.strain[m][k] = kinematics.strain[m][k] - reference.strain[m][k] - history_n.shift[m][k];
+  result.stress = respond(result.strain, reference.ratios);
+  const double factor = stiffness_ * reference.volume;
+  result.energy = 0.5 * factor * contract(result.strain, result.stress);
+  for (auto &row : result.stress)
+    for (double &entry : row)
+      entry *= factor;
+  return result;
+}
+
+OnePointElement::Stabilisation OnePointElement::stabilise(const Reference &reference,
+                                                          const Kinematics &kinematics,
+                                                          const double yield_stress, const double yield_slack,
+                                                          const History &history_n, History &history) const {
+  Stabilisation result = stabilise(reference, kinematics, history_n);
+  history = history_n;
+  const double factor = stiffness_ * reference.volume, density = result.energy / factor;
+  result.limit = yield_stress * yield_stress / (6. * shear_);
+  result.is_limited = density > result.limit * (1. + 2. * yield_slack);
+  if (result.is_limited) {
+    const double share = result.limit / std::max(density, result.limit);
+    result.root = std::sqrt(share);
+    // The mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight
+    // on, as the explicit kernels book it.
+    history.lost += 2. * factor * density * (result.root - share);
+    result.energy *= share;
+    for (unsigned int m = 0; m < 4; ++m)
+      for (unsigned int k = 0; k < 3; ++k) {
+        history.shift[m][k] += (1. - result.root) * result.strain[m][k];
+        result.strain[m][k] *= result.root;
+        result.stress[m][k] *= result.root;
+      }
+  }
+  return result;
+}
+
+OnePointElement::History OnePointElement::find_history(const Reference &reference,
+                                                       const Kinematics &kinematics) {
+  History history;
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      history.shift[m][k] = kinematics.strain[m][k] - reference.strain[m][k];
+  return history;
+}
+
+void OnePointElement::add_force(const Reference &reference, const Kinematics &kinematics,
+                                const SymmetricTensor<2, 3> &tau, const Stabilisation &stabilisation,
+                                ElementVectors &force) {
+  ModalForces modal{};
+  const auto tau_g = multiply_gradients(tau, kinematics.gradients);
+  const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
+  std::array<std::array<double, 3>, 3> mean_forces{}; // of the columns of J̄
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int i = 0; i < 3; ++i) {
+      const double t = Z[0][i] * stabilisation.stress[m][0] + Z[1][i] * stabilisation.stress[m][1] +
+                       Z[2][i] * stabilisation.stress[m][2];
+      modal[3 + m][i] = t;
+      for (unsigned int k = 0; k < 3; ++k)
+        mean_forces[k][i] -= t * kinematics.strain[m][k];
+    }
+  for (unsigned int m = 0; m < n_linear_modes; ++m)
+    for (unsigned int i = 0; i < 3; ++i) {
+      modal[m][i] += reference.volume * tau_g[3 * m + i];
+      for (unsigned int k = 0; k < 3; ++k)
+        modal[m][i] += mean_forces[k][i] * reference.beta[m][k];
+    }
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    for (unsigned int m = 0; m < n_element_modes; ++m)
+      for (unsigned int i = 0; i < 3; ++i)
+        force[3 * a + i] += 0.125 * mode_at(m, a) * modal[m][i];
+}
+
+template <class Moduli>
+void OnePointElement::compute_tangent(const Reference &reference, const Kinematics &kinematics,
+                                      const SymmetricTensor<2, 3> &tau, const Moduli &moduli,
+                                      const Stabilisation &stabilisation, const bool yields,
+                                      const bool is_symmetrised, ElementMatrix &matrix) const {
+  ModalMatrix modal{};
+  add_mean_tangent(reference.volume, kinematics.gradients, tau, moduli, bulk_, modal);
+
+  // δ(limit)/limit = δ(s : s)/(s : s) on the yield surface, contracted with L.
+  Tensor<2, 3> limit_rate;
+  if (stabilisation.is_limited && yields)
+    limit_rate = project(tau, moduli) / (2. * shear_ * stabilisation.limit);
+
+  const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
+  const HourglassVector &c = kinematics.strain, &s = stabilisation.stress;
+  HourglassVector t; // forces of the modes b and c
+  for (unsigned int p = 0; p < 4; ++p)
+    for (unsigned int i = 0; i < 3; ++i)
+      t[p][i] = Z[0][i] * s[p][0] + Z[1][i] * s[p][1] + Z[2][i] * s[p][2];
+  const double factor = stabilisation.root * stiffness_ * reference.volume;
+  for (unsigned int m = 0; m < n_element_modes; ++m)
+    for (unsigned int i = 0; i < 3; ++i) {
+      // A unit of component i of mode m: δJ̄ = e_i ⊗ β, δ(b_p) = e_i if p is m − 3; δc = Z (δb − δJ̄ c).
+      const std::array<double, 3> beta =
+          m < n_linear_modes ? reference.beta[m] : std::array<double, 3>{0., 0., 0.};
+      const std::array<double, 3> gradient =
+          m < n_linear_modes ? kinematics.gradients[m] : std::array<double, 3>{0., 0., 0.};
+      HourglassVector dc;
+      for (unsigned int p = 0; p < 4; ++p) {
+        const double share =
+            (p + 3 == m ? 1. : 0.) - (beta[0] * c[p][0] + beta[1] * c[p][1] + beta[2] * c[p][2]);
+        for (unsigned int k = 0; k < 3; ++k)
+          dc[p][k] = share * Z[k][i];
+      }
+      HourglassVector ds = respond(dc, reference.ratios);
+      double turn = 0.; // δ(root)/root
+      if (stabilisation.is_limited)
+        turn = 0.5 * (limit_rate[i][0] * gradient[0] + limit_rate[i][1] * gradient[1] +
+                      limit_rate[i][2] * gradient[2]) -
+               0.5 * contract(s, dc) / stabilisation.energy * stabilisation.root;
+      std::array<std::array<double, 3>, 3> mean_rates{};
+      ModalForces rates{};
+      for (unsigned int p = 0; p < 4; ++p) {
+        for (unsigned int k = 0; k < 3; ++k)
+          ds[p][k] = factor * ds[p][k] + turn * s[p][k];
+        for (unsigned int j = 0; j < 3; ++j) {
+          // δt = Zᵀ δs − Zᵀ δJ̄ᵀ t, Zᵀ β = gradient
+          const double dt =
+              Z[0][j] * ds[p][0] + Z[1][j] * ds[p][1] + Z[2][j] * ds[p][2] - gradient[j] * t[p][i];
+          rates[3 + p][j] = dt;
+          for (unsigned int k = 0; k < 3; ++k)
+            mean_rates[k][j] -= dt * c[p][k] + t[p][j] * dc[p][k];
+        }
+      }
+      for (unsigned int n = 0; n < n_linear_modes; ++n)
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int j = 0; j < 3; ++j)
+            rates[n][j] += mean_rates[k][j] * reference.beta[n][k];
+      for (std::size_t n = 0; n < n_element_modes; ++n)
+        for (std::size_t j = 0; j < 3; ++j)
+          modal[(3 * n + j) * n_modal_dofs + 3 * m + i] += rates[n][j];
+    }
+  scatter(modal, matrix);
+  if (is_symmetrised)
+    symmetrise(matrix);
+}
+
+template void OnePointElement::compute_tangent(const Reference &, const Kinematics &,
+                                               const SymmetricTensor<2, 3> &, const SpatialModuli &,
+                                               const Stabilisation &, bool, bool, ElementMatrix &) const;
+template void OnePointElement::compute_tangent(const Reference &, const Kinematics &,
+                                               const SymmetricTensor<2, 3> &, const GradientModuli &,
+                                               const Stabilisation &, bool, bool, ElementMatrix &) const;
+
+} // namespace billet

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/law_block.h"
+#include "billet/mechanics/one_point.h"
+
+namespace billet {
+
+std::unique_ptr<ElementBlock> make_one_point_block(const MaterialLaw &material,
+                                                   const ElementFormulation &formulation) {
+  return make_law_block<OnePointElement>(material, formulation);
+}
+
+} // namespace billet
