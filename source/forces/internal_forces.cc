@@ -17,7 +17,7 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
       std::vector<ElementVectors> positions;
       for (const auto &element : discretization.elements(b))
         positions.push_back(nodal_positions(element.cell));
-      blocks_.push_back(make_element_block(scene.bodies()[b].material));
+      blocks_.push_back(make_element_block(scene.bodies()[b].material, scene.bodies()[b].formulation));
       std::size_t offender = 0;
       if (!blocks_.back()->initialize(positions, offender)) {
         std::ostringstream message;
@@ -68,17 +68,18 @@ void InternalForces::commit() {
 }
 
 InternalForces::Energies InternalForces::compute_energies(const Vector &displacements) const {
-  std::array<double, 2> sums{};
+  std::array<double, 3> sums{};
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (const auto &summary : summarize(b, displacements)) {
       sums[0] += summary.elastic_energy;
       sums[1] += summary.plastic_work;
+      sums[2] += summary.hourglass_energy;
     }
-  std::array<double, 2> totals{};
+  std::array<double, 3> totals{};
   dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()),
                               discretization_.communicator(),
                               dealii::ArrayView<double>(totals.data(), totals.size()));
-  return {totals[0], totals[1]};
+  return {totals[0], totals[1], totals[2]};
 }
 
 std::vector<ElementSummary> InternalForces::summarize(const std::size_t body,

@@ -22,12 +22,14 @@ std::string column_name(std::string name) {
 } // namespace
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
-    : name_(folder + "/history.csv"), columns_(columns(scene)) {
+    : name_(folder + "/history.csv"), columns_(columns(scene)),
+      has_stabilisation_(scene.capabilities().stabilisation) {
   begin(scene);
 }
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, const double time)
-    : name_(folder + "/history.csv"), columns_(columns(scene)) {
+    : name_(folder + "/history.csv"), columns_(columns(scene)),
+      has_stabilisation_(scene.capabilities().stabilisation) {
   namespace fs = std::filesystem;
   std::error_code error;
   std::string first_line;
@@ -83,6 +85,7 @@ std::string HistoryFile::columns(const Scene &scene) {
          << (is_explicit  ? ",viscous_dissipation,hourglass_energy"
              : is_dynamic ? ",numerical_dissipation"
                           : "")
+         << (!is_explicit && scene.capabilities().stabilisation ? ",hourglass_energy" : "")
          << ",external_work,energy_drift"
          << (is_dynamic ? ",momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
                           "angular_momentum_z"
@@ -103,6 +106,8 @@ void HistoryFile::write(const StepReport &report, const SolutionState &state) {
           << energies.friction;
   if (is_dynamic)
     stream_ << "," << energies.numerical;
+  if (has_stabilisation_)
+    stream_ << "," << energies.hourglass;
   stream_ << "," << energies.external << "," << energies.drift();
   if (is_dynamic)
     write_momenta(state);

@@ -109,14 +109,13 @@ void Mesh::parse(Reader &reader) {
 }
 
 void Material::declare(ParameterHandler &prm) {
-  prm.declare_entry(
-      "Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
-      "Hencky's elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
+  prm.declare_entry("Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
+                    "Elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
   prm.declare_entry(
       "Kinematics", "Hencky", Patterns::Selection("Hencky|neo-Hookean|hypoelastic"),
-      "Explicit scenes: Hencky: multiplicative plasticity with logarithmic strain, as in implicit "
-      "scenes; neo-Hookean: Simo's radial return, cheaper; hypoelastic: rates of stress and the "
-      "final rotation of the step (Bittencourt & Creus 1998), cheapest.");
+      "Hencky: multiplicative plasticity with logarithmic strain; neo-Hookean: Simo's radial return, "
+      "without an eigenproblem; hypoelastic: rates of stress and the final rotation of the step (Bittencourt "
+      "& Creus 1998), whose error grows with the step.");
   prm.declare_entry("Density", "0", Patterns::Double(),
                     "Of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
   prm.declare_entry("Young modulus", "0", Patterns::Double(), "E > 0. [stress]");
@@ -318,9 +317,13 @@ void Load::parse(Reader &reader) {
 void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names,
                    const std::vector<std::string> &load_names) {
   prm.declare_entry(
-      "Element", "mean dilatation", Patterns::Selection("mean dilatation|one point"),
-      "mean dilatation: eight points with a common volumetric strain, as in implicit scenes; one point: "
-      "with hourglass stabilisation, three to four times cheaper, explicit scenes only.");
+      "Element", "mean dilatation", Patterns::Selection("mean dilatation|full|one point"),
+      "mean dilatation: eight points with a common volumetric strain; full: eight points, each with its own, "
+      "which locks in plastic flow, for comparison, not in explicit scenes; one point: with hourglass "
+      "stabilisation, the cheapest.");
+  prm.declare_entry("Hourglass stiffness", "", Patterns::Anything(),
+                    "Of a one-point element, > 0: part of the stiffness that the material itself would give "
+                    "to the hourglass modes. Empty: 1, in explicit scenes that of 'Explicit dynamics'.");
   prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
                     "Of dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
@@ -402,8 +405,21 @@ void Body::parse(Reader &reader) {
         loads.back().parse(reader);
       });
   });
-  element = reader.located("Element", reader.text("Element") == "one point" ? ElementType::one_point
-                                                                            : ElementType::mean_dilatation);
+  const std::string type = reader.text("Element");
+  element = reader.located("Element", type == "one point" ? ElementType::one_point
+                                      : type == "full"    ? ElementType::full
+                                                          : ElementType::mean_dilatation);
+  if (!reader.text("Hourglass stiffness").empty()) {
+    if (element.value != ElementType::one_point)
+      reader.reject("Hourglass stiffness", "no value: only elements with one point have hourglass modes");
+    try {
+      hourglass_stiffness = parse_number(reader.text("Hourglass stiffness"));
+    } catch (const std::invalid_argument &) {
+      reader.reject("Hourglass stiffness", "a number > 0");
+    }
+    if (!(*hourglass_stiffness > 0.))
+      reader.reject("Hourglass stiffness", "a number > 0");
+  }
   const auto velocity = reader.parts("Initial velocity");
   if (velocity.size() != 3)
     reader.reject("Initial velocity", "three expressions, separated by semicolons");

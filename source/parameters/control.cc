@@ -170,6 +170,11 @@ const std::vector<std::pair<std::string, ContactTangent>> tangent_names = {
     {"symmetrised lower", ContactTangent::symmetrised_lower},
     {"symmetrised mean", ContactTangent::symmetrised_mean}};
 
+const std::vector<std::pair<std::string, MaterialTangent>> material_tangent_names = {
+    {"automatic", MaterialTangent::automatic},
+    {"exact", MaterialTangent::exact},
+    {"symmetrised", MaterialTangent::symmetrised}};
+
 template <class T> std::string selection(const std::vector<std::pair<std::string, T>> &names) {
   std::string result;
   for (const auto &entry : names)
@@ -207,6 +212,11 @@ void Solver::declare(ParameterHandler &prm) {
       "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower "
       "triangle or the mean of "
       "the consistent one in the contact frame, meant for mu <= 0.1.");
+  prm.declare_entry(
+      "Material tangent", "automatic", Patterns::Selection(selection(material_tangent_names)),
+      "Of bodies whose exact tangent is unsymmetric: hypoelastic ones, plastic ones that are neo-Hookean or "
+      "of one-point elements. automatic: its symmetric part where the matrix is symmetric otherwise, else "
+      "exact.");
   prm.declare_entry("Force tolerance", "1e-6", Patterns::Double(),
                     "Newton ends when the residual is below this part of the forces in the scene.");
   prm.declare_entry("Energy tolerance", "1e-10", Patterns::Double(),
@@ -246,6 +256,7 @@ void Solver::declare(ParameterHandler &prm) {
 
 void Solver::parse(Reader &reader) {
   contact_tangent = chosen(tangent_names, reader.text("Contact tangent"));
+  material_tangent = chosen(material_tangent_names, reader.text("Material tangent"));
   force_tolerance = reader.positive("Force tolerance");
   if (force_tolerance >= 1.)
     reader.reject("Force tolerance", "a number > 0 and < 1");

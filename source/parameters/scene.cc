@@ -210,17 +210,13 @@ private:
     if (scene_.is_dynamic())
       require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
     if (scene_.is_explicit()) {
-      if (body.element.value == Body::ElementType::one_point &&
-          body.material.kinematics.value == Material::Kinematics::neo_hookean)
+      if (body.element.value == Body::ElementType::full)
         throw InputError(body.element.origin +
-                         ": found 'one point' with 'Kinematics = neo-Hookean', allowed with one point are "
-                         "Hencky and hypoelastic");
+                         ": found 'full', allowed in explicit scenes are 'mean dilatation' and 'one point'");
       return;
     }
     if (!scene_.is_dynamic())
       refuse(path, "Initial velocity");
-    refuse(path, "Element");
-    refuse({path[0], path[1], "Material"}, "Kinematics");
     if (!scene_.is_dynamic() && !body.loads.empty())
       throw InputError(file_.where({path[0], path[1], "Loads", body.loads.front().name}) +
                        ": found a load, allowed are loads in dynamic scenes");

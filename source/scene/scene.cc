@@ -58,10 +58,27 @@ Load make_load(const parameters::Load &parameters, const std::vector<parameters:
   return load;
 }
 
+ElementFormulation make_formulation(const parameters::Body &parameters) {
+  using Type = parameters::Body::ElementType;
+  using Kinematics = parameters::Material::Kinematics;
+  using Formulation = ElementFormulation;
+  Formulation formulation;
+  formulation.element = parameters.element.value == Type::full        ? Formulation::Element::full
+                        : parameters.element.value == Type::one_point ? Formulation::Element::one_point
+                                                                      : Formulation::Element::mean_dilatation;
+  const Kinematics kinematics = parameters.material.kinematics.value;
+  formulation.kinematics = kinematics == Kinematics::hencky        ? Formulation::Kinematics::hencky
+                           : kinematics == Kinematics::neo_hookean ? Formulation::Kinematics::neo_hookean
+                                                                   : Formulation::Kinematics::hypoelastic;
+  formulation.hourglass_stiffness = parameters.hourglass_stiffness.value_or(1.);
+  return formulation;
+}
+
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
   Body body;
   body.name = parameters.name;
   body.material = make_material(parameters.material);
+  body.formulation = make_formulation(parameters);
   body.young_modulus = parameters.material.young_modulus;
   body.density = parameters.material.density.value;
   for (const auto &component : parameters.initial_velocity.value)
@@ -149,6 +166,20 @@ std::string describe_friction(const parameters::ContactPair &pair) {
   return text.str();
 }
 
+/// Element, unless it is the usual one, kinematics and law.
+std::string describe_law(const parameters::Body &body) {
+  using Type = parameters::Body::ElementType;
+  using Kinematics = parameters::Material::Kinematics;
+  const Kinematics kinematics = body.material.kinematics.value;
+  return std::string(body.element.value == Type::full        ? "full integration, "
+                     : body.element.value == Type::one_point ? "one point, "
+                                                             : "") +
+         (kinematics == Kinematics::hencky        ? "Hencky "
+          : kinematics == Kinematics::neo_hookean ? "neo-Hookean "
+                                                  : "hypoelastic ") +
+         (body.material.law == parameters::Material::Law::elastic ? "elasticity" : "J2 plasticity");
+}
+
 } // namespace
 
 Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
@@ -173,6 +204,7 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
     capabilities_.plasticity |= !std::holds_alternative<std::monostate>(body.material.hardening);
     for (const auto &hold : body.holds)
       capabilities_.moving_supports |= hold.value != nullptr;
+    capabilities_.stabilisation |= body.formulation.element == ElementFormulation::Element::one_point;
   }
   for (const auto &pair : pairs_)
     capabilities_.friction |= pair.has_friction();
@@ -201,6 +233,31 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
                      "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
   if (parameters.is_dynamic() && !parameters.is_explicit())
     allow_for_pressure();
+  if (!parameters.is_explicit())
+    choose_material_tangents();
+}
+
+void Scene::choose_material_tangents() {
+  using Tangent = parameters::MaterialTangent;
+  using Kind = parameters::Solver::LinearSolver;
+  const Tangent wanted = parameters_.solver.material_tangent;
+  const auto &solver = parameters_.solver.linear_solver;
+  for (auto &body : bodies_) {
+    const bool is_plastic = !std::holds_alternative<std::monostate>(body.material.hardening);
+    if (has_symmetric_tangent(body.formulation, is_plastic))
+      continue;
+    body.formulation.is_symmetrised =
+        wanted == Tangent::symmetrised || (wanted == Tangent::automatic && !capabilities_.unsymmetric_matrix);
+    if (body.formulation.is_symmetrised)
+      continue;
+    if (solver.value == Kind::mumps_symmetric || solver.value == Kind::conjugate_gradients)
+      throw InputError(solver.origin + ": found '" +
+                       (solver.value == Kind::conjugate_gradients ? "CG" : "MUMPS symmetric") +
+                       "', but the exact material tangent of body '" + body.name +
+                       "' is unsymmetric; allowed are automatic, MUMPS, KLU, GMRES, or another 'Material "
+                       "tangent'");
+    capabilities_.unsymmetric_matrix = true;
+  }
 }
 
 void Scene::allow_for_pressure() {
@@ -317,10 +374,8 @@ void Scene::describe(std::ostream &stream) const {
     build_body_mesh(body, MeshDetail::outline, outline);
     const std::size_t n = count_full_elements(body.mesh, outline);
     n_elements += n;
-    stream << "Body           " << body.name << ": " << n << " hexahedra, "
-           << (body.material.law == parameters::Material::Law::elastic ? "Hencky elasticity"
-                                                                       : "Hencky J2 plasticity")
-           << ", " << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
+    stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_law(body) << ", "
+           << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
            << " supports, " << body.loads.size() << " loads\n";
   }
   for (const auto &tool : tools_) {

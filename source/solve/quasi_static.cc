@@ -632,6 +632,7 @@ void QuasiStatic::commit(const double t) {
   const auto energies = internal_.compute_energies(state_.displacements);
   state_.energies.elastic = energies.elastic;
   state_.energies.plastic = energies.plastic;
+  state_.energies.hourglass = energies.hourglass;
   remove_tools(t);
   if (motion_)
     motion_->update_state(state_);

@@ -24,6 +24,7 @@ void QuasiStatic::start_motion() {
 
   const auto energies = internal_.compute_energies(state_.displacements);
   state_.energies.elastic = energies.elastic;
+  state_.energies.hourglass = energies.hourglass;
   for (const auto &load : state_.tool_loads)
     state_.energies.contact += load.stored_energy;
   for (std::size_t i = 0; i < body_contacts_.size(); ++i) {

@@ -36,7 +36,7 @@ void QuasiStatic::save(StateWriter &writer) const {
   }
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
     writer.in(group("body", b), [&] {
-      writer.write_text("formulation", implicit_formulation);
+      writer.write_text("formulation", describe(scene_.bodies()[b].formulation));
       const ElementBlock &block = internal_.block(b);
       const std::size_t width = block.state_size();
       if (width == 0)
@@ -109,7 +109,7 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
     reader.in(group("body", b), [&] {
       ElementBlock &block = internal_.block(b);
-      if (reader.read_text("formulation") == implicit_formulation) {
+      if (reader.read_text("formulation") == describe(scene_.bodies()[b].formulation)) {
         const std::size_t width = block.state_size();
         if (width == 0)
           return;
@@ -118,6 +118,7 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
           block.set_state(e, rows.data() + width * e);
         return;
       }
+      report.is_exact = false;
       const auto stresses = load_stress(reader, scene_, b, discretization_, state_.displacements);
       for (std::size_t e = 0; e < block.size(); ++e)
         block.set_stress(e, gather(state_.displacements, discretization_.elements(b)[e].dofs), stresses[e]);
@@ -261,7 +262,7 @@ void QuasiStatic::balance(RestartReport &report) {
   const auto now = internal_.compute_energies(state_.displacements);
   if (!motion_)
     energies.kinetic = 0.;
-  energies.hourglass = 0.;
+  energies.hourglass = now.hourglass;
   energies.elastic = now.elastic;
   energies.plastic = now.plastic;
   energies.initial += drift - energies.drift();

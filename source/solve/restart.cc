@@ -10,8 +10,6 @@
 
 namespace billet {
 
-const char *const implicit_formulation = "implicit, mean dilatation, Hencky";
-
 namespace {
 
 std::string describe(const MaterialLaw &material) {
@@ -36,6 +34,20 @@ std::vector<double> measure(const Discretization &discretization, const std::siz
   }
   MPI_Allreduce(MPI_IN_PLACE, own.data(), 5, MPI_DOUBLE, MPI_SUM, discretization.communicator());
   return {own.begin(), own.end()};
+}
+
+std::optional<ElementFormulation> find_implicit_formulation(const std::string &words) {
+  using Element = ElementFormulation::Element;
+  using Kinematics = ElementFormulation::Kinematics;
+  ElementFormulation formulation;
+  for (const auto element : {Element::mean_dilatation, Element::full, Element::one_point})
+    for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic}) {
+      formulation.element = element;
+      formulation.kinematics = kinematics;
+      if (describe(formulation) == words)
+        return formulation;
+    }
+  return {};
 }
 
 std::optional<ExplicitFormulation> find_formulation(const std::string &words) {
@@ -141,8 +153,8 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
   const auto &elements = discretization.elements(body);
   std::vector<ElementStress> stresses;
   std::size_t ignored = 0;
-  if (words == implicit_formulation) {
-    const auto block = make_element_block(material);
+  if (const auto implicit = find_implicit_formulation(words)) {
+    const auto block = make_element_block(material, *implicit);
     std::vector<ElementVectors> positions;
     for (const auto &element : elements)
       positions.push_back(nodal_positions(element.cell));

@@ -32,6 +32,7 @@ public:
   struct Energies {
     double elastic = 0.;
     double plastic = 0.;
+    double hourglass = 0.; ///< stored and lost
   };
   /// At committed history; on all ranks the same.
   Energies compute_energies(const Vector &displacements) const;

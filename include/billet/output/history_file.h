@@ -46,6 +46,7 @@ private:
   void end_line();
 
   std::string name_, columns_;
+  bool has_stabilisation_;
   std::ofstream stream_;
 };
 

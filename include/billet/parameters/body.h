@@ -5,6 +5,7 @@
 #include "billet/parameters/reader.h"
 
 #include <array>
+#include <optional>
 
 namespace billet::parameters {
 
@@ -37,7 +38,7 @@ struct Material {
   enum class Law { elastic, elastoplastic };
   enum class Hardening { linear, voce, power_law, table };
 
-  /// How large rotations and stretches enter; what implicit scenes do is hencky.
+  /// How large rotations and stretches enter.
   enum class Kinematics { hencky, neo_hookean, hypoelastic };
 
   Law law;
@@ -103,11 +104,11 @@ struct Body {
   std::string name;
   std::string origin;
   Mesh mesh;
-  /// Of explicit scenes; implicit ones know the mean dilatation alone.
-  enum class ElementType { mean_dilatation, one_point };
+  enum class ElementType { mean_dilatation, full, one_point };
 
   Material material;
   Located<ElementType> element;
+  std::optional<double> hourglass_stiffness; ///< of one-point elements, where it is given
   std::vector<Support> supports;
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z

@@ -64,6 +64,13 @@ enum class ContactTangent {
   symmetrised_mean
 };
 
+/// How the stresses are linearised where their exact tangent is unsymmetric.
+enum class MaterialTangent {
+  automatic, ///< its symmetric part where nothing else in the scene makes the matrix unsymmetric
+  exact,
+  symmetrised
+};
+
 /// Subsection Solver.
 struct Solver {
   enum class LineSearch { none, energy };
@@ -72,6 +79,7 @@ struct Solver {
   enum class Forcing { eisenstat_walker, fixed };
 
   ContactTangent contact_tangent;
+  MaterialTangent material_tangent;
   double force_tolerance, energy_tolerance;
   unsigned int most_iterations;
   unsigned int most_augmentations; ///< in a step

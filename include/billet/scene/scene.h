@@ -46,6 +46,7 @@ struct Load {
 struct Body {
   std::string name;
   MaterialLaw material;
+  ElementFormulation formulation; ///< of implicit scenes
   double young_modulus;
   double density; ///< of the undeformed body
   std::vector<Hold> holds;
@@ -111,6 +112,7 @@ struct Capabilities {
   bool friction = false;
   bool body_contact = false;
   bool moving_supports = false;
+  bool stabilisation = false; ///< one-point elements
   bool unsymmetric_matrix = false;
 };
 
@@ -144,6 +146,7 @@ public:
 private:
   void make_pairs();
   void allow_for_pressure();
+  void choose_material_tangents();
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;

@@ -44,9 +44,6 @@ void load_nodal(const StateReader &reader, const std::string &name, const OwnedN
 /// Of the elements of a body that this rank owns.
 std::vector<std::uint64_t> element_keys(const Discretization &discretization, std::size_t body);
 
-/// The words for what implicit elements keep, as describe() has them for explicit ones.
-extern const char *const implicit_formulation;
-
 /// From the group of a body at hand, whichever formulation has written it: the stress that its history means
 /// at these displacements (ghosted).
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, std::size_t body,
