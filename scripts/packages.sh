@@ -22,7 +22,7 @@ for group in "$@"; do
       packages+=(g++ cmake ninja-build ccache git openmpi-bin libmumps-dev libopenblas0-serial numdiff perl)
       [[ -n ${DEAL_II_DIR:-} ]] || packages+=(libdeal.ii-dev)
       ;;
-    benchmarks) packages+=(calculix-ccx python3 python3-matplotlib python3-paraview) ;;
+    benchmarks) packages+=(calculix-ccx valgrind python3 python3-matplotlib python3-paraview) ;;
     pictures) packages+=(paraview python3-paraview xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     *)
       echo "packages.sh: unknown group '$group' (build, benchmarks, pictures)" >&2

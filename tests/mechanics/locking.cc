@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Volume that must be kept does not lock the element: a homogeneous upsetting, the thick-walled cylinder of
-// MacNeal and Harder, and its plastic limit load.
+// Volume that must be kept does not lock the elements with mean dilatation and with one point: a homogeneous
+// upsetting, the thick-walled cylinder of MacNeal and Harder, and its plastic limit load. Full integration
+// locks.
 
 #include "elements.h"
 
@@ -64,10 +65,11 @@ struct Assembly {
 
 /// Cube without friction to 0.4 of its height. Yield in Kirchhoff stress, |τ| = σ_y + H α, with
 /// α = |ln 0.4| − |τ|/E; lateral log strain ν |τ|/E + α/2; Cauchy stress τ/J, ln J = −(1 − 2ν) |τ|/E.
-void test_upsetting(const unsigned int n_steps) {
+void test_upsetting(const unsigned int n_steps, const ElementFormulation &formulation,
+                    const double tolerance) {
   const NodalTensor X = cube();
   Assembly cube_on_planes;
-  cube_on_planes.block = make_block({steel, linear}, X);
+  cube_on_planes.block = make_block({steel, linear}, X, formulation);
   cube_on_planes.n_free = 8; // x of the four nodes at x = 1, y of those at y = 1; the top comes last
   cube_on_planes.directions.resize(1);
   unsigned int n = 0;
@@ -84,7 +86,8 @@ void test_upsetting(const unsigned int n_steps) {
   cube_on_planes.directions[0].emplace_back(n, top);
   cube_on_planes.q.assign(9, 0.);
 
-  const std::string name = "upsetting to 0.4 in " + std::to_string(n_steps) + " steps";
+  const std::string name =
+      name_of(formulation) + ", upsetting to 0.4 in " + std::to_string(n_steps) + " steps";
   std::vector<double> reactions;
   for (unsigned int step = 1; step <= n_steps; ++step) {
     cube_on_planes.q[8] = -0.6 * step / n_steps;
@@ -96,17 +99,18 @@ void test_upsetting(const unsigned int n_steps) {
   const double sigma = tau * std::exp((1. - 2. * poisson) * tau / young);
   const double width = std::exp(poisson * tau / young + 0.5 * alpha);
   const ElementSummary summary = cube_on_planes.block->summarize(0, to_array(cube_on_planes.displacement(0)));
-  check(name + ", Cauchy stress", std::abs(summary.cauchy_stress[2][2] / -sigma - 1.), 1e-10);
-  check(name + ", plastic strain", std::abs(summary.equivalent_plastic_strain / alpha - 1.), 1e-10);
-  check(name + ", width", std::abs((1. + cube_on_planes.q[0]) / width - 1.), 1e-10);
-  check(name + ", force", std::abs(reactions[8] / (-sigma * width * width) - 1.), 1e-10);
+  check(name + ", Cauchy stress", std::abs(summary.cauchy_stress[2][2] / -sigma - 1.), tolerance);
+  check(name + ", plastic strain", std::abs(summary.equivalent_plastic_strain / alpha - 1.), tolerance);
+  check(name + ", width", std::abs((1. + cube_on_planes.q[0]) / width - 1.), tolerance);
+  check(name + ", force", std::abs(reactions[8] / (-sigma * width * width) - 1.), tolerance);
   check(name + ", printed reference values",
         std::abs(sigma - 975.324) < 5e-4 && std::abs(alpha - 0.911424) < 5e-7);
 }
 
 /// Sector of angle φ and thickness 1 in plane strain, one element in angle, nodes at `radii`; the unknowns
 /// are the radial displacements, numbered from the outside so that the inner one comes last.
-Assembly make_sector(const MaterialLaw &material, const std::vector<double> &radii, const double phi) {
+Assembly make_sector(const MaterialLaw &material, const std::vector<double> &radii, const double phi,
+                     const ElementFormulation &formulation) {
   Assembly sector;
   std::vector<ElementVectors> positions;
   const std::size_t n = radii.size() - 1;
@@ -125,7 +129,7 @@ Assembly make_sector(const MaterialLaw &material, const std::vector<double> &rad
     positions.push_back(to_array(X));
     sector.directions.push_back({{n - e, inner}, {n - e - 1, outer}});
   }
-  sector.block = make_element_block(material);
+  sector.block = make_element_block(material, formulation);
   std::size_t offender = 0;
   AssertThrow(sector.block->initialize(positions, offender), dealii::ExcInternalError());
   sector.n_free = n + 1;
@@ -137,14 +141,14 @@ Assembly make_sector(const MaterialLaw &material, const std::vector<double> &rad
 /// (Lamé, plane strain): u(a) = p a (1 + ν) ((1 − 2ν) a² + b²) / (E (b² − a²)). The radii are those of
 /// MacNeal & Harder (1985), each interval divided `refinement` times. The pressure on the inner facet, a
 /// chord, works on u(a) with p a sin φ.
-double cylinder_error(const double nu, const unsigned int refinement) {
+double cylinder_error(const double nu, const unsigned int refinement, const ElementFormulation &formulation) {
   const std::vector<double> coarse = {3., 3.5, 4.2, 5.2, 6.75, 9.};
   std::vector<double> radii = {coarse[0]};
   for (std::size_t i = 1; i < coarse.size(); ++i)
     for (unsigned int j = 1; j <= refinement; ++j)
       radii.push_back(coarse[i - 1] + (coarse[i] - coarse[i - 1]) * j / refinement);
   const double E = 1000., p = 1e-4, a = 3., b = 9., phi = M_PI / 18. / refinement;
-  Assembly sector = make_sector({ElasticModuli::from_young_poisson(E, nu), {}}, radii, phi);
+  Assembly sector = make_sector({ElasticModuli::from_young_poisson(E, nu), {}}, radii, phi, formulation);
   std::vector<double> loads(radii.size(), 0.), reactions;
   loads.back() = p * a * std::sin(phi);
   if (!sector.solve(loads, reactions))
@@ -155,14 +159,14 @@ double cylinder_error(const double nu, const unsigned int refinement) {
 
 /// Relative error of the limit pressure (2/√3) σ_y ln(b/a) of a cylinder with b = 2 a, perfectly plastic,
 /// whose inner radius is driven far beyond yield at strains so small that its shape stays.
-double limit_load_error(const double nu) {
-  constexpr unsigned int n = 8, n_steps = 10;
+double limit_load_error(const double nu, const ElementFormulation &formulation, const unsigned int n = 8) {
+  constexpr unsigned int n_steps = 10;
   const double E = 2e5, yield_stress = 2., phi = 0.05;
   std::vector<double> radii;
   for (unsigned int i = 0; i <= n; ++i)
     radii.push_back(1. + 1. * i / n);
-  Assembly sector =
-      make_sector({ElasticModuli::from_young_poisson(E, nu), LinearHardening{yield_stress, 0.}}, radii, phi);
+  Assembly sector = make_sector({ElasticModuli::from_young_poisson(E, nu), LinearHardening{yield_stress, 0.}},
+                                radii, phi, formulation);
   sector.n_free = n;
   std::vector<double> reactions;
   for (unsigned int step = 1; step <= n_steps; ++step) {
@@ -174,19 +178,38 @@ double limit_load_error(const double nu) {
 }
 
 int main() {
-  test_upsetting(5);
-  test_upsetting(50);
-
-  const double compressible_error = cylinder_error(0.3, 1);
-  check("thick cylinder, Poisson's ratio 0.3", compressible_error, 0.02);
-  for (const auto &[name, nu] :
-       {std::pair("0.49", 0.49), std::pair("0.499", 0.499), std::pair("0.4999", 0.4999)}) {
-    const double error = cylinder_error(nu, 1);
-    check(std::string("thick cylinder, Poisson's ratio ") + name, error, 0.02);
-    check(std::string("thick cylinder, refined, Poisson's ratio ") + name, cylinder_error(nu, 2),
-          0.3 * error);
-  }
-  check("plastic limit load, Poisson's ratio 0.3", limit_load_error(0.3), 5e-3);
-  check("plastic limit load, Poisson's ratio 0.4999", limit_load_error(0.4999), 5e-3);
+  using Element = ElementFormulation::Element;
+  for_each_formulation([](const ElementFormulation &formulation) {
+    const std::string name = name_of(formulation) + ", ";
+    // The closed form is the Hencky law's; that of midpoint strains has an error of second order in the step.
+    if (formulation.kinematics == ElementFormulation::Kinematics::hencky)
+      for (const unsigned int n_steps : {5, 50})
+        test_upsetting(n_steps, formulation, 1e-10);
+    else if (formulation.kinematics == ElementFormulation::Kinematics::hypoelastic)
+      test_upsetting(200, formulation, 1e-4);
+    if (formulation.element == Element::full) {
+      check(name + "thick cylinder, locks", cylinder_error(0.4999, 1, formulation) > 0.5);
+      check(name + "plastic limit load, locks", limit_load_error(0.4999, formulation) > 0.1);
+      return;
+    }
+    check(name + "thick cylinder, Poisson's ratio 0.3", cylinder_error(0.3, 1, formulation), 0.02);
+    for (const auto &[ratio, nu] :
+         {std::pair("0.49", 0.49), std::pair("0.499", 0.499), std::pair("0.4999", 0.4999)}) {
+      const double error = cylinder_error(nu, 1, formulation);
+      check(name + "thick cylinder, Poisson's ratio " + ratio, error, 0.02);
+      check(name + "thick cylinder, refined, Poisson's ratio " + ratio, cylinder_error(nu, 2, formulation),
+            0.3 * error);
+    }
+    for (const auto &[ratio, nu] : {std::pair("0.3", 0.3), std::pair("0.4999", 0.4999)}) {
+      const double error = limit_load_error(nu, formulation);
+      const std::string load = name + "plastic limit load, Poisson's ratio " + ratio;
+      if (formulation.element == Element::one_point) {
+        // Flow within an element meets the stabilisation at its limit; its share goes with the size.
+        check(load, error, 0.04);
+        check(load + ", refined", limit_load_error(nu, formulation, 16), 0.6 * error);
+      } else
+        check(load, error, 5e-3);
+    }
+  });
   return exit_code();
 }

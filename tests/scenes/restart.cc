@@ -23,6 +23,16 @@ int main(int argc, char *argv[]) {
         [](auto &run, const double time, History &history) { run.run(time, history); });
   }
   {
+    parameters::Scene scene = testing::read_test_scene("restart_press.prm");
+    scene.solver.force_tolerance = 1e-11;
+    scene.bodies[0].element.value = parameters::Body::ElementType::one_point;
+    scene.bodies[0].material.kinematics.value = parameters::Material::Kinematics::hypoelastic;
+    testing::set_fixed_steps(scene, 25);
+    testing::test_going_on<testing::QuasiStaticRun>(
+        "Press, one point, hypoelastic", scene, {0.6},
+        [](auto &run, const double time, History &history) { run.run(time, history); });
+  }
+  {
     parameters::Scene scene = testing::read_test_scene("explicit_ranks.prm");
     scene.time_stepping.end_time = 0.1e-3;
     scene.tools[0].motion.removal_time.value = 0.06e-3;
