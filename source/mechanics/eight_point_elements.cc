@@ -29,20 +29,19 @@ void MeanDilatationElement::compute_rate_tangent(const Reference &reference, con
     reference_volume += reference.volumes[q];
     volumetric += reference.volumes[q] * dealii::trace(tau[q]) / 3.;
   }
+  // The pressure that makes Π J w [tr δL tr L − tr(δL L)]/v of the weights J w/J̄.
+  const double pressure = volumetric * kinematics.volume_ratio / kinematics.current_volume;
   for (unsigned int q = 0; q < n_points; ++q) {
     const auto &g = kinematics.gradients[q];
-    const double weight = kinematics.current_volumes[q] / kinematics.volume_ratio;
-    const SymmetricTensor<2, 3> s = dealii::deviator(tau[q]);
+    SymmetricTensor<2, 3> s = dealii::deviator(tau[q]);
     auto rates = multiply_gradients(moduli[q], g);
     for (unsigned int r = 0; r < 6; ++r)
       for (unsigned int k = 0; k < n_element_dofs; ++k)
-        rates[r][k] += s.access_raw_entry(r) * (g[k / 3][k % 3] - mean[k]);
-    add_point_tangent(weight, g, s, rates, matrix.data(), n_element_dofs);
-    const double dilate = volumetric / kinematics.current_volume * kinematics.current_volumes[q];
-    for (std::size_t r = 0; r < n_element_dofs; ++r)
-      for (std::size_t c = 0; c < n_element_dofs; ++c)
-        matrix[r * n_element_dofs + c] +=
-            dilate * (g[r / 3][r % 3] * g[c / 3][c % 3] - g[r / 3][c % 3] * g[c / 3][r % 3]);
+        rates[r][k] +=
+            s.access_raw_entry(r) * (g[k / 3][k % 3] - mean[k]) + (r < 3 ? pressure * g[k / 3][k % 3] : 0.);
+    s += pressure * dealii::unit_symmetric_tensor<3>();
+    add_point_tangent(kinematics.current_volumes[q] / kinematics.volume_ratio, g, s, rates, matrix.data(),
+                      n_element_dofs);
   }
   const double factor = bulk_ * reference_volume - volumetric;
   for (std::size_t r = 0; r < n_element_dofs; ++r)

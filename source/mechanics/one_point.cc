@@ -33,24 +33,40 @@ OnePointElement::HourglassVector pull_modes(const Tensor<2, 3> &inverse, const M
   return strain;
 }
 
-/// Forces and stiffness of modes to those of nodes: x_m = Σ_a mode_at(m, a) x_a/8.
+/// Rows of modes to rows of nodes, x_m = Σ_a mode_values[m][a] x_a/8: each node's is the sum of the modes'
+/// with their signs, made by sums and differences over the three directions.
+template <std::size_t width>
+std::array<double, n_element_dofs * width>
+scatter_rows(const std::array<double, n_modal_dofs * width> &modal) {
+  constexpr std::size_t n = 3 * width;
+  std::array<double, n_element_dofs * width> rows{};
+  for (std::size_t m = 0; m < n_element_modes; ++m)
+    for (std::size_t k = 0; k < n; ++k)
+      rows[mode_places[m] * n + k] = 0.125 * modal[m * n + k];
+  for (std::size_t step = 1; step < n_element_nodes; step *= 2)
+    for (std::size_t a = 0; a < n_element_nodes; ++a)
+      if ((a & step) == 0) {
+        double *low = rows.data() + a * n, *high = low + step * n;
+        for (std::size_t k = 0; k < n; ++k) {
+          const double mean = low[k], slope = high[k];
+          low[k] = mean - slope;
+          high[k] = mean + slope;
+        }
+      }
+  return rows;
+}
+
+/// The stiffness of modes to that of nodes.
 void scatter(const ModalMatrix &modal, ElementMatrix &matrix) {
-  std::array<double, n_element_dofs * n_modal_dofs> half{};
-  for (unsigned int a = 0; a < n_element_nodes; ++a)
-    for (unsigned int m = 0; m < n_element_modes; ++m) {
-      const double sign = 0.125 * mode_at(m, a);
-      for (unsigned int i = 0; i < 3; ++i)
-        for (std::size_t c = 0; c < n_modal_dofs; ++c)
-          half[(3 * a + i) * n_modal_dofs + c] += sign * modal[(3 * m + i) * n_modal_dofs + c];
-    }
-  matrix.fill(0.);
-  for (std::size_t b = 0; b < n_element_nodes; ++b)
-    for (std::size_t m = 0; m < n_element_modes; ++m) {
-      const double sign = 0.125 * mode_at(static_cast<unsigned int>(m), static_cast<unsigned int>(b));
-      for (std::size_t r = 0; r < n_element_dofs; ++r)
-        for (std::size_t j = 0; j < 3; ++j)
-          matrix[r * n_element_dofs + 3 * b + j] += sign * half[r * n_modal_dofs + 3 * m + j];
-    }
+  const auto half = scatter_rows<n_modal_dofs>(modal);
+  std::array<double, n_modal_dofs * n_element_dofs> transposed;
+  for (std::size_t r = 0; r < n_element_dofs; ++r)
+    for (std::size_t c = 0; c < n_modal_dofs; ++c)
+      transposed[c * n_element_dofs + r] = half[r * n_modal_dofs + c];
+  const auto whole = scatter_rows<n_element_dofs>(transposed);
+  for (std::size_t r = 0; r < n_element_dofs; ++r)
+    for (std::size_t c = 0; c < n_element_dofs; ++c)
+      matrix[c * n_element_dofs + r] = whole[r * n_element_dofs + c];
 }
 
 void add_mean_tangent(const double volume, const Gradients<n_linear_modes> &gradients,
@@ -273,7 +289,7 @@ void OnePointElement::add_force(const Reference &reference, const Kinematics &ki
   for (unsigned int a = 0; a < n_element_nodes; ++a)
     for (unsigned int m = 0; m < n_element_modes; ++m)
       for (unsigned int i = 0; i < 3; ++i)
-        force[3 * a + i] += 0.125 * mode_at(m, a) * modal[m][i];
+        force[3 * a + i] += 0.125 * mode_values[m][a] * modal[m][i];
 }
 
 template <class Moduli>

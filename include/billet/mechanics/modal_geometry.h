@@ -12,14 +12,20 @@ inline double corner(const unsigned int a, const unsigned int i) { return ((a >>
 constexpr unsigned int n_element_modes = 7; ///< a_1, a_2, a_3, b_1, b_2, b_3, c
 constexpr unsigned int n_linear_modes = 6;  ///< those which the mean gradient sees: all but c
 
+/// A mode's directions, as the bits ξ, η, ζ.
+constexpr std::array<unsigned int, n_element_modes> mode_places = {1, 2, 4, 6, 5, 3, 7};
+
 /// Value of mode m at node a, ±1; a nodal vector's mode is the mean of its products with these.
-inline double mode_at(const unsigned int m, const unsigned int a) {
-  constexpr unsigned int bits[n_element_modes] = {1, 2, 4, 6, 5, 3, 7};
-  double sign = 1.;
-  for (unsigned int i = 0; i < 3; ++i)
-    sign *= ((bits[m] >> i) & 1U) != 0U ? corner(a, i) : 1.;
-  return sign;
-}
+constexpr std::array<std::array<double, n_element_nodes>, n_element_modes> mode_values = [] {
+  std::array<std::array<double, n_element_nodes>, n_element_modes> values{};
+  for (unsigned int m = 0; m < n_element_modes; ++m)
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      values[m][a] = 1.;
+      for (unsigned int i = 0; i < 3; ++i)
+        values[m][a] *= ((mode_places[m] >> i) & 1U) != 0U && ((a >> i) & 1U) == 0U ? -1. : 1.;
+    }
+  return values;
+}();
 
 /// Modes of a nodal vector.
 inline std::array<dealii::Tensor<1, 3>, n_element_modes> compute_modes(const ElementVectors &values) {
@@ -27,7 +33,7 @@ inline std::array<dealii::Tensor<1, 3>, n_element_modes> compute_modes(const Ele
   for (unsigned int m = 0; m < n_element_modes; ++m)
     for (unsigned int a = 0; a < n_element_nodes; ++a)
       for (unsigned int i = 0; i < 3; ++i)
-        modes[m][i] += 0.125 * mode_at(m, a) * values[3 * a + i];
+        modes[m][i] += 0.125 * mode_values[m][a] * values[3 * a + i];
   return modes;
 }
 
