@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // In a contact-dominated step with friction slipping, the energy |R·Δu| of the last iterations squares:
-// E_{k+1}/E_k ≈ (E_k/E_{k−1})², so the logarithms of successive ratios stand 2 : 1.
+// E_{k+1}/E_k ≈ (E_k/E_{k−1})², so the logarithms of successive ratios stand 2 : 1. With the other elements
+// and laws steps have fewer iterations; there each relative residual is at most ten times the square of the
+// last.
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -21,13 +23,39 @@ double order_of_convergence(const std::vector<NewtonIteration> &iterations) {
          std::log(iterations[n - 2].energy / iterations[n - 3].energy);
 }
 
-void test_scene(const std::string &name, const parameters::Body::ElementType element,
-                const parameters::Material::Kinematics kinematics, const unsigned int n_steps = 10) {
+/// The largest f_{k+1}/f_k² of corrections that begin below 1e-3 and end above round-off, 1e-11, and their
+/// number. A tangent that is wrong by 0.1 % has 1e3 and more.
+void test_squares(const std::string &name, const parameters::Body::ElementType element,
+                  const parameters::Material::Kinematics kinematics) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   parameters.bodies[0].element.value = element;
   parameters.bodies[0].material.kinematics.value = kinematics;
   parameters.solver.force_tolerance = 1e-11;
-  testing::set_fixed_steps(parameters, n_steps);
+  testing::set_fixed_steps(parameters, 25);
+  SceneRun scene(parameters);
+  double largest = 0.;
+  unsigned int n = 0;
+  scene.finish([&](const NewtonReport &report) {
+    for (std::size_t i = 0; i < report.iterations.size(); ++i) {
+      const double before = report.iterations[i].force;
+      const double after = i + 1 < report.iterations.size() ? report.iterations[i + 1].force : report.force;
+      if (before < 1e-3 && after > 1e-11) {
+        largest = std::max(largest, after / (before * before));
+        ++n;
+      }
+    }
+  });
+  check(name + ", residuals square", largest, 10.);
+  check(name + ", seen often enough", n >= 5);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
+  parameters.solver.force_tolerance = 1e-11;
+  testing::set_fixed_steps(parameters, 10);
   SceneRun scene(parameters);
   std::vector<double> orders;
   unsigned int n_steps_slipping = 0;
@@ -43,24 +71,18 @@ void test_scene(const std::string &name, const parameters::Body::ElementType ele
     n_steps_slipping += n_slipping > n_sticking ? 1 : 0;
   });
   std::sort(orders.begin(), orders.end());
-  check(name + "most of the contact slips in every step", n_steps_slipping == n_steps);
-  check(name + "at least four steps show their order", orders.size() >= 4);
-  check(name + "median order of the energy's fall is 2 (at least 1.8)",
+  check("most of the contact slips in every step", n_steps_slipping == 10);
+  check("at least four steps show their order", orders.size() >= 4);
+  check("median order of the energy's fall is 2 (at least 1.8)",
         !orders.empty() && orders[orders.size() / 2] >= 1.8);
-}
 
-} // namespace
-
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   using Element = parameters::Body::ElementType;
   using Kinematics = parameters::Material::Kinematics;
-  test_scene("", Element::mean_dilatation, Kinematics::hencky);
   // Exact, since friction makes the matrix unsymmetric anyway.
-  test_scene("mean dilatation, neo-Hookean: ", Element::mean_dilatation, Kinematics::neo_hookean);
-  test_scene("mean dilatation, hypoelastic: ", Element::mean_dilatation, Kinematics::hypoelastic, 25);
-  test_scene("full: ", Element::full, Kinematics::hencky);
-  test_scene("one point: ", Element::one_point, Kinematics::hencky);
-  test_scene("one point, hypoelastic: ", Element::one_point, Kinematics::hypoelastic);
+  test_squares("mean dilatation, neo-Hookean", Element::mean_dilatation, Kinematics::neo_hookean);
+  test_squares("mean dilatation, hypoelastic", Element::mean_dilatation, Kinematics::hypoelastic);
+  test_squares("full, Hencky", Element::full, Kinematics::hencky);
+  test_squares("one point, Hencky", Element::one_point, Kinematics::hencky);
+  test_squares("one point, hypoelastic", Element::one_point, Kinematics::hypoelastic);
   return billet::testing::exit_code();
 }
