@@ -296,7 +296,7 @@ template <class Moduli>
 void OnePointElement::compute_tangent(const Reference &reference, const Kinematics &kinematics,
                                       const SymmetricTensor<2, 3> &tau, const Moduli &moduli,
                                       const Stabilisation &stabilisation, const bool yields,
-                                      const bool is_symmetrised, ElementMatrix &matrix) const {
+                                      ElementMatrix &matrix) const {
   ModalMatrix modal{};
   add_mean_tangent(reference.volume, kinematics.gradients, tau, moduli, bulk_, modal);
 
@@ -355,15 +355,13 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
           modal[(3 * n + j) * n_modal_dofs + 3 * m + i] += rates[n][j];
     }
   scatter(modal, matrix);
-  if (is_symmetrised)
-    symmetrise(matrix);
 }
 
 template void OnePointElement::compute_tangent(const Reference &, const Kinematics &,
                                                const SymmetricTensor<2, 3> &, const SpatialModuli &,
-                                               const Stabilisation &, bool, bool, ElementMatrix &) const;
+                                               const Stabilisation &, bool, ElementMatrix &) const;
 template void OnePointElement::compute_tangent(const Reference &, const Kinematics &,
                                                const SymmetricTensor<2, 3> &, const GradientModuli &,
-                                               const Stabilisation &, bool, bool, ElementMatrix &) const;
+                                               const Stabilisation &, bool, ElementMatrix &) const;
 
 } // namespace billet

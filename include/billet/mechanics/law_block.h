@@ -5,6 +5,7 @@
 #include "billet/material/hypoelastic.h"
 #include "billet/material/neo_hookean.h"
 #include "billet/mechanics/element_block.h"
+#include "billet/mechanics/point_tangent.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -16,8 +17,11 @@ namespace billet {
 template <class Element, class Law> class LawBlock final : public ElementBlock {
 public:
   LawBlock(Law law, const ElasticModuli &elastic, const ElementFormulation &formulation)
-      : law_(std::move(law)), element_(elastic, formulation), is_symmetrised_(formulation.is_symmetrised) {
-    if constexpr (!Element::is_stabilised) {
+      : law_(std::move(law)), element_(elastic, formulation) {
+    if constexpr (Element::is_stabilised) {
+      if (formulation.is_symmetrised)
+        finish_ = [](ElementMatrix &matrix) { symmetrise(matrix); };
+    } else {
       if constexpr (Law::has_symmetric_moduli)
         compute_tangent_ = [](const Element &, const Reference &reference, const Kinematics &kinematics,
                               const Stresses &tau, const Moduli &moduli, ElementMatrix &matrix) {
@@ -69,9 +73,10 @@ public:
       } else
         stabilisation = element_.stabilise(reference, kinematics, {});
       Element::add_force(reference, kinematics, tau[0], stabilisation, force);
-      if (matrix != nullptr)
-        element_.compute_tangent(reference, kinematics, tau[0], moduli[0], stabilisation, yields,
-                                 is_symmetrised_, *matrix);
+      if (matrix != nullptr) {
+        element_.compute_tangent(reference, kinematics, tau[0], moduli[0], stabilisation, yields, *matrix);
+        finish_(*matrix);
+      }
     } else {
       Element::template add_force<Law::is_rate_form>(reference, kinematics, tau, force);
       if (matrix != nullptr)
@@ -243,7 +248,8 @@ private:
 
   Law law_;
   Element element_;
-  bool is_symmetrised_;
+  // Chosen once: how the matrix is made, or what becomes of it.
+  void (*finish_)(ElementMatrix &) = [](ElementMatrix &) {};
   void (*compute_tangent_)(const Element &, const Reference &, const Kinematics &, const Stresses &,
                            const Moduli &, ElementMatrix &) = nullptr;
   std::vector<Reference> elements_;

@@ -84,12 +84,11 @@ public:
                         ElementVectors &force);
 
   /// `yields`: the limit follows the point's stress, on the yield surface. Symmetric where the moduli are and
-  /// it does not; else, if `is_symmetrised`, made so.
+  /// it does not.
   template <class Moduli>
   void compute_tangent(const Reference &reference, const Kinematics &kinematics,
                        const dealii::SymmetricTensor<2, 3> &tau, const Moduli &moduli,
-                       const Stabilisation &stabilisation, bool yields, bool is_symmetrised,
-                       ElementMatrix &matrix) const;
+                       const Stabilisation &stabilisation, bool yields, ElementMatrix &matrix) const;
 
 private:
   HourglassVector respond(const HourglassVector &h, const std::array<double, 6> &ratios) const;
