@@ -71,7 +71,7 @@ def parse(arguments):
     add("--largest-error", type=float, default=1.0, help="(1)")
     group = parser.add_argument_group("where to")
     add = group.add_argument
-    add("--folder", help="where runs are kept (trade/SCENE)")
+    add("--folder", help="where runs are kept (results/trade/SCENE)")
     add("--output", metavar="NAME", help="NAME.csv, NAME.md and NAME.png are written (FOLDER/trade)")
     add("--picture", metavar="FILE", help="another place for the picture, .png, .svg or .pdf")
     add("--title", help="of picture and page (the scene's)")
@@ -396,7 +396,7 @@ def main(arguments, beside):
     options = parse(arguments)
     program = Program(find_program(options.program, beside), options.ranks)
     original, file = read_user_scene(options, program)
-    folder = Path(options.folder or Path("trade") / file.stem)
+    folder = Path(options.folder or Path("results/trade") / file.stem)
     runner = Runner(program, folder, options.time_limit, options.repeat)
     runner.files = original.files(file.parent)
     scene = pilot(original, options)

@@ -36,9 +36,6 @@ def draw(sweep, file, title):
             draw_curve(axes, points, cost, u, COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)], name)
             bad = [p for p in points if not p.is_good and cost(p) > 0]
             axes.plot([cost(p) for p in bad], [band] * len(bad), "x", color=COLOURS[i % len(COLOURS)], ms=8, mew=2.2, zorder=5)
-            for p in bad:
-                axes.annotate(f"{p.value}: {p.status}", (cost(p), band), xytext=(-6, 0), textcoords="offset points", fontsize=7,
-                              color=COLOURS[i % len(COLOURS)], ha="right", va="center")
         base = sweep.base
         if base.is_good:
             axes.plot(cost(base), max(base.error, u), "*", color="black", ms=15, mec="white", mew=0.8, zorder=8, label="as written")
@@ -63,7 +60,8 @@ def draw(sweep, file, title):
     notes = [panels[0].text(0.012, u * (bottom / u) ** 0.06, f"reference's uncertainty, {percent(u)}", transform=panels[0].get_yaxis_transform(), fontsize=8,
                             color="0.35", va="top")]
     if failed:
-        panels[0].text(0.012, band, "failed", transform=panels[0].get_yaxis_transform(), fontsize=8, color="#901010", va="center")
+        notes.append(panels[0].text(0.012, band, "failed", transform=panels[0].get_yaxis_transform(), fontsize=8, color="#901010",
+                                    va="center"))
     if sweep.target:
         notes.append(panels[1].text(0.99, sweep.target, f"target {percent(sweep.target)}", transform=panels[1].get_yaxis_transform(), fontsize=8,
                        color="0.25", va="bottom", ha="right"))
@@ -72,7 +70,7 @@ def draw(sweep, file, title):
     figure.tight_layout(rect=(0, 0, 0.83, 1.0), w_pad=1.0)
     figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.83, 0.52), fontsize=8.5, frameon=False, labelspacing=0.55)
     for axes, cost in zip(panels, COSTS):
-        name_points(axes, sweep, cost, u, notes)
+        name_points(axes, sweep, cost, u, band, notes)
     figure.savefig(file, dpi=110)
     pyplot.close(figure)
 
@@ -129,7 +127,7 @@ def is_number(text):
         return False
 
 
-def name_points(axes, sweep, cost, u, notes):
+def name_points(axes, sweep, cost, u, band, notes):
     """The values, those on the front first, where there is room beside points, notes and each other."""
     pixels = axes.transData.transform
     frame = axes.get_window_extent()
@@ -139,10 +137,13 @@ def name_points(axes, sweep, cost, u, notes):
     colours = {name: COLOURS[i % len(COLOURS)] for i, name in enumerate(sweep.curves())}
     spots = [pixels((cost(p), max(p.error, u))) for p in sweep.points if p.is_good]
     scale = axes.figure.dpi / 72
-    for p in points:
-        x, y = pixels((cost(p), max(p.error, u)))
-        width, height = 4.3 * scale * len(p.value), 8.0 * scale
-        for dx, dy in ((6, 4), (6, -11), (-6 - width, 4), (-6 - width, -11), (-0.5 * width, 8), (-0.5 * width, -15)):
+    failed = [p for p in sweep.points if not p.is_good and not p.is_base and cost(p) > 0]
+    spots += [pixels((cost(p), band)) for p in failed]
+    for p in points + failed:
+        text, at = (p.value, max(p.error, u)) if p.is_good else (f"{p.value}: {p.status}", band)
+        x, y = pixels((cost(p), at))
+        width, height = 4.3 * scale * len(text), 8.0 * scale
+        for dx, dy in ((-6 - width, -4), (6, -4)) if not p.is_good else ((6, 4), (6, -11), (-6 - width, 4), (-6 - width, -11), (-0.5 * width, 8), (-0.5 * width, -15)):
             box = (x + dx, y + dy, x + dx + width, y + dy + height)
             if box[0] < frame.x0 or box[2] > frame.x1 or box[1] < frame.y0 or box[3] > frame.y1:
                 continue
@@ -150,6 +151,6 @@ def name_points(axes, sweep, cost, u, notes):
                     box[0] - 4 < sx < box[2] + 4 and box[1] - 4 < sy < box[3] + 4 for sx, sy in spots):
                 continue
             taken.append(box)
-            axes.annotate(p.value, (cost(p), max(p.error, u)), xytext=(dx / scale, dy / scale), textcoords="offset points",
+            axes.annotate(text, (cost(p), at), xytext=(dx / scale, dy / scale), textcoords="offset points",
                           fontsize=7.5, color=colours[p.curve], zorder=6)
             break

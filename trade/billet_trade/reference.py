@@ -22,6 +22,7 @@ class Axis:
 
 # Elements up to which the finest of the reference's own meshes is four times as fine as the scene's: some minutes' work.
 GIVEN = "given"  # instead of factors: errors are those of all but the mesh
+AUGMENTED = 0.01  # facet sizes, of the centre where bodies touch in implicit scenes
 AFFORDABLE = {True: 150_000, False: 10_000}
 
 
@@ -62,6 +63,9 @@ class Plan:
         else:
             n = steps or min(100, max(20, knobs.longest_steps(scene)))
             levels = [(f"{m} steps", knobs.equal_steps(scene, m)) for m in (n, 2 * n, 4 * n)]
+        bodies = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs") if scene.get(f"Contact pairs/{name}/Second body")]
+        if not scene.is_explicit:
+            base = base.changed({pair + "Penetration tolerance": AUGMENTED for pair in bodies if base.number(pair + "Penetration tolerance") == 0})
         self.centre = base.changed(levels[0][1])
         self.axes = [Axis("step", 2.0, [(label, self.centre.changed(changes)) for label, changes in levels], 0)]
         self._add_mesh(scene, mesh, lambda changes: count(scene.changed(changes)))
@@ -82,6 +86,8 @@ class Plan:
         self.axes.append(Axis("mesh", factors[1] / factors[0], levels, factors.index(1.0)))
 
     def _add_penalty(self, scene):
+        """By augmentation where the scene augments, or where bodies touch in an implicit scene, whose penalties and mesh
+        errors do not add up well; else by the penalty."""
         pairs = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs")]
         augmented = [pair for pair in pairs if self.centre.number(pair + "Penetration tolerance") > 0]
         if augmented:

@@ -144,6 +144,13 @@ class Sweep:
         """Than the scene as written, beyond what timings scatter."""
         return self.cost_of(point) * (1.0 + max(0.05, self.noise)) < self.cost_of(self.base)
 
+    def _allowed(self):
+        """What the target leaves for the error."""
+        return (self.target or 0.0) - self.uncertainty
+
+    def _keeping(self):
+        return "within the target" if self._allowed() > self._floored(self.base) * 1.02 else "at no more error"
+
     def purchases(self):
         """By knob: the point with the least error, and the cheapest whose error is no more than that of the scene as it is
         written (or than the target, where that is larger)."""
@@ -151,7 +158,7 @@ class Sweep:
         base = self.base
         if not base.is_good:
             return rows
-        bound = max(self._floored(base) * 1.02, (self.target or 0.0) - self.uncertainty)
+        bound = max(self._floored(base) * 1.02, self._allowed())
         for knob, points in self.curves().items():
             good = [p for p in points if p.is_good]
             if not good:
@@ -196,9 +203,9 @@ class Sweep:
                 said.append("No knob alone makes the error measurably smaller" + (
                     ": it is below the reference's uncertainty already." if base.error < u else "."))
             if cheaper:
-                said.append(f"Most speed is bought, at no more error, by {self.say(min(cheaper, key=self.cost_of))}.")
+                said.append(f"Most speed is bought, {self._keeping()}, by {self.say(min(cheaper, key=self.cost_of))}.")
             else:
-                said.append(f"No knob alone makes it cheaper by more than {percent(max(0.05, self.noise))} at no more error.")
+                said.append(f"No knob alone makes it cheaper by more than {percent(max(0.05, self.noise))} {self._keeping()}.")
             idle = [knob for knob, points in self.curves().items() if sum(p.is_good for p in points) > 1 and all(
                 abs(error - base.errors[name]) <= max(1e-3 * self.reference.uncertainty[name], 1e-6)
                 for p in points if p.is_good for name, error in p.errors.items())]
@@ -258,7 +265,7 @@ class Sweep:
                 ratio = self.cost_of(p) / self.cost_of(base)
                 return f"{p.value}: {error_text(p.error, self.uncertainty)} at {number(ratio, 2)}"
             rows.append([knob, cell(best) if best else "–", cell(keep) if keep else "–"])
-        return table(["knob", "least error, at times the cost", "cheapest at no more error, at times the cost"], rows)
+        return table(["knob", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"], rows)
 
     def page(self, title, command, remarks, picture):
         weights = ", ".join(f"{o.name} ({o.meaning}), weight {self.weights[o.name]:g}" for o in self.outputs)
