@@ -33,7 +33,7 @@ SWEEPS = {
         "mesh=0.5,1,2", "element=mean dilatation,one point", "safety factor=0.95,0.75,0.4", "contact resolution=1,2,4", "penalty=0.1,1,10",
         "mass scaling=1.05,1.2,1.5,2", "kinematics=Hencky,hypoelastic", "hourglass stiffness=0.1,0.5,1,2", "bulk viscosity=0.25,1,4"],
         [["element=mean dilatation", "mesh=0.5,1,2"], ["element=mean dilatation", "kinematics=neo-Hookean,hypoelastic"]]),
-    "tube_impact": ("tube_impact", "--reference-mesh 0.5,1,2 --outputs shape,rebound --target 10%", [
+    "tube_impact": ("tube_impact", "--reference-mesh 0.5,1,2 --outputs shape,rebound --target 15%", [
         "mesh=0.5,1", "element=mean dilatation,one point", "kinematics=Hencky,neo-Hookean,hypoelastic", "safety factor=0.95,0.75,0.4",
         "contact resolution=1,2,4", "penalty=0.1,1,10", "facets=planed,bilinear,mean gap", "passes=one,two", "mass scaling=1.5,2,4,8",
         "bulk viscosity=0.25,1,4", "search margin=0.25,0.5,1"], [["element=one point", "kinematics=Hencky,hypoelastic"]]),

@@ -142,6 +142,8 @@ class TestPlan(unittest.TestCase):
         plan = Plan(shipped("hertz_cylinders"), lambda scene: 1, GIVEN)
         self.assertEqual([axis.name for axis in plan.axes], ["step", "penetration tolerance"])
 
+        self.assertEqual([scene.get("Contact pairs/faces/Penetration tolerance") for _, scene in plan.axes[1].levels], ["0.001", "0.00025", "6.25e-05"])
+        self.assertEqual((plan.axes[1].centre, plan.centre.get("Solver/Most augmentations")), (1, "100"))
         # Bodies that touch in an implicit scene: augmented, though the scene is not.
         plan = Plan(shipped("ironing"), lambda scene: 1, GIVEN)
         self.assertEqual([scene.get("Contact pairs/face/Penetration tolerance") for _, scene in plan.axes[-1].levels], ["0.01", "0.0025", "0.000625"])

@@ -120,6 +120,7 @@ class TestForce(unittest.TestCase):
         self.assertAlmostEqual(force.excess(self.run_with(20, 1.3), exact), 0.3)
         # Long steps are judged at their ends, where they were computed: no error of interpolation.
         self.assertAlmostEqual(force.error(self.run_with(4, 1.03), exact), 0.03)
+        self.assertAlmostEqual(force.error(self.run_with(1, 1.03), exact), 0.03)
         # What lies before the first step of the reference is nobody's fault.
         self.assertLess(force.error(self.run_with(200, 1.0, 5.0), exact), 1e-9)
 

@@ -60,6 +60,7 @@ class TestScene(unittest.TestCase):
         scene = Scene("subsection Bodies\n subsection x\n  set A = 1\n end\nend\n",
                       "subsection Bodies\n subsection (name of a body)\n  set A = 5\n  set B = 6\n end\nend\n")
         self.assertEqual([scene.get(f"Bodies/x/{name}") for name in "ABC"], ["1", "6", ""])
+        self.assertEqual([scene.knows(f"Bodies/x/{name}") for name in "ABC"], [True, True, False])
         self.assertEqual(scene.names("Bodies"), ["x"])
 
 

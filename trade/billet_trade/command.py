@@ -79,6 +79,8 @@ def parse(arguments):
     for name, least in (("ranks", 1), ("jobs", 1), ("repeat", 1)):
         if getattr(options, name) < least:
             raise TradeError(f"--{name}: found {getattr(options, name)}, allowed are whole numbers from {least} on")
+    if options.reference_steps is not None and options.reference_steps < 1:
+        raise TradeError(f"--reference-steps: found {options.reference_steps}, allowed are whole numbers from 1 on")
     if options.until is not None and not 0 < options.until <= 1:
         raise TradeError(f"--until: found {options.until:g}, allowed is a part of the end time, > 0 and <= 1")
     if options.combine and not options.target:

@@ -128,6 +128,8 @@ def equal_steps(scene, n):
                "Time stepping/Largest step": step, "Time stepping/Few iterations": 9998, "Time stepping/Many iterations": 9999}
     if scene.scheme == "implicit dynamics":
         changes["Implicit dynamics/Error tolerance"] = 0
+    elif scene.knows("Time stepping/Error tolerance"):
+        changes["Time stepping/Error tolerance"] = 0
     return changes
 
 
@@ -148,10 +150,13 @@ def make_largest_step(scene, argument):
             "Time stepping/Initial step": shown(min(largest, scene.number("Time stepping/Initial step")))}
 
 
-@knob("error tolerance", "of the time integration, by which implicit dynamics chooses its steps", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
+@knob("error tolerance", "of a step, by which its length is chosen", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 def make_error_tolerance(scene, argument):
-    need(scene.scheme == "implicit dynamics", "of implicit dynamics")
-    return {"Implicit dynamics/Error tolerance": argument}
+    implicit(scene)
+    if scene.scheme == "implicit dynamics":
+        return {"Implicit dynamics/Error tolerance": argument}
+    need(scene.knows("Time stepping/Error tolerance"), "of implicit dynamics")
+    return {"Time stepping/Error tolerance": argument}
 
 
 @knob("spectral radius", "what a step leaves of the highest frequencies", 0, 0.5, 0.8, 1)
@@ -340,7 +345,31 @@ def make_kinematics(scene, argument):
 @knob("hourglass stiffness", "of one-point elements", 0.1, 0.5, 1, 2)
 def make_hourglass(scene, argument):
     need(any(scene.get(f"Bodies/{body}/Element") == "one point" for body in scene.names("Bodies")), "of one-point elements")
-    return {"Explicit dynamics/Hourglass stiffness": argument}
+    if scene.is_explicit:
+        return {"Explicit dynamics/Hourglass stiffness": argument}
+    return {f"Bodies/{body}/Hourglass stiffness": argument for body in scene.names("Bodies")
+            if scene.get(f"Bodies/{body}/Element") == "one point"}
+
+
+@knob("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
+def make_material_tangent(scene, argument):
+    implicit(scene)
+    need(scene.knows("Solver/Material tangent"), "this billet has no such parameter")
+    return {"Solver/Material tangent": argument}
+
+
+# --- all at once -------------------------------------------------------------------------------------------------
+
+@knob("profile", "one word for all knobs", "fast", "balanced", "accurate")
+def make_profile(scene, argument):
+    need(scene.knows("Profile"), "this billet has no such parameter")
+    return {"Profile": argument, "Target error": None}
+
+
+@knob("target error", "by which the program turns the knobs itself", 0.1, 0.03, 0.01, 0.003)
+def make_target_error(scene, argument):
+    need(scene.knows("Target error"), "this billet has no such parameter")
+    return {"Target error": argument, "Profile": None}
 
 
 # --- what users name ---------------------------------------------------------------------------------------------
@@ -386,12 +415,12 @@ def asked_knob(text, known):
 
 def reference_settings(scene):
     """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is exact."""
+    changes = {path: None for path in ("Profile", "Target error") if path in scene.entries}
     if scene.is_explicit:
-        changes = {}
         if scene.number("Explicit dynamics/Mass scaling step") > 0:
             changes["Explicit dynamics/Mass scaling step"] = 0
         for body in scene.names("Bodies"):
             if scene.get(f"Bodies/{body}/Material/Kinematics") != "Hencky":
                 changes[f"Bodies/{body}/Material/Kinematics"] = "Hencky"
         return changes
-    return newton_tolerance(min(1e-8, scene.number("Solver/Force tolerance") or 1e-8))
+    return {**changes, **newton_tolerance(min(1e-8, scene.number("Solver/Force tolerance") or 1e-8))}

@@ -2,6 +2,7 @@
 """Error over cost, log-log: one curve a knob, what failed in a band of its own, the Pareto front, the choice."""
 
 import math
+import textwrap
 
 import matplotlib
 
@@ -68,6 +69,7 @@ def draw(sweep, file, title):
     figure.suptitle(title, fontsize=12, x=0.01, ha="left")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.tight_layout(rect=(0, 0, 0.83, 1.0), w_pad=1.0)
+    labels = ["\n".join(textwrap.wrap(label, 26)) for label in labels]
     figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.83, 0.52), fontsize=8.5, frameon=False, labelspacing=0.55)
     for axes, cost in zip(panels, COSTS):
         name_points(axes, sweep, cost, u, band, notes)

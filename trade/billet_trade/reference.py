@@ -22,7 +22,7 @@ class Axis:
 
 # Elements up to which the finest of the reference's own meshes is four times as fine as the scene's: some minutes' work.
 GIVEN = "given"  # instead of factors: errors are those of all but the mesh
-AUGMENTED = 0.01  # facet sizes, of the centre where bodies touch in implicit scenes
+AUGMENTED = 0.01  # facet sizes, the coarsest level where bodies touch in implicit scenes
 AFFORDABLE = {True: 150_000, False: 10_000}
 
 
@@ -63,10 +63,13 @@ class Plan:
         else:
             n = steps or min(100, max(20, knobs.longest_steps(scene)))
             levels = [(f"{m} steps", knobs.equal_steps(scene, m)) for m in (n, 2 * n, 4 * n)]
-        bodies = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs") if scene.get(f"Contact pairs/{name}/Second body")]
-        if not scene.is_explicit:
-            base = base.changed({pair + "Penetration tolerance": AUGMENTED for pair in bodies if base.number(pair + "Penetration tolerance") == 0})
-        self.centre = base.changed(levels[0][1])
+        tolerances = {} if scene.is_explicit else {
+            pair: base.number(pair + "Penetration tolerance") or (AUGMENTED if base.get(pair + "Second body") else 0.0)
+            for pair in (f"Contact pairs/{name}/" for name in scene.names("Contact pairs"))}
+        augmented = {pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0}
+        if augmented:
+            augmented["Solver/Most augmentations"] = 100
+        self.centre = base.changed({**levels[0][1], **augmented})
         self.axes = [Axis("step", 2.0, [(label, self.centre.changed(changes)) for label, changes in levels], 0)]
         self._add_mesh(scene, mesh, lambda changes: count(scene.changed(changes)))
         self._add_penalty(scene)
@@ -91,10 +94,11 @@ class Plan:
         pairs = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs")]
         augmented = [pair for pair in pairs if self.centre.number(pair + "Penetration tolerance") > 0]
         if augmented:
+            # The centre in the middle: what is left of the penetration scatters, and would blur the other axes.
             levels = [(f"penetration tolerance / {d}", self.centre.changed(
-                {"Solver/Most augmentations": 100, **{pair + "Penetration tolerance": knobs.shown(
-                    self.centre.number(pair + "Penetration tolerance") / d) for pair in augmented}} if d > 1 else {})) for d in (1, 4, 16)]
-            self.axes.append(Axis("penetration tolerance", 4.0, levels, 0))
+                {pair + "Penetration tolerance": knobs.shown(4 * self.centre.number(pair + "Penetration tolerance") / d)
+                 for pair in augmented} if d != 4 else {})) for d in (1, 4, 16)]
+            self.axes.append(Axis("penetration tolerance", 4.0, levels, 1))
         elif pairs:
             levels = [(f"penalty × {f}", self.centre.changed(knobs.scaled_penalties(self.centre, f) if f > 1 else {})) for f in (1, 4, 16)]
             self.axes.append(Axis("penalty", 4.0, levels, 0))

@@ -113,7 +113,7 @@ class Runner:
         self.program, self.limit, self.repeat = program, limit, repeat
         self.folder = Path(folder)
         self.stop = threading.Event()
-        self._elements = {}
+        self._elements, self._run_here = {}, set()
         self.files = {}  # {path in the scene: absolute file}
         try:
             (self.folder / "runs").mkdir(parents=True, exist_ok=True)
@@ -139,9 +139,13 @@ class Runner:
             file.write_text(text)
             code, said, against = self.program.check(file)
             file.unlink()
+            if self.stop.is_set():
+                raise Stopped
+            if code not in (0, 2):
+                raise TradeError(f"'{self.program.path} --check' ended with {code}: {against}", 3)
             write_json(kept, {"code": code, "said": said, "against": against.replace(str(file), "scene").replace(file.name, "scene")})
         known = json.loads(kept.read_text())
-        why = "" if known["code"] == 0 else known["against"] or f"exit code {known['code']}"
+        why = "" if known["code"] == 0 else known["against"]
         return n_elements(known["said"]), re.sub(r"^billet: scene:?\d*:? ?", "", why), known["said"]
 
     def elements(self, scene):
@@ -155,7 +159,7 @@ class Runner:
         """Whether nothing is left to do for it."""
         place = self.folder / "runs" / self.key(self.prepared(scene))
         kept = read_json(place / "result.json")
-        return kept is not None and self._enough(kept, repeat or self.repeat)
+        return kept is not None and kept["status"] != "crashed" and self._enough(kept, repeat or self.repeat)
 
     def _enough(self, kept, repeat):
         if kept["status"] == "out of time" and self.limit > 1.01 * kept["limit"]:
@@ -170,6 +174,9 @@ class Runner:
         kept = read_json(place / "result.json")
         if kept and kept["status"] == "out of time" and not self._enough(kept, repeat):
             kept = None
+        if kept and kept["status"] == "crashed" and place not in self._run_here:
+            kept = None  # who knows why: once more
+        self._run_here.add(place)
         while kept is None or not self._enough(kept, repeat):
             if self.stop.is_set():
                 raise Stopped

@@ -91,14 +91,22 @@ class Scene:
         """Of the subsections in this one."""
         return [section[-1] for section in self.sections if section[:-1] == list(path)]
 
+    def knows(self, path):
+        """Whether the program has such a parameter."""
+        return self._printed(path) is not None
+
     def default(self, path):
-        """As printed by the program; a user's name stands there as '(name of ...)'. '' if it has no such parameter."""
+        """As printed by the program; '' if it has no such parameter."""
+        return self._printed(path) or ""
+
+    def _printed(self, path):
+        """A user's name stands there as '(name of ...)'."""
         wanted = path.split("/")
         for key, value in self._defaults.items():
             parts = key.split("/")
             if len(parts) == len(wanted) and all(a == b or a.startswith("(name of") for a, b in zip(parts, wanted)):
                 return value
-        return ""
+        return None
 
     def get(self, path):
         return self.entries.get(path, self.default(path))
