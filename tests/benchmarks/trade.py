@@ -19,15 +19,15 @@ SWEEPS = {
         "steps=10,20,40,80", "largest step=0.25,0.5,1,2", "penalty=0.1,1,10", "augmentation=0,0.01,0.0001",
         "tangent=exact,consistent,continuum,symmetrised lower", "tolerance=0.01,0.0001,1e-6,1e-8",
         "predictor=extrapolation,tangent", "solver=MUMPS,GMRES"], []),
-    "ironing": ("ironing", "--reference-mesh 0.5,1,2 --outputs force --target 5%", [
+    "ironing": ("ironing", "--title|Shallow ironing|--reference-mesh 0.5,1,2 --outputs force --target 5%", [
         "mesh=0.5,1", "largest step=0.5,1,2,4", "penalty=0.1,1,10", "augmentation=0.01,0.001", "tolerance=0.01,0.0001,1e-6",
         "tangent=exact,consistent", "facets=overlap,planed,bilinear,mean gap", "passes=one,two"], []),
-    "hertz_cylinders": ("hertz_cylinders", "--mesh 0.5 --reference-mesh 1,2,4 --reference-steps 10 --outputs force --target 1%", [
+    "hertz_cylinders": ("hertz_cylinders", "--title|Two elastic cylinders|--mesh 0.5 --reference-mesh 1,2,4 --reference-steps 10 --outputs force --target 1%", [
         "mesh=0.5,1,2", "steps=1,2,5,10", "penalty=0.1,1,10", "augmentation=0,0.01,0.001,0.0001", "tolerance=0.01,0.0001,1e-6",
         "facets=overlap,planed,bilinear", "solver=MUMPS,MUMPS symmetric,CG"], []),
     "wagoner_punch": ("wagoner_punch", "--mesh 0.5 --until 0.75 --reference-mesh 0.5,1,2 --force punch.force_z --outputs force,strain "
-                      "--line|0, 0, 0.5 to 66, 0, 0.5|--target 5%", [
-        "mesh=0.5,1", "largest step=0.5,1,2,4", "penalty=0.1,1,10", "tangent=exact,consistent,continuum", "tolerance=0.01,0.0001,1e-6"], []),
+                      "--line|0, 0, 0.5 to 66, 0, 0.5|--target 10%", [
+        "mesh=0.5,1,2", "largest step=0.5,1,2,4", "penalty=0.1,1,10", "tangent=exact,consistent,continuum", "tolerance=0.01,0.0001,1e-6"], []),
     "taylor_bar": ("taylor_bar", "--mesh 0.5 --reference-mesh 1,2,4 --reference|Bodies/bar/Element=mean dilatation|--outputs shape "
                    "--target 2% --time-limit 3000", [
         "mesh=0.5,1,2", "element=mean dilatation,one point", "safety factor=0.95,0.75,0.4", "contact resolution=1,2,4", "penalty=0.1,1,10",
@@ -52,7 +52,7 @@ for name in options.names or SWEEPS:
     if name not in SWEEPS:
         sys.exit(f"scripts/benchmarks trade: unknown name '{name}' ({', '.join(SWEEPS)})")
     scene, text, knobs, products = SWEEPS[name]
-    flags = [part for i, piece in enumerate(text.split("|")) for part in ([piece] if i == 1 else piece.split())]
+    flags = [part for i, piece in enumerate(text.split("|")) for part in ([piece] if i % 2 else piece.split())]
     command = [sys.executable, "trade/billet-trade", f"prm/{scene}.prm", *flags, "--knobs", *knobs]
     for product in products:
         command += ["--product", *product]

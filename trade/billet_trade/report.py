@@ -166,7 +166,7 @@ class Sweep:
                 continue
             best = min(good, key=lambda p: (self._floored(p), self.cost_of(p)))
             keeping = [p for p in good if self._floored(p) <= bound]
-            rows.append((knob, best if self._floored(best) < 0.98 * self._floored(base) else None,
+            rows.append((knob, best if self._floored(best) < 0.95 * self._floored(base) else None,
                          min(keeping, key=self.cost_of) if keeping else None))
         return rows
 
