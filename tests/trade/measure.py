@@ -75,6 +75,9 @@ class TestRichardson(unittest.TestCase):
         self.assertAlmostEqual(found.observed, 3.5)
         self.assertEqual(found.order, 2.0)
         self.assertGreaterEqual(found.uncertainty, size(found.values - self.limit))
+        # Nor is a last difference that is small by chance: what an order of two makes of the one before counts.
+        found = measure.richardson([numpy.array([1.0]), numpy.array([0.2]), numpy.array([0.2 - 1e-9])], 2.0, size)
+        self.assertAlmostEqual(found.uncertainty, 1.25 * 0.2 / 3)
 
     def test_to_and_fro(self):
         """Changes that turn round: the finest is taken, and the differences that are left bound its error."""

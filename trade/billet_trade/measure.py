@@ -99,7 +99,8 @@ def richardson(levels, ratio, norm):
 
     The order is observed in the last three, p = log(|f1 − f2| / |f2 − f3|) / log r. From 1/2 on it is believed, up to 2, the
     highest of what is extrapolated here. Differences that go on so add up to |f2 − f3| / (r^p − 1), whichever way they
-    point: with a factor of 1.25 that is the uncertainty (Roache 1994, the grid convergence index). The finest result is
+    point: with a factor of 1.25 that is the uncertainty (Roache 1994, the grid convergence index). A last difference smaller
+    than an order of 2 makes of the one before may be so by chance, and counts as that. The finest result is
     extrapolated where both differences point the same way, |f1 − f3| nearly their sum; else it is taken as it is. Where
     no order is believed p = 1/2 stands for it, 3 |f2 − f3| for r = 2, which is also Roache's advice for two results.
     """
@@ -114,9 +115,9 @@ def richardson(levels, ratio, norm):
         before = differences[-2]
         observed = math.log(before / last) / math.log(ratio) if before > 0.0 else -math.inf
     is_believed = observed is not None and observed >= LEAST_ORDER
-    left = last / (ratio ** (min(observed, LARGEST_ORDER) if is_believed else LEAST_ORDER) - 1.0)
+    order = min(observed, LARGEST_ORDER) if is_believed else LEAST_ORDER
+    left = max(last, differences[-2] / ratio**LARGEST_ORDER if is_believed else 0.0) / (ratio**order - 1.0)
     if is_believed and norm(finest - levels[-3]) >= SAME_WAY * (before + last):
-        order = min(observed, LARGEST_ORDER)
         return Limit(finest + (finest - levels[-2]) / (ratio**order - 1.0), 1.25 * left, order, observed, differences)
     return Limit(finest, 1.25 * left, None, observed, differences)
 
