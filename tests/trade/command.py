@@ -206,6 +206,7 @@ class TestCommand(unittest.TestCase):
             (["--combine"], "--combine wants a --target"),
             (["--reference-mesh", "1,2,3"], "--reference-mesh: found '1,2,3', allowed are at least two factors in one ratio"),
             (["--reference-mesh", "given", "--knobs", "mesh"], "--reference-mesh given: the mesh cannot be a knob then"),
+            (["--product", "mesh=1", "tangent=wrong"], "--product: the scene cannot use any of it: mesh 1, tangent wrong: 'Contact tangent': found 'wrong'"),
             (["--reference-steps", "0"], "--reference-steps: found 0, allowed are whole numbers from 1 on"),
             (["--knobs", "profile=fast"], "the scene cannot use the knob 'profile': fast: this billet has no such parameter"),
             (["--repeat", "0"], "--repeat: found 0, allowed are whole numbers from 1 on"),

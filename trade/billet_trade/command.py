@@ -204,24 +204,33 @@ class Candidates:
         points = [report.Point(knob.name, argument, changes, self.scene.changed(changes))
                   for knob, values in self.possible() for argument, changes in values]
         for product in self.products:
-            lists = []
-            for knob in product:
-                lists.append(self.values(knob))
-                if not lists[-1]:
-                    raise TradeError(f"--product: the scene cannot use the knob '{knob.name}': " +
-                                     "; ".join(f"{a}: {w}" for a, w in self.left_out[knob.name].items()))
-            for combination in itertools.product(*lists):
-                # The later knob sees what the earlier ones did: a factor of a factor.
-                changed, changes = self.scene, {}
-                for knob, (argument, _) in zip(product, combination):
+            points += self._combinations(product)
+        return points
+
+    def _combinations(self, product):
+        """All that the program takes; a later knob sees what the earlier ones did: a factor of a factor."""
+        points, against = [], []
+        for arguments in itertools.product(*(knob.arguments for knob in product)):
+            changed, changes = self.scene, {}
+            label = ", ".join(f"{knob.name} {argument}" for knob, argument in zip(product, arguments))
+            try:
+                for knob, argument in zip(product, arguments):
                     more = knob.make(changed, argument)
                     changes.update(more)
                     changed = changed.changed(more)
-                if self.runner.check(changed)[1]:
-                    continue
-                *first, last = [argument for argument, _ in combination]
-                name = ", ".join(f"{k.name} {a}" for k, a in zip(product, first)) + (" × " if first else "") + product[-1].name
-                points.append(report.Point(name, last, changes, changed))
+                _, why, _ = self.runner.check(changed)
+            except knobs.CannotTurn as reason:
+                why = str(reason)
+            if why:
+                against.append(f"{label}: {why}")
+                continue
+            *first, last = arguments
+            name = ", ".join(f"{k.name} {a}" for k, a in zip(product, first)) + (" × " if first else "") + product[-1].name
+            points.append(report.Point(name, last, changes, changed))
+        if not points:
+            raise TradeError("--product: the scene cannot use any of it: " + "; ".join(against))
+        for text in against:
+            print(f"left out of the product: {text}", file=sys.stderr)
         return points
 
     def tell(self):

@@ -190,7 +190,8 @@ class Sweep:
             better = [best for _, best, _ in buys if best]
             cheaper = [keep for _, _, keep in buys if keep and self.is_cheaper(keep)]
             if better:
-                best = min(better, key=lambda p: (self._floored(p), self.cost_of(p)))
+                least = min(map(self._floored, better))
+                best = min((p for p in better if self._floored(p) <= 1.1 * least), key=self.cost_of)
                 said.append(f"Most accuracy is bought by {self.say(best)}.")
                 # Accuracy for money: decades of error for a decade of cost.
                 def rate(p):
