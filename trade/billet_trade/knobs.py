@@ -416,11 +416,12 @@ def asked_knob(text, known):
 def reference_settings(scene):
     """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is exact."""
     changes = {path: None for path in ("Profile", "Target error") if path in scene.entries}
+    for body in scene.names("Bodies"):
+        path = f"Bodies/{body}/Material/Kinematics"
+        if scene.entries.get(path, "Hencky") != "Hencky":
+            changes[path] = "Hencky"
     if scene.is_explicit:
         if scene.number("Explicit dynamics/Mass scaling step") > 0:
             changes["Explicit dynamics/Mass scaling step"] = 0
-        for body in scene.names("Bodies"):
-            if scene.get(f"Bodies/{body}/Material/Kinematics") != "Hencky":
-                changes[f"Bodies/{body}/Material/Kinematics"] = "Hencky"
         return changes
     return {**changes, **newton_tolerance(min(1e-8, scene.number("Solver/Force tolerance") or 1e-8))}
