@@ -27,7 +27,7 @@ SWEEPS = {
         "facets=overlap,planed,bilinear", "solver=MUMPS,MUMPS symmetric,CG"], []),
     "wagoner_punch": ("wagoner_punch", "--mesh 0.5 --until 0.75 --reference-mesh 0.5,1,2 --force punch.force_z --outputs force,strain "
                       "--line|0, 0, 0.5 to 66, 0, 0.5|--target 10%", [
-        "mesh=0.5,1,2", "largest step=0.5,1,2,4", "penalty=0.1,1,10", "tangent=exact,consistent,continuum", "tolerance=0.01,0.0001,1e-6"], []),
+        "mesh=0.5,1", "largest step=0.5,1,2,4", "penalty=0.1,1,10", "tangent=exact,consistent,continuum", "tolerance=0.01,0.0001,1e-6"], []),
     "taylor_bar": ("taylor_bar", "--mesh 0.5 --reference-mesh 1,2,4 --reference|Bodies/bar/Element=mean dilatation|--outputs shape "
                    "--target 5% --time-limit 3000", [
         "mesh=0.5,1,2", "element=mean dilatation,one point", "safety factor=0.95,0.75,0.4", "contact resolution=1,2,4", "penalty=0.1,1,10",

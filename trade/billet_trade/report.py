@@ -144,6 +144,11 @@ class Sweep:
         """Than the scene as written, beyond what timings scatter."""
         return self.cost_of(point) * (1.0 + max(0.05, self.noise)) < self.cost_of(self.base)
 
+    def _cheapest(self, points):
+        """Of those whose costs the timings do not tell apart, the one with the least work."""
+        least = min(map(self.cost_of, points))
+        return min((p for p in points if self.cost_of(p) <= least * (1.0 + self.noise)), key=lambda p: p.work)
+
     def _allowed(self):
         """What the target leaves for the error."""
         return (self.target or 0.0) - self.uncertainty
@@ -167,7 +172,7 @@ class Sweep:
             best = min(good, key=lambda p: (self._floored(p), self.cost_of(p)))
             keeping = [p for p in good if self._floored(p) <= bound]
             rows.append((knob, best if self._floored(best) < 0.95 * self._floored(base) else None,
-                         min(keeping, key=self.cost_of) if keeping else None))
+                         self._cheapest(keeping) if keeping else None))
         return rows
 
     def times(self, point):
@@ -204,7 +209,7 @@ class Sweep:
                 said.append("No knob alone makes the error measurably smaller" + (
                     ": it is below the reference's uncertainty already." if base.error < u else "."))
             if cheaper:
-                said.append(f"Most speed is bought, {self._keeping()}, by {self.say(min(cheaper, key=self.cost_of))}.")
+                said.append(f"Most speed is bought, {self._keeping()}, by {self.say(self._cheapest(cheaper))}.")
             else:
                 said.append(f"No knob alone makes it cheaper by more than {percent(max(0.05, self.noise))} {self._keeping()}.")
             idle = [knob for knob, points in self.curves().items() if sum(p.is_good for p in points) > 1 and all(
