@@ -4,6 +4,7 @@ what is said to the user; at last a small sweep over billet itself."""
 
 import contextlib
 import csv
+import fcntl
 import io
 import math
 import os
@@ -222,6 +223,14 @@ class TestCommand(unittest.TestCase):
         (self.folder / "wrong.prm").write_text("set Speed = 1\n")
         self.assertEqual(self.said(scene="wrong.prm")[1], "billet-trade: billet refuses the scene:\nbillet: wrong.prm:1: 'Speed': "
                          "there is no such parameter\n")
+
+    def test_one_at_a_time(self):
+        (self.folder / "busy").mkdir()
+        with open(self.folder / "busy/lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            code, said = self.said("--folder", "busy", "--list")
+        self.assertEqual(code, 2)
+        self.assertIn("another billet-trade works in the folder 'busy'", said)
 
     def test_list(self):
         done = self.trade("--list")

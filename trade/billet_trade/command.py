@@ -409,25 +409,25 @@ def main(arguments, beside):
     original, file = read_user_scene(options, program)
     folder = Path(options.folder or Path("results/trade") / file.stem)
     runner = Runner(program, folder, options.time_limit, options.repeat)
-    runner.files = original.files(file.parent)
-    scene = pilot(original, options)
-    elements, against, _ = runner.check(scene)
-    if against:
-        raise TradeError(f"billet refuses the scene as it would be measured: {against}")
-    if options.list:
-        print(Candidates(scene, runner, options).tell())
-        return 0
-
-    previous = signal.signal(signal.SIGINT, lambda *_: runner.stop.set())
-    signal.signal(signal.SIGTERM, lambda *_: runner.stop.set())
+    handlers = {number: signal.signal(number, lambda *_: runner.stop.set()) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
+        runner.files = original.files(file.parent)
+        scene = pilot(original, options)
+        elements, against, _ = runner.check(scene)
+        if against:
+            raise TradeError(f"billet refuses the scene as it would be measured: {against}")
+        if options.list:
+            print(Candidates(scene, runner, options).tell())
+            return 0
         return sweep_over(options, runner, scene, elements, file, arguments)
     except Stopped:
         kept = len(list((folder / "runs").glob("*/result.json")))
         print(f"billet-trade: stopped; {kept} runs are kept in {folder}, and the same command goes on from there", file=sys.stderr)
         return 5
     finally:
-        signal.signal(signal.SIGINT, previous)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        runner.close()
 
 
 def sweep_over(options, runner, scene, elements, file, arguments):

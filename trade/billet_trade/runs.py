@@ -2,6 +2,7 @@
 """Running billet. Whatever a run gives is kept in a folder named by a hash of scene, program and ranks, so that nothing is
 ever run twice: a sweep that was stopped goes on."""
 
+import fcntl
 import hashlib
 import json
 import os
@@ -118,8 +119,15 @@ class Runner:
         try:
             (self.folder / "runs").mkdir(parents=True, exist_ok=True)
             (self.folder / "checks").mkdir(exist_ok=True)
+            self._lock = open(self.folder / "lock", "w")  # as long as this process lives
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise TradeError(f"another billet-trade works in the folder '{folder}': wait for it, or name another --folder") from None
         except OSError as error:
             raise TradeError(f"the folder '{folder}' cannot be written to: {error.strerror}") from None
+
+    def close(self):
+        self._lock.close()
 
     def prepared(self, scene):
         """The text that is run: files by their full names."""
