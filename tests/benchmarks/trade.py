@@ -11,11 +11,11 @@ ROOT = Path(__file__).resolve().parents[2]
 
 # By the name of the picture: the scene, and what is asked of it. Small enough for some minutes each on one core.
 SWEEPS = {
-    "billet_upsetting": ("billet_upsetting", "--mesh 2 --reference-mesh 0.5,1,2 --force die.force_z --outputs force --target 2%", [
+    "billet_upsetting": ("billet_upsetting", "--mesh 2 --reference-mesh 0.5,1,2 --force die.force_z --outputs force --target 2% --repeat 1", [
         "mesh=0.5,1", "steps=10,20,40,80", "largest step=0.25,0.5,1,2", "penalty=0.1,1,10", "augmentation=0,0.01,0.0001",
         "tangent=exact,consistent,symmetrised lower", "tolerance=0.01,0.0001,1e-6,1e-8",
         "predictor=extrapolation,tangent", "solver=MUMPS,GMRES"], [["mesh=0.5,1", "steps=10,20,40"]]),
-    "billet_given_mesh": ("billet_upsetting", "--mesh 2 --reference-mesh given --force die.force_z --outputs force --target 0.5%", [
+    "billet_given_mesh": ("billet_upsetting", "--mesh 2 --reference-mesh given --force die.force_z --outputs force --target 0.5% --repeat 1", [
         "steps=10,20,40,80", "largest step=0.25,0.5,1,2", "penalty=0.1,1,10", "augmentation=0,0.01,0.0001",
         "tangent=exact,consistent,symmetrised lower", "tolerance=0.01,0.0001,1e-6,1e-8",
         "predictor=extrapolation,tangent", "solver=MUMPS,GMRES"], []),
