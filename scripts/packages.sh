@@ -2,7 +2,8 @@
 # Usage: packages.sh GROUP...     Installs the packages of these groups that are not there yet (Debian, Ubuntu).
 #
 #   build       compile, run and test billet
-#   benchmarks  compare with CalculiX
+#   trade       run billet-trade, and its tests
+#   benchmarks  compare with CalculiX, billet-trade included
 #   pictures    draw the manual's pictures with ParaView, without a display
 #
 # BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an own deal.II, which
@@ -22,10 +23,11 @@ for group in "$@"; do
       packages+=(g++ cmake ninja-build ccache git openmpi-bin libmumps-dev libopenblas0-serial numdiff perl)
       [[ -n ${DEAL_II_DIR:-} ]] || packages+=(libdeal.ii-dev)
       ;;
+    trade) packages+=(python3 python3-matplotlib python3-paraview) ;;
     benchmarks) packages+=(calculix-ccx valgrind python3 python3-matplotlib python3-paraview) ;;
     pictures) packages+=(paraview python3-paraview xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     *)
-      echo "packages.sh: unknown group '$group' (build, benchmarks, pictures)" >&2
+      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, pictures)" >&2
       exit 2
       ;;
   esac

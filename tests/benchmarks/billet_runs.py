@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the benchmarks share: variants of a scene, runs of billet, errors of force curves, tables."""
+"""What the benchmarks share: runs of billet, errors of force curves, tables."""
 
 import argparse
 import csv
@@ -13,6 +13,9 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "trade"))
+from billet_trade.scene import read_scene, variant  # noqa: E402  what the program billet-trade has
+
 PROGRAM = os.environ.get("BILLET", str(ROOT / "build/release/bin/billet"))
 SCENE = ROOT / "prm/billet_upsetting.prm"
 TANGENTS = ("exact", "consistent", "continuum", "symmetrised upper", "symmetrised lower", "symmetrised mean")
@@ -36,36 +39,6 @@ def n_elements(refinements):
 
 def fixed_steps(n):
     return {"Time stepping/Step control": "fixed", "Time stepping/Initial step": repr(1.0 / n)}
-
-
-def variant(text, changes):
-    """The scene `text` with the entries {'Subsection/.../key': value} set anew, or added at the end."""
-    left = {key: str(value) for key, value in changes.items()}
-    path, lines = [], []
-    for line in text.splitlines():
-        statement = line.split("#")[0].strip()
-        if statement.startswith("subsection "):
-            path.append(statement.split(None, 1)[1].strip())
-        elif statement == "end":
-            path.pop()
-        elif statement.startswith("set "):
-            key = "/".join(path + [statement[4:].split("=")[0].strip()])
-            if key in left:
-                line = line.split("set ")[0] + "set " + key.split("/")[-1] + " = " + left.pop(key)
-        lines.append(line)
-    for key, value in left.items():
-        *path, name = key.split("/")
-        lines += ["subsection " + part for part in path] + [f"set {name} = {value}"] + ["end"] * len(path)
-    return "\n".join(lines) + "\n"
-
-
-def read_scene(path):
-    """The text of a scene file, with what it includes in place."""
-    lines = []
-    for line in path.read_text().splitlines():
-        included = re.match(r"\s*include\s+(\S+)", line)
-        lines.append(read_scene(path.parent / included.group(1)) if included else line)
-    return "\n".join(lines)
 
 
 def children_seconds():

@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command line: a whole sweep over a program whose limit and errors are known, failures, interruption and resumption, and
+what is said to the user; at last a small sweep over billet itself."""
+
+import contextlib
+import csv
+import fcntl
+import io
+import math
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from modules import HERE, ROOT, TRADE
+from billet_trade.command import run
+
+SCENE = """set Title = A bar
+subsection Bodies
+  subsection bar
+    subsection Mesh
+      set Layers      = 4
+      set Refinements = 1
+    end
+  end
+end
+subsection Tools
+  subsection die
+    set Shape = plane
+  end
+end
+subsection Contact pairs
+  subsection top
+    set Normal penalty = 10
+  end
+end
+subsection Time stepping
+  set End time = 1
+end
+"""
+WHOLE = ["--knobs", "mesh=0.5,1,2,4", "largest step=0.1,0.5,1", "penalty=0.1,1,10", "tangent=consistent,continuum,symmetrised lower",
+         "line search=none", "predictor=extrapolation,tangent", "--product", "mesh=1,2", "largest step=1,0.5", "--repeat", "2", "--time-limit", "4",
+         "--folder", "sweep", "--target", "4%", "--cost", "work"]
+
+
+def error(layers=4, step=0.1, penalty=10.0):
+    return 0.3 / layers**2 + 0.2 * step + 0.05 / penalty
+
+
+# The bar stands on its foot: over the centres of its four elements, displacements from there over those from the middle.
+SHAPE = math.sqrt((1 / 3 - 1 / 192) / (1 / 12 - 1 / 192))
+
+
+class TestCommand(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name)
+        (cls.folder / "bar.prm").write_text(SCENE)
+        fake = cls.folder / "fake"
+        fake.write_text(f"#!/bin/sh\nexec {sys.executable} -B {HERE / 'fake_billet.py'} \"$@\"\n")
+        fake.chmod(0o755)
+        os.environ["FAKE_LOG"] = str(cls.folder / "log")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def setUp(self):
+        self.log = self.folder / f"{self.id()}.log"
+
+    def said(self, *arguments, scene="bar.prm"):
+        """Exit code and standard error of a command that ends early, run within this process."""
+        previous, said = os.getcwd(), io.StringIO()
+        os.chdir(self.folder)
+        try:
+            with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+                return run([scene, "--program", str(self.folder / "fake"), *arguments], str(TRADE)), said.getvalue()
+        finally:
+            os.chdir(previous)
+
+    def trade(self, *arguments, scene="bar.prm", program=None, **environment):
+        done = subprocess.run([sys.executable, "-B", str(TRADE), *([scene] if scene else []), "--program", str(program or self.folder / "fake"), *arguments],
+                              cwd=self.folder, capture_output=True, text=True,
+                              env={**os.environ, "FAKE_LOG": str(self.log), **environment})
+        self.assertNotIn("Traceback", done.stderr)
+        return done
+
+    def runs(self):
+        return len(self.log.read_text().splitlines()) if self.log.exists() else 0
+
+    def rows(self, name):
+        with open(self.folder / f"{name}.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_sweep(self):
+        """Stopped in the middle, taken up again, and all errors as they must be."""
+        stopped = self.trade(*WHOLE, FAKE_INTERRUPT="7")
+        self.assertEqual(stopped.returncode, 5, stopped.stderr)
+        self.assertIn("stopped; 5 runs are kept in sweep, and the same command goes on", stopped.stderr)  # one timed twice
+        self.assertFalse((self.folder / "sweep/trade.csv").exists())
+        before = self.runs()
+
+        done = self.trade(*WHOLE)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("kept from before", done.stderr)
+        whole = self.runs()
+        rows = self.rows("sweep/trade")
+        points = [row for row in rows if row["kind"] != "reference"]
+        reference = [row for row in rows if row["kind"] == "reference"]
+        # Whatever was whole when it was stopped was not run again: each scene as often as it was timed, and the one that was stopped.
+        different = {row["changes"]: int(row["timed"]) for row in points}
+        self.assertLess(whole - before, sum(int(row["timed"]) for row in rows))
+        self.assertGreater(len(different), 12)
+
+        # The limit: F = 1 + t, to which all sequences go with exact orders, so that errors are known.
+        found = {(row["knob"], row["value"]): row for row in points}
+        uncertainty = float(points[0]["uncertainty"])
+        # At 20, 40, 80 steps, 4, 8, 16 layers, penalties of 10, 40, 160: 1.25 times what the finest of each lacks.
+        lacking = 1.25 * (0.3 / 256 + 0.2 / 80 + 0.05 / 160)
+        self.assertAlmostEqual(float(points[0]["uncertainty_force"]), lacking, delta=2e-5)
+        self.assertAlmostEqual(uncertainty, 0.5 * (1 + SHAPE) * lacking, delta=4e-5)
+        expected = {("", "as written"): error(), ("mesh", "0.5"): error(2), ("mesh", "2"): error(8), ("mesh", "4"): error(16),
+                    ("largest step", "0.5"): error(step=0.05), ("largest step", "0.1"): error(step=0.01),
+                    ("penalty", "10"): error(penalty=100.0), ("mesh 2 × largest step", "0.5"): error(8, 0.05),
+                    ("predictor", "tangent"): error(), ("tangent", "consistent"): error()}
+        for key, value in expected.items():
+            self.assertEqual(found[key]["status"], "ok", key)
+            self.assertAlmostEqual(float(found[key]["difference_force"]), value, delta=3e-6, msg=str(key))
+            self.assertAlmostEqual(float(found[key]["difference_shape"]), value * SHAPE, delta=3e-6, msg=str(key))
+            self.assertAlmostEqual(float(found[key]["error"]), max(0.5 * (1 + SHAPE) * value, uncertainty), delta=3e-6, msg=str(key))
+        self.assertEqual(found["mesh", "2"]["work"], str(8 * 50))  # 8 elements, 10 steps, 3 + 2 iterations each
+        self.assertEqual(found["mesh", "1"]["changes"], "Bodies/bar/Mesh/Layers = 4 ; Bodies/bar/Mesh/Refinements = 1")
+
+        # What failed says so, has no error, and is neither on the front nor chosen.
+        failed = {("tangent", "continuum"): "diverged", ("tangent", "symmetrised lower"): "locked", ("line search", "none"): "out of time",
+                  ("penalty", "0.1"): "pierced"}
+        for key, status in failed.items():
+            self.assertEqual(found[key]["status"], status, key)
+            self.assertEqual((found[key]["error"], found[key]["on_front"], found[key]["chosen"]), ("", "0", "0"), key)
+        self.assertIn("no convergence", found["tangent", "continuum"]["reason"])
+
+        # The choice: the least work among those whose error and the uncertainty stay within 4 %.
+        good = [row for row in points if row["status"] == "ok" and max(float(row["difference"]), uncertainty) + uncertainty <= 0.04]
+        chosen, = [row for row in points if row["chosen"] == "1"]
+        self.assertEqual(chosen["work"], str(min(int(row["work"]) for row in good)))
+        self.assertIn("Only the cost, not the result, changes with `predictor`", done.stdout)
+        self.assertEqual(len(reference), 8)
+        page = (self.folder / "sweep/trade.md").read_text()
+        for part in ("Most accuracy is bought by", "**chosen**", "`tangent = continuum` diverged", "| force | mesh |", "extrapolated", "trade.png"):
+            self.assertIn(part, page)
+        self.assertGreater((self.folder / "sweep/trade.png").stat().st_size, 20000)
+
+        # Once more: nothing is run.
+        again = self.trade(*WHOLE, "-j", "2", "--picture", "elsewhere.svg", "--output", "other/name")
+        self.assertEqual((again.returncode, self.runs()), (0, whole), again.stderr)
+        self.assertEqual([row["difference"] for row in self.rows("other/name")], [row["difference"] for row in rows])
+        self.assertTrue((self.folder / "elsewhere.svg").exists())
+
+        # A target below what the reference knows.
+        beyond = self.trade(*WHOLE[:-4], "--target", "0.7%")
+        self.assertEqual(beyond.returncode, 3)
+        self.assertIn("the reference itself is known to", beyond.stdout)
+        # And one that nothing tried comes up to, but might.
+        missed = self.trade("--knobs", "predictor", "--target", "3%", "--repeat", "1", "--folder", "sweep")
+        self.assertEqual(missed.returncode, 3)
+        self.assertIn("Nothing tried is within 3 %", missed.stdout)
+
+    def test_weights_and_given_mesh(self):
+        done = self.trade("--knobs", "penalty=10", "largest step=0.5", "--reference-mesh", "given", "--outputs", "force=3,shape", "--repeat", "1",
+                          "--folder", "given", "--until", "0.5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = {(row["knob"], row["value"]): row for row in self.rows("given/trade")}
+        mesh = 1 + 0.3 / 16  # what is not counted, and is part of what errors are relative to
+        self.assertAlmostEqual(float(found["", "as written"]["difference_force"]), (error() - 0.3 / 16) / mesh, delta=3e-6)
+        for row in found.values():
+            if row["difference"]:
+                self.assertAlmostEqual(float(row["difference"]), 0.75 * float(row["difference_force"]) + 0.25 * float(row["difference_shape"]), delta=1e-6)
+
+    def test_combination(self):
+        done = self.trade("--knobs", "mesh=0.5", "largest step=2", "--combine", "--target", "30%", "--repeat", "1", "--folder", "combined", "--cost", "work",
+                          "--knob", "pace: Time stepping/Largest step=0.2,0.5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows("combined/trade")
+        combined, = [row for row in rows if row["knob"] == "combined"]
+        self.assertEqual((combined["work"], combined["chosen"]), (str(2 * 2 * 5), "1"))  # two layers, two steps
+
+    def test_bad_input(self):
+        cases = [
+            (["--knobs", "speed"], "there is no knob 'speed'; there are mesh, steps, largest step"),
+            (["--knobs", "facets"], "the scene cannot use the knob 'facets': overlap: no bodies touch each other"),
+            (["--knobs", "tangent=wrong"], "the scene cannot use the knob 'tangent': wrong: 'Contact tangent': found 'wrong', allowed is one of"),
+            (["--knob", "Solver/Speed=1,2"], "cannot use the knob 'speed': 1: 'Speed': there is no such parameter"),
+            (["--knob", "nonsense"], "--knob: found 'nonsense'"),
+            (["--set", "Solver/Speed=1"], "billet refuses the scene as it would be measured: 'Speed': there is no such parameter"),
+            (["--set", "Speed"], "--set: found 'Speed', allowed is 'path/to/parameter=value'"),
+            (["--until", "2"], "--until: found 2, allowed is a part of the end time"),
+            (["--mesh", "3"], "--mesh: the mesh of 'bar' changes by factors of 2 only"),
+            (["--outputs", "colour"], "--outputs: found 'colour', allowed are force, strain, shape, rebound"),
+            (["--outputs", "strain", "--knobs", "predictor"], "the strain profile wants a --line"),
+            (["--outputs", "rebound", "--knobs", "predictor"], "nothing rebounds in a static scene"),
+            (["--force", "die.force_x", "--knobs", "predictor"], "the history has no column 'die.force_x'; it has die.force_z"),
+            (["--target", "much"], "found 'much', allowed is an error > 0"),
+            (["--target", "200%"], "--target: found '200%', allowed is an error below 100 %"),
+            (["--combine"], "--combine wants a --target"),
+            (["--reference-mesh", "1,2,3"], "--reference-mesh: found '1,2,3', allowed are at least two factors in one ratio"),
+            (["--reference-mesh", "given", "--knobs", "mesh"], "--reference-mesh given: the mesh cannot be a knob then"),
+            (["--product", "mesh=1", "tangent=wrong"], "--product: the scene cannot use any of it: mesh 1, tangent wrong: 'Contact tangent': found 'wrong'"),
+            (["--reference-steps", "0"], "--reference-steps: found 0, allowed are whole numbers from 1 on"),
+            (["--knobs", "profile=fast"], "the scene cannot use the knob 'profile': fast: this billet has no such parameter"),
+            (["--repeat", "0"], "--repeat: found 0, allowed are whole numbers from 1 on"),
+            (["--program", "/nowhere/billet"], "the program '/nowhere/billet' (--program) was not found"),
+        ]
+        for arguments, expected in cases:
+            with self.subTest(arguments):
+                code, said = self.said(*arguments, "--repeat", "1") if "--repeat" not in arguments else self.said(*arguments)
+                self.assertEqual(code, 2, said)
+                self.assertIn("billet-trade: ", said)
+                self.assertIn(expected, said)
+        self.assertEqual(self.said(scene="nowhere.prm"), (2, "billet-trade: nowhere.prm: there is no such scene file\n"))
+        (self.folder / "wrong.prm").write_text("set Speed = 1\n")
+        self.assertEqual(self.said(scene="wrong.prm")[1], "billet-trade: billet refuses the scene:\nbillet: wrong.prm:1: 'Speed': "
+                         "there is no such parameter\n")
+
+    def test_one_at_a_time(self):
+        (self.folder / "busy").mkdir()
+        with open(self.folder / "busy/lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            code, said = self.said("--folder", "busy", "--list")
+        self.assertEqual(code, 2)
+        self.assertIn("another billet-trade works in the folder 'busy'", said)
+
+    def test_list(self):
+        done = self.trade("--list")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("tangent: contact tangent\n    exact, consistent, continuum, symmetrised lower\n", done.stdout)
+        self.assertIn("facets overlap, planed, bilinear, mean gap: no bodies touch each other", done.stdout)
+
+    def test_reference_that_fails(self):
+        done = self.trade("--set", "Solver/Contact tangent=continuum", "--knobs", "predictor", "--repeat", "1", "--folder", "fails")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("the reference could not be made: its centre diverged", done.stderr)
+
+    def test_billet(self):
+        """The program itself, on eight bricks."""
+        done = self.trade("--knobs", "penalty=1,10", "tangent=exact", "steps=4", "--reference-steps", "4", "--reference-mesh", "0.5,1", "--repeat", "1",
+                          "--until", "0.25", scene=str(ROOT / "prm/billet_upsetting.prm"), program=os.environ["BILLET"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows("results/trade/billet_upsetting/trade")
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+        self.assertEqual([row["elements"] for row in rows if row["value"] == "mesh 0.5"], ["6"])
+        self.assertTrue(all(0 < float(row["core_seconds"]) and int(row["newton_iterations"]) > 4 for row in rows))
+
+
+unittest.main()

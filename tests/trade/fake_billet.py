@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Stands for billet: a bar of Layers elements, whose force and shape are off by 0.3 h² + 0.2 Δt + 0.05 / k from F = 1 + t, so that
+limit and errors are known. Some values fail, each in its own way. Each run adds a line to the file $FAKE_LOG; where that
+has $FAKE_INTERRUPT lines the sweep is interrupted as by Ctrl-C."""
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+from modules import ROOT  # noqa: F401  finds the next one
+from billet_trade.scene import entries
+
+DEFAULTS = """subsection Bodies
+  subsection (name of a body)
+    set Element = mean dilatation
+    subsection Mesh
+      set Source = extruded primitive
+      set Layers = 4
+      set Refinements = 0
+    end
+  end
+end
+subsection Contact pairs
+  subsection (name of a contact pair)
+    set Normal penalty = 10
+    set Penetration tolerance = 0
+    set Friction coefficient = 0.1
+  end
+end
+subsection Time stepping
+  set End time = 1
+  set Initial step = 0.1
+  set Largest step = 0.1
+  set Few iterations = 5
+  set Many iterations = 9
+  set Step control = automatic
+end
+subsection Solver
+  set Force tolerance = 1e-6
+  set Energy tolerance = 1e-10
+  set Contact tangent = automatic
+  set Predictor = extrapolation
+  set Line search = energy
+  set Linear solver = automatic
+end
+subsection Output
+  set Folder = results
+  set Format = vtu
+  set Every steps = 1
+  set Verbosity = steps
+  set Stress = true
+end
+"""
+WORDS = {"Contact tangent": ("automatic", "exact", "consistent", "continuum", "symmetrised lower"), "Predictor": ("extrapolation", "tangent"),
+         "Line search": ("energy", "none"), "Linear solver": ("automatic", "MUMPS")}
+
+
+def known(path):
+    return any(path.split("/")[-1] == default.split("/")[-1] for default in entries(DEFAULTS)) or path.split("/")[0] in ("Tools", "Contact pairs")
+
+
+def check(file):
+    try:
+        scene = entries(Path(file).read_text())
+    except OSError:
+        return {}, f"billet: {file}: the scene file cannot be read"
+    for path, value in scene.items():
+        key = path.split("/")[-1]
+        if not known(path) and key != "Title":
+            return scene, f"billet: {file}:1: '{key}': there is no such parameter"
+        if key in WORDS and value not in WORDS[key]:
+            return scene, f"billet: {file}:1: '{key}': found '{value}', allowed is one of: {', '.join(WORDS[key])}"
+    return scene, ""
+
+
+def pvtu(file, n, stretch):
+    places, moved = [], []
+    for i in range(n):
+        for z in (i / n, (i + 1) / n):
+            for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                places.append((x, y, z * (1 + stretch)))
+                moved.append((0, 0, z * stretch))
+    def array(name, values, size, kind="Float64"):
+        return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{size}" format="ascii">' + " ".join(
+            f"{v}" for value in values for v in (value if size > 1 else (value,))) + "</DataArray>"
+    data = array("displacement", moved, 3) + array("body", [0.0] * len(places), 1) + array(
+        "contact_pair", [0.0 if p[2] > 1 + stretch - 1e-9 else -1.0 for p in places], 1)
+    file.with_suffix(".0.vtu").write_text(
+        f'<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid><Piece NumberOfPoints="{len(places)}" NumberOfCells="{n}">'
+        f'<Points>{array("Points", places, 3)}</Points><PointData>{data}</PointData><Cells>'
+        f'{array("connectivity", range(8 * n), 1, "Int64")}{array("offsets", range(8, 8 * n + 1, 8), 1, "Int64")}'
+        f'{array("types", [12] * n, 1, "UInt8")}</Cells></Piece></UnstructuredGrid></VTKFile>')
+    file.with_suffix(".pvtu").write_text(
+        '<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid GhostLevel="0"><PPointData>'
+        '<PDataArray type="Float64" Name="displacement" NumberOfComponents="3"/><PDataArray type="Float64" Name="body"/>'
+        '<PDataArray type="Float64" Name="contact_pair"/></PPointData><PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
+        f'<Piece Source="{file.name}.0.vtu"/></PUnstructuredGrid></VTKFile>')
+
+
+def run(scene):
+    log = Path(os.environ["FAKE_LOG"])
+    with log.open("a") as out:
+        out.write("run\n")
+    if len(log.read_text().splitlines()) == int(os.environ.get("FAKE_INTERRUPT", -1)):
+        os.kill(os.getppid(), signal.SIGINT)
+        time.sleep(60)  # it will be ended
+
+    def get(key, default):
+        return next((v for path, v in scene.items() if path.split("/")[-1] == key), default)
+    n, step, penalty = int(get("Layers", 4)), float(get("Largest step", 0.1)), float(get("Normal penalty", 10))
+    tangent = get("Contact tangent", "automatic")
+    error = 0.3 / n**2 + 0.2 * step + 0.05 / penalty
+    if tangent == "symmetrised lower":
+        error += 0.5  # converges, to forces that are half as large again
+    end = 0.4 if tangent == "continuum" else 1.0
+    if get("Line search", "energy") == "none":
+        time.sleep(60)
+    depth = 10.0 / penalty**2 / n  # ten facets at a penalty of one
+
+    results = Path(get("Folder", "results"))
+    results.mkdir(parents=True)
+    rows = ["step,time,step_length,iterations,residual,total_iterations,total_cuts,linear_iterations,die.force_z,die.deepest_penetration,"
+            "elastic_energy,energy_drift"]
+    times = [step * i for i in range(1, round(end / step) + 1)]
+    rows += [f"{i},{t:.15g},{step},3,1e-9,{3 * i},0,2,{(1 + t) * (1 + error):.15g},{depth},{t},0" for i, t in enumerate(times, 1)]
+    (results / "history.csv").write_text("\n".join(rows) + "\n")
+    if end < 1:
+        print("billet: scene.prm: at time 0.4 Newton's method does not converge: no convergence", file=sys.stderr)
+        return 3
+    pvtu(results / "fields_00001", n, 0.1 * (1 + error))
+    return 0
+
+
+def main():
+    if sys.argv[1] == "--version":
+        print("billet 0 (fake)")
+        return 0
+    if sys.argv[1] == "--print-parameters":
+        print(DEFAULTS)
+        return 0
+    file = sys.argv[-1]
+    scene, against = check(file)
+    if against:
+        print(against, file=sys.stderr)
+        return 2
+    if sys.argv[1] == "--check":
+        layers = next((v for path, v in scene.items() if path.endswith("/Layers")), 4)
+        print(f"Elements       {layers} in all, quasi-static, implicit")
+        return 0
+    return run(scene)
+
+
+sys.exit(main())

@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where the tests find billet-trade."""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+TRADE = ROOT / "trade/billet-trade"
+sys.path.insert(0, str(ROOT / "trade"))

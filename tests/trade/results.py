@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Outputs of runs against closed forms, on distorted meshes."""
+
+import math
+import unittest
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy
+
+import modules  # noqa: F401  finds the next ones
+from billet_trade import TradeError, results
+from billet_trade.scene import Scene
+
+CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+
+
+def block(n, displacement, body=0, shift=0.0, **more):
+    """Fields of a unit cube of n³ sheared bricks, each with nodes of its own."""
+    cells = [(CORNERS + [i, j, k]) / n for i in range(n) for j in range(n) for k in range(n)]
+    places = numpy.concatenate(cells)
+    places = places + [0.2 * 1, 0, 0] * places[:, [2]] + [shift, 0, 0]
+    fields = {"places": places, "displacement": displacement(places), "body": numpy.full(len(places), float(body)),
+              "cells": numpy.arange(len(places)).reshape(-1, 8)}
+    return {**fields, **{name: make(places) for name, make in more.items()}}
+
+
+def join(a, b):
+    return {name: numpy.concatenate([a[name], b[name] + (len(a["places"]) if name == "cells" else 0)]) for name in a}
+
+
+class Run:
+    """What an output asks a result for."""
+    body_meshes = results.Result.body_meshes.func
+
+    def __init__(self, fields=None, history=None):
+        self.fields, self.history = fields, {k: numpy.array(v, float) for k, v in (history or {}).items()}
+        self.body_meshes = {int(b): results.BodyMesh(fields, b) for b in numpy.unique(fields["body"])} if fields else {}
+
+
+def linear(places):
+    return places @ numpy.diag([0.1, -0.05, 0.2])
+
+
+class TestFields(unittest.TestCase):
+    def test_sampling(self):
+        mesh = Run(block(3, linear)).body_meshes[0]
+        fields = block(3, linear)
+        for place in ([0.31, 0.4, 0.7], [0.5, 0.5, 0.5]):
+            (found,), distance = mesh.at(place, fields["displacement"])
+            numpy.testing.assert_allclose(found, linear(numpy.array([place]))[0], atol=1e-9)
+            self.assertAlmostEqual(distance, 0.0)
+        # Outside: a point near by, which VTK finds in the element's own coordinates.
+        (found,), distance = mesh.at([0.5, 0.5, -0.25], fields["displacement"])
+        self.assertAlmostEqual(distance, 0.25, delta=0.01)
+        numpy.testing.assert_allclose(found, [0.05, -0.025, 0.0], atol=0.006)
+        numpy.testing.assert_allclose(mesh.volumes, 1 / 27)
+
+    def test_profile(self):
+        run = Run(block(4, linear))
+        profile = results.Profile("0.1, 0.5, 0.2 to 1, 0.5, 0.2", "stretch")
+        numpy.testing.assert_allclose(profile.values(run), math.log(1.1), atol=1e-6)
+        self.assertAlmostEqual(profile.error(Run(block(4, lambda x: 0 * x)), profile.values(run)), 1.0)
+        for wrong in ("1,2,3", "0,0,0 to 0,0,0", "0,0 to 1,1,1"):
+            with self.assertRaises(TradeError):
+                results.Profile(wrong, "stretch")
+
+    def test_plastic_profile(self):
+        """Element means, smoothed at the nodes: inside the body of second order for a field that is linear."""
+        def strain(places):
+            return numpy.repeat(places.reshape(-1, 8, 3).mean(axis=1)[:, 1], 8)
+        run = Run(block(8, linear, equivalent_plastic_strain=strain))
+        profile = results.Profile("0.5, 0.25, 0.5 to 0.5, 0.75, 0.5", "plastic")
+        numpy.testing.assert_allclose(profile.values(run)[:, None].ravel(), numpy.linspace(0.25, 0.75, 41), atol=1e-6)
+        with self.assertRaisesRegex(TradeError, "nothing yields"):
+            profile.values(Run(block(2, linear)))
+
+    def test_shape(self):
+        """A body that is stretched and one that flies: the flight is no deformation, and its error is measured by that."""
+        def both(stretch, flight):
+            return Run(join(block(3, lambda x: stretch * x), block(2, lambda x: 0 * x + [flight, 0, 0], 1, 5.0)))
+        right = both(0.1, 3.0)
+        shape = results.Shape(right)
+        exact = shape.values(right)
+        self.assertEqual(shape.error(right, exact), 0.0)
+        centred = right.body_meshes[0].centres - right.body_meshes[0].centres.mean(axis=0)
+        deformation = math.sqrt(0.5 * numpy.mean(numpy.sum((0.1 * centred) ** 2, axis=1)))  # of both, one of which has none
+        self.assertAlmostEqual(shape.scale(exact), deformation)
+        off = both(0.1, 3.01)
+        self.assertAlmostEqual(shape.error(off, exact), 0.01 * math.sqrt(0.5) / deformation)
+
+    def test_rebound(self):
+        scene = Scene("subsection Tools\nsubsection ram\nsubsection Motion\nset Mass = 2\nend\nend\nend")
+        history = {"time": [0, 1, 1.5], **{f"ram.travel_{a}": v for a, v in zip("xyz", ([0, 0, 0], [0, 0, 0], [0, -1, -3]))}}
+        run = Run(block(2, linear, velocity=lambda x: 0 * x + [0, 3, 0] + numpy.outer(x[:, 1] - 0.5, [7, 0, 0])), history)
+        rebound = results.Rebound(run, scene)
+        numpy.testing.assert_allclose(rebound.values(run), [[0, 3, 0], [0, 0, -4]], atol=1e-12)
+        self.assertAlmostEqual(rebound.norm(rebound.values(run)), math.sqrt(12.5))
+
+    def test_facets(self):
+        fields = block(4, linear, contact_pair=lambda x: numpy.where(x[:, 2] > 1 - 1e-9, 0.0, -1.0))
+        self.assertAlmostEqual(results.facet_size(fields), 0.25)
+        self.assertTrue(math.isnan(results.facet_size(block(1, linear))))
+
+
+class TestForce(unittest.TestCase):
+    scene = Scene("subsection Tools\nsubsection die\nend\nend\nsubsection Time stepping\nset End time = 1\nend")
+
+    def run_with(self, n, factor=1.0, first=1.0):
+        times = numpy.arange(1, n + 1) / n
+        return Run(history={"time": times, "die.force_x": 0 * times, "die.force_z": factor * (5 + times**2) * numpy.where(times == times[0], first, 1)})
+
+    def test_error(self):
+        centre = self.run_with(20)
+        force = results.Force(centre, self.scene, None, 0.05)
+        exact = force.values(centre)
+        self.assertEqual(force.columns, ["die.force_x", "die.force_z"])
+        self.assertAlmostEqual(force.error(centre, exact), 0.0)
+        self.assertAlmostEqual(force.error(self.run_with(20, 1.03), exact), 0.03)
+        self.assertAlmostEqual(force.excess(self.run_with(20, 1.3), exact), 0.3)
+        # Long steps are judged at their ends, where they were computed: no error of interpolation.
+        self.assertAlmostEqual(force.error(self.run_with(4, 1.03), exact), 0.03)
+        self.assertAlmostEqual(force.error(self.run_with(1, 1.03), exact), 0.03)
+        # What lies before the first step of the reference is nobody's fault.
+        self.assertLess(force.error(self.run_with(200, 1.0, 5.0), exact), 1e-9)
+
+    def test_columns(self):
+        with self.assertRaisesRegex(TradeError, "no column 'die.force_y'; it has die.force_x, die.force_z"):
+            results.Force(self.run_with(5), self.scene, ["die.force_y"], 0.05)
+
+    def test_explicit_force_is_smoothed(self):
+        scene = self.scene.changed({"Time stepping/Scheme": "explicit"})
+        times = numpy.linspace(0, 1, 2001)
+
+        def ringing(amplitude):
+            return Run(history={"time": times, "die.force_z": 1 + amplitude * numpy.sin(2 * math.pi * 20 * times)})
+        force = results.Force(ringing(0.0), scene, None, 0.05)
+        exact = force.values(ringing(0.0))
+        self.assertLess(force.error(ringing(1.0), exact), 0.01)  # whole periods; but for the ends
+        self.assertAlmostEqual(force.error(Run(history={"time": times, "die.force_z": 1.1 + 0 * times}), exact), 0.1)
+
+
+class TestHistory(unittest.TestCase):
+    def test_drift(self):
+        history = {"kinetic_energy": numpy.array([4.0, 1.0]), "plastic_work": numpy.array([0.0, 2.5]), "external_work": numpy.array([9.0, 9.0]),
+                   "energy_drift": numpy.array([0.0, -0.2])}
+        self.assertAlmostEqual(results.largest_drift(history), 0.05)
+        self.assertTrue(math.isnan(results.largest_drift({})))
+
+    def test_cut_off_line(self):
+        with TemporaryDirectory() as folder:
+            file = Path(folder, "history.csv")
+            file.write_text("step,time\n1,0.5\n2,0.")
+            self.assertEqual(results.read_history(file)["time"].tolist(), [0.5, 0.0])
+            file.write_text("step,time\n1,0.5\n2")
+            self.assertEqual(results.read_history(file)["time"].tolist(), [0.5])
+            self.assertEqual(results.read_history(Path(folder, "none.csv")), {})
+
+    def test_failures(self):
+        self.assertEqual(results.failure(0, "", 1)[0], "ok")
+        self.assertEqual(results.failure(3, "billet: a: no convergence", 1), ("diverged", "a: no convergence"))
+        self.assertEqual(results.failure(3, "fail to balance by 9 % ('Largest drift')", 1)[0], "drifted")
+        self.assertEqual(results.failure(2, "billet: x", 0), ("refused", "x"))
+        self.assertEqual(results.failure(None, "", 0.3), ("out of time", "at time 0.3"))
+        self.assertEqual(results.failure(-11, "", 0.3)[0], "crashed")
+
+
+unittest.main()

@@ -1,0 +1,427 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What can be turned in a scene. A knob makes of an argument, a factor or a word, the changes that a scene wants; one that the
+scene cannot use has none to make. Whether the program takes a change it says itself (`billet --check`)."""
+
+import math
+import re
+from dataclasses import dataclass, field
+
+from . import TradeError
+
+
+class CannotTurn(Exception):
+    """Why a knob, or one of its values, is none in this scene."""
+
+
+@dataclass
+class Knob:
+    name: str
+    meaning: str
+    arguments: list
+    make: object  # (scene, argument as text) -> changes; raises CannotTurn
+    expensive: bool = field(default=False)
+
+
+KNOBS = {}
+
+
+def knob(name, meaning, *arguments):
+    def keep(make):
+        KNOBS[name] = Knob(name, meaning, [str(a) for a in arguments], make)
+        return make
+    return keep
+
+
+def number(text, allowed="a number > 0"):
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (value > 0.0 and math.isfinite(value)):
+        raise TradeError(f"found '{text}', allowed is {allowed}")
+    return value
+
+
+def shown(value):
+    return f"{value:.6g}"
+
+
+def need(condition, why):
+    if not condition:
+        raise CannotTurn(why)
+
+
+# --- mesh --------------------------------------------------------------------------------------------------------
+
+# Of deal.II's generators: which arguments (from 0) are numbers of elements. Others are refined.
+COUNTS = {"subdivided_hyper_rectangle": (0,), "subdivided_hyper_cube": (0,), "subdivided_cylinder": (0,),
+          "cylinder_shell": (3, 4), "hyper_shell": (3,), "quarter_hyper_shell": (3,), "half_hyper_shell": (3,),
+          "concentric_hyper_shells": (3, 5)}
+
+
+def plane_axes(planes):
+    """Axes along which a body lies between two symmetry planes, so that one layer of elements may be all there is."""
+    axes = re.findall(r"(?:^|;)\s*([xyz])\s*=", planes)
+    return {"xyz".index(axis) for axis in axes if axes.count(axis) > 1}
+
+
+def scaled(count, factor):
+    return max(1, round(count * factor))
+
+
+def scaled_mesh(scene, body, factor):
+    """Changes that make the elements of a body so many times smaller along each edge."""
+    mesh = f"Bodies/{body}/Mesh/"
+    changes = {}
+    source = scene.get(mesh + "Source")
+    primitive = scene.get(mesh + "Primitive")
+    flat = plane_axes(scene.get(f"Bodies/{body}/Symmetry planes"))
+    if source == "extruded primitive" and not 2 in flat:
+        changes[mesh + "Layers"] = scaled(int(scene.get(mesh + "Layers")), factor)
+    if source != "file" and primitive in COUNTS:
+        arguments = [a.strip() for a in scene.get(mesh + "Arguments").split(":")]
+        for place in COUNTS[primitive]:
+            if place >= len(arguments):
+                continue
+            counts = [int(c) for c in arguments[place].split(",")]
+            # One element between two symmetry planes is the third dimension of a plane problem.
+            arguments[place] = ", ".join(str(c if c == 1 and axis in flat and len(counts) == 3 else scaled(c, factor))
+                                         for axis, c in enumerate(counts))
+        if any(arguments[p] != "0" for p in COUNTS[primitive] if p < len(arguments)):
+            return {**changes, mesh + "Arguments": " : ".join(arguments)}
+    levels = math.log2(factor)
+    refinements = int(scene.get(mesh + "Refinements")) + round(levels)
+    need(abs(levels - round(levels)) < 1e-9, f"the mesh of '{body}' changes by factors of 2 only")
+    need(refinements >= 0, f"the mesh of '{body}' cannot be coarser by {factor:g}: its Refinements are "
+                           f"{scene.get(mesh + 'Refinements')}")
+    return {**changes, mesh + "Refinements": refinements}
+
+
+@knob("mesh", "elements along each edge, factor of the scene's", 0.5, 1, 2)
+def make_mesh(scene, argument):
+    changes = {}
+    for body in scene.names("Bodies"):
+        changes.update(scaled_mesh(scene, body, number(argument)))
+    return changes
+
+
+# --- steps -------------------------------------------------------------------------------------------------------
+
+def implicit(scene):
+    need(not scene.is_explicit, "of implicit scenes")
+
+
+def explicit(scene):
+    need(scene.is_explicit, "of explicit scenes")
+
+
+def longest_steps(scene):
+    """How many steps of the largest length the scene has."""
+    key = "Initial step" if scene.get("Time stepping/Step control") == "fixed" else "Largest step"
+    return max(1, math.ceil(scene.end_time / float(scene.get("Time stepping/" + key)) - 1e-9))
+
+
+def equal_steps(scene, n):
+    """n equal steps. The step does not follow the iterations, but one that fails is cut and soon as long again."""
+    step = shown(scene.end_time / n)
+    changes = {"Time stepping/Step control": "automatic", "Time stepping/Initial step": step,
+               "Time stepping/Largest step": step, "Time stepping/Few iterations": 9998, "Time stepping/Many iterations": 9999}
+    if scene.scheme == "implicit dynamics":
+        changes["Implicit dynamics/Error tolerance"] = 0
+    elif scene.knows("Time stepping/Error tolerance"):
+        changes["Time stepping/Error tolerance"] = 0
+    return changes
+
+
+@knob("steps", "so many equal steps", 10, 20, 40, 80)
+def make_steps(scene, argument):
+    implicit(scene)
+    return equal_steps(scene, number(argument))
+
+
+@knob("largest step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
+def make_largest_step(scene, argument):
+    implicit(scene)
+    need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
+    need("Time stepping/Largest step" in scene.entries or number(argument) <= 1 or scene.end_time / 4 >= scene.number(
+        "Time stepping/Largest step"), "the largest step is a good part of the time already")
+    largest = number(argument) * scene.number("Time stepping/Largest step")
+    return {"Time stepping/Largest step": shown(largest),
+            "Time stepping/Initial step": shown(min(largest, scene.number("Time stepping/Initial step")))}
+
+
+@knob("error tolerance", "of a step, by which its length is chosen", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
+def make_error_tolerance(scene, argument):
+    implicit(scene)
+    if scene.scheme == "implicit dynamics":
+        return {"Implicit dynamics/Error tolerance": argument}
+    need(scene.knows("Time stepping/Error tolerance"), "of implicit dynamics")
+    return {"Time stepping/Error tolerance": argument}
+
+
+@knob("spectral radius", "what a step leaves of the highest frequencies", 0, 0.5, 0.8, 1)
+def make_spectral_radius(scene, argument):
+    need(scene.scheme == "implicit dynamics", "of implicit dynamics")
+    need(scene.get("Implicit dynamics/Method") == "generalised-alpha", "of the generalised-alpha method")
+    return {"Implicit dynamics/Spectral radius": argument}
+
+
+@knob("mass", "matrix of implicit dynamics", "consistent", "lumped")
+def make_mass(scene, argument):
+    need(scene.scheme == "implicit dynamics", "of implicit dynamics")
+    return {"Implicit dynamics/Mass": argument}
+
+
+@knob("safety factor", "part of the stable step", 0.95, 0.75, 0.5, 0.25)
+def make_safety(scene, argument):
+    explicit(scene)
+    return {"Explicit dynamics/Safety factor": argument}
+
+
+@knob("contact resolution", "how much finer than stability asks for steps resolve contact penalties", 1, 2, 4)
+def make_resolution(scene, argument):
+    explicit(scene)
+    need(scene.names("Contact pairs"), "there is no contact")
+    return {"Explicit dynamics/Contact resolution": argument}
+
+
+@knob("mass scaling", "steps so many times longer by mass that is added", 1.5, 2, 4, 8)
+def make_mass_scaling(scene, argument):
+    explicit(scene)
+    # Its own first step is known once the scene has run.
+    step = getattr(scene, "first_step", None) or scene.end_time / 1e4
+    return {"Explicit dynamics/Mass scaling step": shown(number(argument) * step)}
+
+
+@knob("bulk viscosity", "linear and quadratic, factor of the scene's", 0.25, 0.5, 1, 2)
+def make_viscosity(scene, argument):
+    explicit(scene)
+    return {f"Explicit dynamics/{kind} bulk viscosity": shown(number(argument) * scene.number(
+        f"Explicit dynamics/{kind} bulk viscosity")) for kind in ("Linear", "Quadratic")}
+
+
+@knob("instructions", "instruction set of the element kernels: changes the cost, not the result", "scalar", "SSE2", "AVX2", "AVX-512")
+def make_instructions(scene, argument):
+    explicit(scene)
+    return {"Explicit dynamics/Instructions": argument}
+
+
+# --- contact -----------------------------------------------------------------------------------------------------
+
+def pairs(scene, of_bodies=False):
+    names = scene.names("Contact pairs")
+    need(names, "there is no contact")
+    if of_bodies:
+        names = [n for n in names if scene.get(f"Contact pairs/{n}/Second body")]
+        need(names, "no bodies touch each other")
+    return [f"Contact pairs/{n}/" for n in names]
+
+
+def has_friction(scene):
+    return any(scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Largest shear stress") > 0
+               for pair in pairs(scene))
+
+
+def scaled_penalties(scene, factor):
+    changes = {}
+    for pair in pairs(scene):
+        for key in ("Normal penalty", "Tangential penalty"):
+            if scene.get(pair + key):
+                changes[pair + key] = shown(factor * scene.number(pair + key))
+    return changes
+
+
+@knob("penalty", "factor of the scene's, normal and tangential", 0.1, 0.3, 1, 3, 10)
+def make_penalty(scene, argument):
+    return scaled_penalties(scene, number(argument))
+
+
+@knob("augmentation", "until nodes are no farther from their faces than this, in facet sizes; 0: penalties alone",
+      0, 1e-1, 1e-2, 1e-3, 1e-4)
+def make_augmentation(scene, argument):
+    implicit(scene)
+    return {pair + "Penetration tolerance": argument for pair in pairs(scene)}
+
+
+@knob("tangent", "contact tangent", "exact", "consistent", "continuum", "symmetrised lower", "symmetrised mean",
+      "symmetrised upper")
+def make_tangent(scene, argument):
+    implicit(scene)
+    need(has_friction(scene) or not argument.startswith("symmetrised"), "there is no friction to symmetrise")
+    return {"Solver/Contact tangent": argument}
+
+
+@knob("facets", "what nodes of bodies touch", "overlap", "planed", "bilinear", "mean gap")
+def make_facets(scene, argument):
+    return {pair + "Facets": argument for pair in pairs(scene, True)}
+
+
+@knob("passes", "of nodes against facets: of one side, or of both", "one", "two")
+def make_passes(scene, argument):
+    changes = {}
+    for pair in pairs(scene, True):
+        if not scene.is_explicit and scene.get(pair + "Facets") in ("automatic", "overlap"):
+            changes[pair + "Facets"] = "planed"
+        changes[pair + "Passes"] = argument
+    return changes
+
+
+@knob("smoothing", "of nodes against facets, part of a facet", 0.05, 0.1, 0.25, 0.5)
+def make_smoothing(scene, argument):
+    changes = {}
+    for pair in pairs(scene, True):
+        if not scene.is_explicit and scene.get(pair + "Facets") in ("automatic", "overlap"):
+            changes[pair + "Facets"] = "planed"
+        changes[pair + "Smoothing"] = argument
+    return changes
+
+
+@knob("search margin", "in facet sizes: changes the cost, not the result", 0.1, 0.25, 0.5, 1, 2)
+def make_margin(scene, argument):
+    return {pair + "Search margin": argument for pair in pairs(scene, True)}
+
+
+# --- solver ------------------------------------------------------------------------------------------------------
+
+def newton_tolerance(tolerance):
+    """Of the force, and of the energy beside it: in the ratio of the defaults, 1e-6 and 1e-10."""
+    return {"Solver/Force tolerance": shown(tolerance), "Solver/Energy tolerance": shown(0.1 * tolerance**1.5)}
+
+
+@knob("tolerance", "of Newton's method", 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
+def make_tolerance(scene, argument):
+    implicit(scene)
+    return newton_tolerance(number(argument))
+
+
+@knob("predictor", "where iterations start", "extrapolation", "tangent")
+def make_predictor(scene, argument):
+    implicit(scene)
+    return {"Solver/Predictor": argument}
+
+
+@knob("line search", "of Newton's method", "energy", "none")
+def make_line_search(scene, argument):
+    implicit(scene)
+    return {"Solver/Line search": argument}
+
+
+@knob("solver", "linear solver", "MUMPS", "MUMPS symmetric", "CG", "GMRES")
+def make_solver(scene, argument):
+    implicit(scene)
+    return {"Solver/Linear solver": argument}
+
+
+def iterative(scene):
+    """The one the scene has, or the one that every matrix allows."""
+    solver = scene.get("Solver/Linear solver")
+    return {} if solver in ("CG", "GMRES") else {"Solver/Linear solver": "GMRES"}
+
+
+@knob("linear tolerance", "of an iterative solver (GMRES, unless the scene names one)", 1e-2, 1e-4, 1e-6, 1e-10)
+def make_linear_tolerance(scene, argument):
+    implicit(scene)
+    return {**iterative(scene), "Solver/Linear tolerance": argument}
+
+
+@knob("forcing", "how exactly an iterative solver solves", "Eisenstat-Walker", "fixed")
+def make_forcing(scene, argument):
+    implicit(scene)
+    return {**iterative(scene), "Solver/Forcing": argument}
+
+
+# --- bodies ------------------------------------------------------------------------------------------------------
+
+@knob("element", "of all bodies", "mean dilatation", "one point", "full")
+def make_element(scene, argument):
+    return {f"Bodies/{body}/Element": argument for body in scene.names("Bodies")}
+
+
+@knob("kinematics", "of all bodies' laws", "Hencky", "neo-Hookean", "hypoelastic")
+def make_kinematics(scene, argument):
+    return {f"Bodies/{body}/Material/Kinematics": argument for body in scene.names("Bodies")}
+
+
+@knob("hourglass stiffness", "of one-point elements", 0.1, 0.5, 1, 2)
+def make_hourglass(scene, argument):
+    need(any(scene.get(f"Bodies/{body}/Element") == "one point" for body in scene.names("Bodies")), "of one-point elements")
+    if scene.is_explicit:
+        return {"Explicit dynamics/Hourglass stiffness": argument}
+    return {f"Bodies/{body}/Hourglass stiffness": argument for body in scene.names("Bodies")
+            if scene.get(f"Bodies/{body}/Element") == "one point"}
+
+
+@knob("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
+def make_material_tangent(scene, argument):
+    implicit(scene)
+    need(scene.knows("Solver/Material tangent"), "this billet has no such parameter")
+    return {"Solver/Material tangent": argument}
+
+
+# --- all at once -------------------------------------------------------------------------------------------------
+
+@knob("profile", "one word for all knobs", "fast", "balanced", "accurate")
+def make_profile(scene, argument):
+    need(scene.knows("Profile"), "this billet has no such parameter")
+    return {"Profile": argument, "Target error": None}
+
+
+@knob("target error", "by which the program turns the knobs itself", 0.1, 0.03, 0.01, 0.003)
+def make_target_error(scene, argument):
+    need(scene.knows("Target error"), "this billet has no such parameter")
+    return {"Target error": argument, "Profile": None}
+
+
+# --- what users name ---------------------------------------------------------------------------------------------
+
+def own_knob(text):
+    """A knob from '[NAME: ]path/to/parameter=v1,v2 [& other/path=w1,w2]', values separated by '|' where they hold commas."""
+    name, marked, rest = text.partition(": ")
+    if not marked or "=" in name or "/" in name:
+        name, rest = None, text
+    columns = {}
+    for part in rest.split("&"):
+        path, equals, values = part.partition("=")
+        path = "/".join(" ".join(p.split()) for p in path.split("/"))
+        if not equals or not path:
+            raise TradeError(f"--knob: found '{text}', allowed is 'path/to/parameter=value,value' or "
+                             "'name: path/to/parameter=value,value & other/path=value,value'")
+        columns[path] = [v.strip() for v in values.split("|" if "|" in values else ",")]
+    first = next(iter(columns.values()))
+    if any(len(values) != len(first) for values in columns.values()):
+        raise TradeError(f"--knob: '{text}' names different numbers of values")
+
+    def make(_, argument):
+        place = first.index(argument)
+        return {path: values[place] for path, values in columns.items()}
+
+    return Knob(name or next(iter(columns)).split("/")[-1].lower(), ", ".join(columns), first, make)
+
+
+def asked_knob(text, known):
+    """A knob from 'name' or 'name=argument,argument'."""
+    name, equals, arguments = text.partition("=")
+    name = name.strip()
+    if name not in known:
+        raise TradeError(f"there is no knob '{name}'; there are {', '.join(known)}. "
+                         "--list says which ones the scene can use; --knob 'path/to/parameter=value,value' makes another")
+    found = known[name]
+    if not equals:
+        return found
+    return Knob(name, found.meaning, [a.strip() for a in arguments.split("|" if "|" in arguments else ",") if a.strip()], found.make)
+
+
+# --- the reference -----------------------------------------------------------------------------------------------
+
+def reference_settings(scene):
+    """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is exact."""
+    changes = {path: None for path in ("Profile", "Target error") if path in scene.entries}
+    for body in scene.names("Bodies"):
+        path = f"Bodies/{body}/Material/Kinematics"
+        if scene.entries.get(path, "Hencky") != "Hencky":
+            changes[path] = "Hencky"
+    if scene.is_explicit:
+        if scene.number("Explicit dynamics/Mass scaling step") > 0:
+            changes["Explicit dynamics/Mass scaling step"] = 0
+        return changes
+    return {**changes, **newton_tolerance(min(1e-8, scene.number("Solver/Force tolerance") or 1e-8))}

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pure: norms of differences, Richardson extrapolation, Pareto front, the choice. Nothing here knows of runs or files."""
+
+import math
+from dataclasses import dataclass
+
+import numpy
+
+
+def trapezoids(times):
+    """Weights of the trapezoidal rule at these times."""
+    gaps = numpy.diff(times)
+    weights = numpy.zeros(len(times))
+    weights[:-1] += 0.5 * gaps
+    weights[1:] += 0.5 * gaps
+    return weights
+
+
+def interpolate(times, values, at):
+    """Cubic Hermite interpolation with three-point slopes, of second order on unequal steps; constant beyond the ends.
+    `values` has a row for each time."""
+    times, values, at = (numpy.asarray(a, dtype=float) for a in (times, values, at))
+    if len(times) < 3:
+        flat = values.reshape(len(times), -1)
+        return numpy.stack([numpy.interp(at, times, column) for column in flat.T], -1).reshape(at.shape + values.shape[1:])
+    at = numpy.clip(at, times[0], times[-1])
+    gaps = numpy.diff(times).reshape((-1,) + (1,) * (values.ndim - 1))
+    rises = numpy.diff(values, axis=0) / gaps
+    slopes = numpy.empty_like(values)
+    slopes[1:-1] = (gaps[1:] * rises[:-1] + gaps[:-1] * rises[1:]) / (gaps[1:] + gaps[:-1])
+    slopes[0], slopes[-1] = 2.0 * rises[0] - slopes[1], 2.0 * rises[-1] - slopes[-2]
+    i = numpy.clip(numpy.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
+    h = gaps[i]
+    s = ((at - times[i]) / numpy.diff(times)[i]).reshape(h.shape)
+    return ((1 + 2 * s) * (1 - s) ** 2 * values[i] + s * (1 - s) ** 2 * h * slopes[i]
+            + s**2 * (3 - 2 * s) * values[i + 1] + s**2 * (s - 1) * h * slopes[i + 1])
+
+
+def running_mean(times, values, window, at):
+    """Means of the polygon through (times, values) over `window` about each time in `at`, over less at the ends."""
+    times, values, at = numpy.asarray(times), numpy.asarray(values), numpy.asarray(at)
+    columns = values.reshape(len(times), -1)
+    # The integral of a polygon is a parabola between its corners: exact.
+    gaps = numpy.diff(times)[:, None]
+    integrals = numpy.vstack([numpy.zeros((1, columns.shape[1])),
+                              numpy.cumsum(0.5 * gaps * (columns[1:] + columns[:-1]), axis=0)])
+
+    def integral(t):
+        i = numpy.clip(numpy.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
+        s = (t - times[i])[:, None]
+        return integrals[i] + s * columns[i] + 0.5 * s**2 * (columns[i + 1] - columns[i]) / gaps[i]
+
+    low = numpy.clip(at - 0.5 * window, times[0], times[-1])
+    high = numpy.clip(at + 0.5 * window, times[0], times[-1])
+    return ((integral(high) - integral(low)) / (high - low)[:, None]).reshape(at.shape + values.shape[1:])
+
+
+def mean_length(vectors, weights):
+    """Weighted mean of the lengths of vectors (a row each): the L1 norm of a curve."""
+    return float(numpy.sum(weights * numpy.linalg.norm(vectors.reshape(len(vectors), -1), axis=1)) / numpy.sum(weights))
+
+
+def root_mean_square(vectors, weights):
+    """Weighted root of the mean of squared lengths: the L2 norm."""
+    squares = numpy.sum(vectors.reshape(len(vectors), -1) ** 2, axis=1)
+    return math.sqrt(float(numpy.sum(weights * squares) / numpy.sum(weights)))
+
+
+def without_rigid_motion(places, displacements, weights):
+    """What is left of displacements when the rotation and translation that fit best (Kabsch 1976) are taken out."""
+    w = weights[:, None] / numpy.sum(weights)
+    moved = places + displacements
+    start, end = places - numpy.sum(w * places, axis=0), moved - numpy.sum(w * moved, axis=0)
+    u, _, v = numpy.linalg.svd((w * start).T @ end)
+    turn = numpy.diag([1.0, 1.0, numpy.sign(numpy.linalg.det(u @ v))])
+    return end - start @ (u @ turn @ v)
+
+
+# --- the limit ---------------------------------------------------------------------------------------------------
+
+LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0
+SAME_WAY = 0.75
+
+
+@dataclass
+class Limit:
+    """What a sequence goes to: `values`; `uncertainty` in the norm, NaN for a sequence of one; the `order` that was used,
+    None where the finest member was taken as it is; the one `observed`, None where there is none; `differences` of
+    neighbours in the norm."""
+    values: numpy.ndarray
+    uncertainty: float
+    order: float | None
+    observed: float | None
+    differences: list
+
+
+def richardson(levels, ratio, norm):
+    """The limit of a sequence of results from coarse to fine, each `ratio` times finer than the last (Richardson 1911).
+
+    The order is observed in the last three, p = log(|f1 − f2| / |f2 − f3|) / log r. From 1/2 on it is believed, up to 2, the
+    highest of what is extrapolated here. Differences that go on so add up to |f2 − f3| / (r^p − 1), whichever way they
+    point: with a factor of 1.25 that is the uncertainty (Roache 1994, the grid convergence index). A last difference smaller
+    than an order of 2 makes of the one before may be so by chance, and counts as that. The finest result is
+    extrapolated where both differences point the same way, |f1 − f3| nearly their sum; else it is taken as it is. Where
+    no order is believed p = 1/2 stands for it, 3 |f2 − f3| for r = 2, which is also Roache's advice for two results.
+    """
+    finest = levels[-1]
+    differences = [norm(b - a) for a, b in zip(levels, levels[1:])]
+    if not differences:
+        return Limit(finest, math.nan, None, None, differences)
+    last, observed = differences[-1], None
+    if last == 0.0:
+        return Limit(finest, 0.0, None, None, differences)
+    if len(levels) > 2:
+        before = differences[-2]
+        observed = math.log(before / last) / math.log(ratio) if before > 0.0 else -math.inf
+    is_believed = observed is not None and observed >= LEAST_ORDER
+    order = min(observed, LARGEST_ORDER) if is_believed else LEAST_ORDER
+    left = max(last, differences[-2] / ratio**LARGEST_ORDER if is_believed else 0.0) / (ratio**order - 1.0)
+    if is_believed and norm(finest - levels[-3]) >= SAME_WAY * (before + last):
+        return Limit(finest + (finest - levels[-2]) / (ratio**order - 1.0), 1.25 * left, order, observed, differences)
+    return Limit(finest, 1.25 * left, None, observed, differences)
+
+
+# --- points in the plane of cost and error -----------------------------------------------------------------------
+
+def pareto_front(costs, errors, floor=0.0):
+    """Indices, by cost, of the points that no other point beats in both. Errors below the floor, where they cannot be told
+    apart, count as the floor."""
+    front, least = [], math.inf
+    for i in sorted(range(len(costs)), key=lambda i: (costs[i], errors[i])):
+        error = max(errors[i], floor)
+        if error < least:
+            front.append(i)
+            least = error
+    return front
+
+
+def cheapest_within(costs, errors, uncertainty, target, noise=0.0, works=None):
+    """Index of the cheapest point whose error, the reference's uncertainty added, is within the target; None if there is
+    none. Of those whose costs the noise, a part of them, does not tell apart, the one with the least work, and then the first."""
+    good = [i for i in range(len(costs)) if max(errors[i], uncertainty) + uncertainty <= target]
+    if not good:
+        return None
+    least = min(costs[i] for i in good)
+    return min((i for i in good if costs[i] <= least * (1.0 + noise)), key=lambda i: works[i] if works else costs[i])
+
+
+def weighted_mean(values, weights):
+    return sum(w * v for v, w in zip(values, weights)) / sum(weights)

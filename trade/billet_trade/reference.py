@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The converged reference: the limit over mesh, step and penalty, each from a sequence of its own about one centre.
+
+The results are taken to add up: F* = F_c + Σ (F_axis − F_c), with F_axis the limit along an axis while the others stay at
+the centre. One more run, off the centre along all axes at once, tells by how much they do not, which joins the uncertainty.
+"""
+
+import math
+from dataclasses import dataclass
+
+from . import TradeError, knobs, measure
+
+
+@dataclass
+class Axis:
+    """`levels` [(label, scene)] from coarse to fine, each `ratio` times finer; levels[centre] is the centre."""
+    name: str
+    ratio: float
+    levels: list
+    centre: int
+
+
+# Elements up to which the finest of the reference's own meshes is four times as fine as the scene's: some minutes' work.
+GIVEN = "given"  # instead of factors: errors are those of all but the mesh
+AUGMENTED = 0.01  # facet sizes, the coarsest level where bodies touch in implicit scenes
+AFFORDABLE = {True: 150_000, False: 10_000}
+
+
+def mesh_factors(scene, wanted, count):
+    """The wanted ones, which must have one ratio and hold 1; else 1, 2, 4 where count(changes) elements are affordable, or
+    else those of 0.5, 1, 2 that the mesh allows."""
+    if wanted:
+        factors = sorted(knobs.number(f, "factors > 0, such as 0.5,1,2") for f in wanted.split(","))
+        ratios = [b / a for a, b in zip(factors, factors[1:])]
+        if 1.0 not in factors or not ratios or max(ratios) > 1.001 * min(ratios) or min(ratios) <= 1:
+            raise TradeError(f"--reference-mesh: found '{wanted}', allowed are at least two factors in one ratio, 1 among them")
+        return factors
+    try:
+        if count(knobs.make_mesh(scene, 4.0)) <= AFFORDABLE[scene.is_explicit]:
+            return [1.0, 2.0, 4.0]
+    except knobs.CannotTurn:
+        pass
+    factors = []
+    for factor in (0.5, 1.0, 2.0):
+        try:
+            knobs.make_mesh(scene, factor)
+            factors.append(factor)
+        except knobs.CannotTurn:
+            pass
+    return factors
+
+
+class Plan:
+    """The runs of a reference."""
+
+    def __init__(self, scene, count, mesh=None, steps=None, settings=None):
+        """`count(scene)`: its elements."""
+        base = scene.changed({**knobs.reference_settings(scene), **(settings or {})})
+        if scene.is_explicit:
+            safety = base.number("Explicit dynamics/Safety factor")
+            levels = [(f"safety factor {knobs.shown(safety / d)}", {"Explicit dynamics/Safety factor": knobs.shown(safety / d)})
+                      for d in (1, 2, 4)]
+        else:
+            n = steps or min(100, max(20, knobs.longest_steps(scene)))
+            levels = [(f"{m} steps", knobs.equal_steps(scene, m)) for m in (n, 2 * n, 4 * n)]
+        tolerances = {} if scene.is_explicit else {
+            pair: base.number(pair + "Penetration tolerance") or (AUGMENTED if base.get(pair + "Second body") else 0.0)
+            for pair in (f"Contact pairs/{name}/" for name in scene.names("Contact pairs"))}
+        augmented = {pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0}
+        if augmented:
+            augmented["Solver/Most augmentations"] = 100
+        self.centre = base.changed({**levels[0][1], **augmented})
+        self.axes = [Axis("step", 2.0, [(label, self.centre.changed(changes)) for label, changes in levels], 0)]
+        self._add_mesh(scene, mesh, lambda changes: count(scene.changed(changes)))
+        self._add_penalty(scene)
+        self._add_cross()
+
+    def _add_mesh(self, scene, wanted, count):
+        if wanted == GIVEN:
+            return
+        try:
+            factors = mesh_factors(scene, wanted, count)
+            levels = [(f"mesh {f:g}", self.centre.changed({} if f == 1 else knobs.make_mesh(scene, f))) for f in factors]
+        except knobs.CannotTurn as why:
+            raise TradeError(f"--reference-mesh: {why}") from None
+        if len(factors) < 2:
+            raise TradeError("the mesh can be made neither finer nor coarser, so that its error cannot be measured; "
+                             "--reference-mesh given measures the others'")
+        self.axes.append(Axis("mesh", factors[1] / factors[0], levels, factors.index(1.0)))
+
+    def _add_penalty(self, scene):
+        """By augmentation where the scene augments, or where bodies touch in an implicit scene, whose penalties and mesh
+        errors do not add up well; else by the penalty."""
+        pairs = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs")]
+        augmented = [pair for pair in pairs if self.centre.number(pair + "Penetration tolerance") > 0]
+        if augmented:
+            # The centre in the middle: what is left of the penetration scatters, and would blur the other axes.
+            levels = [(f"penetration tolerance / {d}", self.centre.changed(
+                {pair + "Penetration tolerance": knobs.shown(4 * self.centre.number(pair + "Penetration tolerance") / d)
+                 for pair in augmented} if d != 4 else {})) for d in (1, 4, 16)]
+            self.axes.append(Axis("penetration tolerance", 4.0, levels, 1))
+        elif pairs:
+            levels = [(f"penalty × {f}", self.centre.changed(knobs.scaled_penalties(self.centre, f) if f > 1 else {})) for f in (1, 4, 16)]
+            self.axes.append(Axis("penalty", 4.0, levels, 0))
+
+    def _add_cross(self):
+        """One step away from the centre along all axes: to the coarser mesh, where there is one, for its cost."""
+        changes = {}
+        self.neighbours = {}
+        for axis in self.axes:
+            at = axis.centre - 1 if axis.centre > 0 else axis.centre + 1
+            self.neighbours[axis.name] = at
+            scene = axis.levels[at][1]
+            changes.update({path: value for path, value in scene.entries.items() if self.centre.entries.get(path) != value})
+        self.cross = self.centre.changed(changes)
+
+    def runs(self):
+        """[(label, scene)], the centre first."""
+        found = [("centre", self.centre)]
+        for axis in self.axes:
+            found += [level for i, level in enumerate(axis.levels) if i != axis.centre]
+        return found + [("all of them", self.cross)]
+
+
+class Reference:
+    """`values`, and `uncertainty` relative to them, by output; `rows` tells how they came about; `remarks` what fell short."""
+
+    def __init__(self, plan, results, outputs):
+        """`results`: of plan.runs(), in its order."""
+        by_scene = {scene.text: result for (_, scene), result in zip(plan.runs(), results)}
+        centre = by_scene[plan.centre.text]
+        self.remarks = []
+        if centre.status != "ok":
+            raise TradeError(f"the reference could not be made: its centre {centre.status} ({centre.reason}). "
+                             "--reference-steps with a larger number, or --reference 'path=value', may help", 3)
+        sequences = {}
+        for axis in plan.axes:
+            found = [(label, by_scene[scene.text]) for label, scene in axis.levels]
+            for label, result in found:
+                if result.status != "ok":
+                    self.remarks.append(f"{label} {result.status}: {result.reason or 'no reason given'}")
+            # What is left must be neighbours, the centre among them.
+            low = high = axis.centre
+            while low > 0 and found[low - 1][1].status == "ok":
+                low -= 1
+            while high + 1 < len(found) and found[high + 1][1].status == "ok":
+                high += 1
+            if low == high:
+                raise TradeError(f"the reference could not be made: nothing beside its centre came to an end along the axis "
+                                 f"'{axis.name}': {'; '.join(self.remarks)}", 3)
+            sequences[axis.name] = (axis, low, found[low:high + 1])
+        self.values, self.uncertainty, self.rows = {}, {}, []
+        for output in outputs:
+            self._extrapolate(output, plan, sequences, centre, by_scene[plan.cross.text])
+
+    def _extrapolate(self, output, plan, sequences, centre, cross):
+        known = {}
+
+        def values(result):
+            key = str(result.folder)
+            if key not in known:
+                known[key] = output.values(result)
+            return known[key]
+
+        middle = values(centre)
+        total, limits, predicted = middle.copy(), [], middle.copy()
+        for axis, low, levels in sequences.values():
+            limit = measure.richardson([values(result) for _, result in levels], axis.ratio, output.norm)
+            limits.append((axis, levels, limit))
+            total = total + (limit.values - middle)
+            place = plan.neighbours[axis.name] - low
+            if 0 <= place < len(levels):
+                predicted = predicted + (values(levels[place][1]) - middle)
+        scale = output.scale(total)
+        if not scale > 0.0:
+            raise TradeError(f"the output '{output.name}' is zero in this scene: choose others with --outputs", 2)
+        uncertainty = 0.0
+        for axis, levels, limit in limits:
+            uncertainty += limit.uncertainty
+            self.rows.append([output.name, axis.name, " → ".join(label for label, _ in levels),
+                              [d / scale for d in limit.differences], limit.observed, limit.order, limit.uncertainty / scale])
+        off = math.nan
+        if cross.status == "ok":
+            off = output.norm(values(cross) - predicted)
+            uncertainty += off
+        else:
+            self.remarks.append(f"the run off all axes {cross.status}: whether they add up is not known")
+        self.rows.append([output.name, "off all axes", "", [], None, None, off / scale])
+        self.values[output.name], self.uncertainty[output.name] = total, uncertainty / scale

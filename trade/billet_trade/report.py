@@ -1,0 +1,337 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Points of a sweep, what they are judged to be, and what is said of them: table, CSV and words."""
+
+import csv
+import math
+import statistics
+from dataclasses import dataclass, field
+
+from . import measure
+
+
+@dataclass
+class Limits:
+    """Beyond which a run that came to its end failed all the same."""
+    drift: float = 0.05         # of the energy balance, dynamic scenes
+    penetration: float = 0.5    # of a facet
+    locked: float = 0.2         # how much larger the mean force is than the reference's
+    error: float = 1.0
+
+
+@dataclass
+class Point:
+    """A run of a sweep: `curve` to which it belongs, `value` on it."""
+    curve: str
+    value: str
+    changes: dict
+    scene: object
+    result: object = None
+    errors: dict = field(default_factory=dict)
+    error: float = math.nan
+    status: str = ""
+    reason: str = ""
+    work: float = math.nan
+    is_base: bool = False
+
+    @property
+    def seconds(self):
+        return self.result.core_seconds
+
+    @property
+    def is_good(self):
+        return self.status == "ok"
+
+    @property
+    def label(self):
+        return "as written" if self.is_base else f"{self.curve} = {self.value}"
+
+
+def work_of(result, elements, is_explicit):
+    """Without regard to the machine: element updates, elements times steps, of explicit scenes; of others the elements times
+    Newton's and the linear solver's iterations."""
+    return elements * (result.steps if is_explicit else result.newton + result.linear)
+
+
+WORK = {True: "element updates (elements × steps)", False: "element iterations (elements × (Newton + linear iterations))"}
+
+
+def judge(point, outputs, weights, reference, scene, limits):
+    """Fills in errors and status. What failed has no error: nothing that failed looks good."""
+    result = point.result
+    point.status, point.reason = result.status, result.reason
+    if result.status != "ok":
+        return
+    point.errors = {output.name: output.error(result, reference.values[output.name]) for output in outputs}
+    error = measure.weighted_mean([point.errors[o.name] for o in outputs], [weights[o.name] for o in outputs])
+    failures = []
+    if scene.is_dynamic and result.drift > limits.drift:
+        failures.append(("drifted", f"the energies fail to balance by {percent(result.drift)}"))
+    if result.penetration > limits.penetration:
+        failures.append(("pierced", f"nodes are {number(result.penetration)} facets deep"))
+    for output in outputs:
+        if output.name == "force" and output.excess(result, reference.values["force"]) > limits.locked:
+            failures.append(("locked", f"forces are {percent(output.excess(result, reference.values['force']))} too large in the mean"))
+    if not error <= limits.error:
+        failures.append(("useless", f"the error is {percent(error)}"))
+    if failures:
+        point.status, point.reason = failures[0][0], "; ".join(reason for _, reason in failures)
+    else:
+        point.error = error
+
+
+# --- numbers -----------------------------------------------------------------------------------------------------
+
+def number(value, digits=3):
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return "–"
+    if isinstance(value, float):
+        return f"{value:.{digits}g}" if value == 0 or abs(value) < 10**digits else f"{value:.0f}"
+    return str(value)
+
+
+def big(value):
+    return "–" if math.isnan(value) else f"{value:,.0f}"
+
+
+def percent(value, digits=2):
+    return "–" if value is None or math.isnan(value) else number(100.0 * value, digits) + " %"
+
+
+def error_text(error, uncertainty):
+    return f"< {percent(uncertainty)}" if error < uncertainty else percent(error)
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head)] + rows
+    return "\n".join("| " + " | ".join(str(cell).replace("|", "/") for cell in line) + " |" for line in lines)
+
+
+# --- the sweep as a whole ----------------------------------------------------------------------------------------
+
+class Sweep:
+    """All points, the reference they are measured against, and what follows."""
+
+    def __init__(self, points, reference, outputs, weights, scene, cost, target):
+        self.points, self.reference, self.outputs, self.weights = points, reference, outputs, weights
+        self.scene, self.cost, self.target = scene, cost, target
+        self.uncertainty = measure.weighted_mean([reference.uncertainty[o.name] for o in outputs],
+                                                 [weights[o.name] for o in outputs])
+        self.base = next(p for p in points if p.is_base)
+        good = [p for p in points if p.is_good]
+        costs, errors = [self.cost_of(p) for p in good], [p.error for p in good]
+        self.noise = 0.0 if cost == "work" else timing_noise([p.result.seconds for p in good])
+        self.front = [good[i] for i in measure.pareto_front(costs, errors, self.uncertainty)]
+        self.chosen = None
+        if target is not None:
+            i = measure.cheapest_within(costs, errors, self.uncertainty, target, self.noise, [p.work for p in good])
+            self.chosen = None if i is None else good[i]
+
+    def cost_of(self, point):
+        return point.seconds if self.cost == "seconds" else point.work
+
+    def curves(self):
+        """{knob: points}, each point once."""
+        found = {}
+        for point in self.points:
+            if not point.is_base:
+                found.setdefault(point.curve, []).append(point)
+        return found
+
+    def _floored(self, point):
+        return max(point.error, self.uncertainty)
+
+    def is_cheaper(self, point):
+        """Than the scene as written, beyond what timings scatter."""
+        return self.cost_of(point) * (1.0 + max(0.05, self.noise)) < self.cost_of(self.base)
+
+    def _cheapest(self, points):
+        """Of those whose costs the timings do not tell apart, the one with the least work."""
+        least = min(map(self.cost_of, points))
+        return min((p for p in points if self.cost_of(p) <= least * (1.0 + self.noise)), key=lambda p: p.work)
+
+    def _allowed(self):
+        """What the target leaves for the error."""
+        return (self.target or 0.0) - self.uncertainty
+
+    def _keeping(self):
+        return "within the target" if self._allowed() > self._floored(self.base) * 1.02 else "at no more error"
+
+    def purchases(self):
+        """By knob: the point with the least error, and the cheapest whose error is no more than that of the scene as it is
+        written (or than the target, where that is larger)."""
+        rows = []
+        base = self.base
+        if not base.is_good:
+            return rows
+        bound = max(self._floored(base) * 1.02, self._allowed())
+        for knob, points in self.curves().items():
+            good = [p for p in points if p.is_good]
+            if not good:
+                rows.append((knob, None, None))
+                continue
+            best = min(good, key=lambda p: (self._floored(p), self.cost_of(p)))
+            keeping = [p for p in good if self._floored(p) <= bound]
+            rows.append((knob, best if self._floored(best) < 0.95 * self._floored(base) else None,
+                         self._cheapest(keeping) if keeping else None))
+        return rows
+
+    def times(self, point):
+        """Its cost beside that of the scene as written."""
+        ratio = self.cost_of(point) / self.cost_of(self.base)
+        return f"{number(1 / ratio, 2)} times cheaper" if ratio < 0.95 else (
+            f"{number(ratio, 2)} times the cost" if ratio > 1.05 else "about the same cost")
+
+    def say(self, point):
+        return f"`{point.label}`: error {error_text(point.error, self.uncertainty)}, {self.times(point)}"
+
+    def words(self):
+        """What came out, in sentences."""
+        base, said = self.base, []
+        u = self.uncertainty
+        if base.is_good:
+            said.append(f"The scene as it is written has an error of {error_text(base.error, u)}; it takes {number(base.seconds)} "
+                        f"core-seconds and {big(base.work)} {WORK[self.scene.is_explicit]}.")
+            buys = self.purchases()
+            better = [best for _, best, _ in buys if best]
+            cheaper = [keep for _, _, keep in buys if keep and self.is_cheaper(keep)]
+            if better:
+                least = min(map(self._floored, better))
+                best = min((p for p in better if self._floored(p) <= 1.1 * least), key=self.cost_of)
+                said.append(f"Most accuracy is bought by {self.say(best)}.")
+                # Accuracy for money: decades of error for a decade of cost.
+                def rate(p):
+                    gain = math.log(self._floored(base) / self._floored(p))
+                    return gain / max(0.05, math.log(max(self.cost_of(p) / self.cost_of(base), 1.0)))
+                value = max(better, key=rate)
+                if value is not best:
+                    said.append(f"Most accuracy for its price by {self.say(value)}.")
+            else:
+                said.append("No knob alone makes the error measurably smaller" + (
+                    ": it is below the reference's uncertainty already." if base.error < u else "."))
+            if cheaper:
+                said.append(f"Most speed is bought, {self._keeping()}, by {self.say(self._cheapest(cheaper))}.")
+            else:
+                said.append(f"No knob alone makes it cheaper by more than {percent(max(0.05, self.noise))} {self._keeping()}.")
+            idle = [knob for knob, points in self.curves().items() if sum(p.is_good for p in points) > 1 and all(
+                abs(error - base.errors[name]) <= max(1e-3 * self.reference.uncertainty[name], 1e-6)
+                for p in points if p.is_good for name, error in p.errors.items())]
+            if idle:
+                said.append(f"Only the cost, not the result, changes with {', '.join(f'`{k}`' for k in idle)}.")
+        else:
+            said.append(f"The scene as it is written {base.status}: {base.reason}.")
+        failed = [p for p in self.points if not p.is_good and not p.is_base]
+        if failed:
+            said.append("Failed: " + "; ".join(f"`{p.label}` {p.status}" + (f" ({short(p.reason)})" if p.reason else "") for p in failed) + ".")
+        if self.target is not None:
+            said.append(self.choice())
+        return said
+
+    def choice(self):
+        target, u = self.target, self.uncertainty
+        if self.chosen:
+            return (f"**Within {percent(target)}, the reference's uncertainty included, the cheapest is {self.say(self.chosen)}** "
+                    f"({number(self.chosen.seconds)} core-seconds).")
+        if u >= target:
+            return (f"**No choice within {percent(target)}: the reference itself is known to {percent(u)} only.** A finer one "
+                    "(--reference-mesh, --reference-steps) can tell more.")
+        best = min((p for p in self.points if p.is_good), key=lambda p: p.error, default=None)
+        return (f"**Nothing tried is within {percent(target)}, the reference's uncertainty of {percent(u)} included.** " + (
+            f"Nearest comes {self.say(best)}." if best else "Every run failed."))
+
+    # --- what is written ---
+
+    def rows(self):
+        front, u = set(map(id, self.front)), self.uncertainty
+        rows = []
+        for p in self.points:
+            r = p.result
+            marks = ["front"] * (id(p) in front) + ["**chosen**"] * (p is self.chosen)
+            rows.append([p.curve if not p.is_base else "–", p.value, r.elements or "–", r.steps,
+                         *([] if self.scene.is_explicit else [r.newton, r.linear, r.cuts]), big(p.work), number(r.core_seconds),
+                         error_text(p.error, u) if p.is_good else f"**{p.status}**",
+                         *(error_text(p.errors[o.name], self.reference.uncertainty[o.name]) if p.errors else "–" for o in self.outputs),
+                         number(r.penetration, 2), percent(r.drift), ", ".join(marks)])
+        return rows
+
+    def head(self):
+        return ["knob", "value", "elements", "steps", *([] if self.scene.is_explicit else ["Newton", "linear", "cuts"]),
+                "work", "core-seconds", "error", *(o.name for o in self.outputs), "penetration / h", "drift", ""]
+
+    def reference_table(self):
+        rows = [[name, axis, levels, ", ".join(percent(d) for d in differences) or "–", number(observed, 2),
+                 "–" if not levels else "extrapolated" if order else "finest taken", percent(uncertainty)]
+                for name, axis, levels, differences, observed, order, uncertainty in self.reference.rows]
+        return table(["output", "axis", "from coarse to fine", "differences", "observed order", "limit", "uncertainty"], rows)
+
+    def bought_table(self):
+        base = self.base
+        rows = []
+        for knob, best, keep in self.purchases():
+            def cell(p):
+                ratio = self.cost_of(p) / self.cost_of(base)
+                return f"{p.value}: {error_text(p.error, self.uncertainty)} at {number(ratio, 2)}"
+            rows.append([knob, cell(best) if best else "–", cell(keep) if keep else "–"])
+        return table(["knob", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"], rows)
+
+    def page(self, title, command, remarks, picture):
+        weights = ", ".join(f"{o.name} ({o.meaning}), weight {self.weights[o.name]:g}" for o in self.outputs)
+        uncertainty = "; ".join(f"{o.name} {percent(self.reference.uncertainty[o.name])}" for o in self.outputs)
+        parts = [f"# What accuracy costs: {title}", f"Written by `{command}`."]
+        parts += [" ".join(self.words())]
+        if picture:
+            parts.append(f"![Error over cost]({picture})")
+        parts += [f"Errors: {weights}; their weighted mean is the error. Work: {WORK[self.scene.is_explicit]}. Core-seconds: user and system, of all "
+                  "ranks, start-up and output included; " + ("median of " + self.timed() + (f", which differ by {percent(self.noise)} (median)" if self.noise and any(
+                      len(p.result.seconds) > 1 for p in self.points) else "") + "."), *remarks]
+        parts += ["## What each knob buys", "The others as they are written; an error below the reference's uncertainty counts as that.",
+                  self.bought_table()] if self.base.is_good else []
+        parts += ["## All runs", "Failed runs have no error. Penetration: the deepest, in facet sizes. Drift: the largest of the energy "
+                  "balance, over the largest sum of energies.", table(self.head(), self.rows()),
+                  "## The reference", f"Uncertainty: {uncertainty}; of the weighted mean {percent(self.uncertainty)}. No error below it is told. Differences "
+                  "are those of neighbours.", self.reference_table()]
+        if self.reference.remarks:
+            parts.append("Of the reference's own runs, " + "; ".join(self.reference.remarks) + ".")
+        return "\n\n".join(parts) + "\n"
+
+    def timed(self):
+        counts = sorted({len(p.result.seconds) for p in self.points if p.is_good})
+        if not counts:
+            return "one run"
+        return f"{counts[0]} runs" if counts[0] == counts[-1] else f"{counts[0]} to {counts[-1]} runs"
+
+    def write_csv(self, file, reference_runs):
+        names = [o.name for o in self.outputs]
+        front = set(map(id, self.front))
+        with open(file, "w", newline="") as stream:
+            out = csv.writer(stream, lineterminator="\n")
+            out.writerow(["kind", "knob", "value", "status", "reason", "elements", "steps", "newton_iterations", "linear_iterations", "cuts",
+                          "work", "core_seconds", "timed", "error", "difference", "uncertainty", *(f"{kind}_{n}" for n in names for kind in ("difference", "uncertainty")),
+                          "penetration_over_facet", "energy_drift", "on_front", "chosen", "changes"])
+
+            def line(kind, knob, value, status, reason, r, work, error, errors, on_front, chosen, changes):
+                out.writerow([kind, knob, value, status, short(reason), r.elements, r.steps, r.newton, r.linear, r.cuts, plain(work),
+                              plain(r.core_seconds), len(r.seconds), plain(max(error, self.uncertainty) if error == error else error), plain(error), plain(self.uncertainty),
+                              *(plain(v) for n in names for v in (errors.get(n, math.nan), self.reference.uncertainty[n])), plain(r.penetration), plain(r.drift), int(on_front), int(chosen),
+                              " ; ".join(f"{k} = {'' if v is None else v}" for k, v in changes.items())])
+
+            for p in self.points:
+                line("scene" if p.is_base else "sweep", "" if p.is_base else p.curve, p.value, p.status, p.reason, p.result, p.work,
+                     p.error, p.errors, id(p) in front, p is self.chosen, p.changes)
+            for label, result in reference_runs:
+                line("reference", "reference", label, result.status, result.reason, result,
+                     work_of(result, result.elements, self.scene.is_explicit), math.nan, {}, False, False, {})
+
+
+def timing_noise(timings):
+    """Median over points of what repeated timings differ by, as part of their median; a fifth where nothing was repeated."""
+    spreads = [(max(t) - min(t)) / max(1e-9, statistics.median(t)) for t in timings if len(t) > 1]
+    return statistics.median(spreads) if spreads else 0.2
+
+
+def plain(value):
+    return "" if math.isnan(value) else f"{value:.6g}"
+
+
+def short(text):
+    text = " ".join(text.split())
+    return text if len(text) <= 120 else text[:117].rstrip() + "..."
