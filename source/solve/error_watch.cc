@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/error_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+namespace {
+
+// Of the target error, what steps and penetrations may make; the rest is for what is estimated badly.
+constexpr double part_of_steps = 0.6, part_of_penetration = 0.15;
+
+ErrorControl::Tolerances tolerances_of(const parameters::Scene &parameters) {
+  const double target = parameters.target_error;
+  return {parameters.is_dynamic() ? part_of_steps * target : parameters.time_stepping.error_tolerance,
+          part_of_penetration * target};
+}
+
+/// Whether the penetration tolerances of all pairs are left to the target error.
+bool may_choose_penetration(const parameters::Scene &parameters) {
+  return parameters.target_error > 0. && !parameters.pairs.empty() &&
+         static_cast<std::size_t>(std::count_if(parameters.presets.begin(), parameters.presets.end(),
+                                                [](const parameters::Preset &preset) {
+                                                  return preset.key == "Penetration tolerance";
+                                                })) == parameters.pairs.size();
+}
+
+} // namespace
+
+bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
+  return parameters.target_error > 0. || parameters.time_stepping.error_tolerance > 0.;
+}
+
+ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem)
+    : problem_(problem), errors_(tolerances_of(scene.parameters())),
+      // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
+      // surface about the square root of their number times theirs.
+      residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
+      controls_penetration_(may_choose_penetration(scene.parameters())) {}
+
+unsigned int ErrorWatch::before_step(const StepControl &control, const double previous_step) {
+  if (controls_penetration_)
+    problem_.set_penetration_allowed(errors_.penetration_allowed());
+  if (probe_length_ > 0. || !errors_.wants_measurement())
+    return 0;
+  const double first = control.next_step(), end = control.time_after_next(),
+               second = end - control.next_time();
+  constexpr double alike = 0.01;
+  if (!(std::abs(second - first) <= alike * first)) { // a stop is near; after it, then
+    errors_.miss_measurement();
+    return 0;
+  }
+  probe_ = problem_.probe(end, previous_step);
+  const auto n_iterations = static_cast<unsigned int>(probe_.newton.iterations.size());
+  n_iterations_ += n_iterations;
+  if (probe_.newton.converged) {
+    probe_length_ = first;
+    probe_end_ = end;
+  } else
+    errors_.miss_measurement();
+  return n_iterations;
+}
+
+void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
+  const ErrorControl::Forces forces = problem_.forces();
+  errors_.accept(length, forces, residual_factor_ * report.force);
+  if (probe_length_ > 0. && control.time() < probe_end_) {
+    control.plan(probe_length_);
+    return;
+  }
+  if (probe_length_ > 0.) {
+    if (!probe_.without_penetration.empty())
+      errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration);
+    errors_.measure_steps(probe_length_, forces, probe_.forces);
+  }
+  probe_length_ = 0.;
+  control.limit(errors_.longest_step());
+}
+
+void ErrorWatch::after_failure() {
+  if (probe_length_ > 0.)
+    errors_.miss_measurement();
+  probe_length_ = 0.;
+}
+
+void ErrorWatch::save(StateWriter &writer) const {
+  errors_.save(writer);
+  writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
+}
+
+void ErrorWatch::load(const StateReader &reader) {
+  errors_.load(reader);
+  n_iterations_ = static_cast<unsigned int>(reader.read("iterations of measurements").at(0));
+}
+
+} // namespace billet
