@@ -309,12 +309,13 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
   const ErrorControl::Estimate estimate = watch.control().estimate();
   ErrorReport result;
   result.of_what = "forces";
-  result.sources = {{"steps", estimate.steps,
-                     "try a smaller 'Initial step' or 'Smallest step': no step is taken back for its error, "
-                     "and none was measured before the first two"},
-                    {"penetrations", estimate.penetration,
-                     "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error"},
-                    {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
+  result.sources = {
+      {"steps", estimate.steps,
+       "try a smaller 'Largest step' or 'Initial step': no step is taken back for its error, and "
+       "where contacts come and go their estimate is on the safe side"},
+      {"penetrations", estimate.penetration,
+       "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error"},
+      {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
   result.costs = {{"steps", report.step},
                   {"Newton iterations", report.total_iterations},
                   {"of them for estimates", watch.n_iterations()}};
@@ -338,6 +339,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
     control.begin(resumption->report.time, 0);
+    if (watch)
+      watch->begin(resumption->report.time);
     if (resumption->reader.has("steps"))
       resumption->reader.in("steps", [&] {
         control.load(resumption->reader);
@@ -365,11 +368,11 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     });
   };
   while (!control.is_finished()) {
+    if (watch)
+      report.total_iterations += watch->before_step(control, continued);
     const double from = control.time(), to = control.next_time();
     report.length = to - from;
     try {
-      if (watch)
-        report.total_iterations += watch->before_step(control, continued);
       report.newton = problem.step(to, continued);
     } catch (const SolutionFailure &) { // nothing already computed is lost
       outputs.snapshots.write(problem);

@@ -23,7 +23,7 @@ using Path = SceneFile::Path;
 constexpr unsigned int statics = 1, implicit_dynamics = 2, implicit = 3, explicit_dynamics = 4;
 
 /// What the profiles, and the target error, make of a parameter. Empty: its default stays. "0.2 T": that part
-/// of the end time; "0.5 E": of the target error; "0.1 / E": over it.
+/// of the end time; "0.5 E": of the target error; "0.02 / E": over it.
 struct Row {
   unsigned int schemes;
   const char *section; ///< a subsection; of "Contact pairs", "Bodies" and "Materials" every one
@@ -38,7 +38,7 @@ constexpr std::array<Row, 17> rows = {{
     {statics, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.02 T"},
     {statics, "Time stepping", "Smallest step", "1e-6 T", "1e-6 T", "1e-6 T"},
     {statics, "Time stepping", "Largest step", "0.2 T", "0.02 T", "0.2 T"},
-    {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.6 E"},
+    {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.5 E"},
     {implicit_dynamics, "Implicit dynamics", "Error tolerance", "1e-2", "1e-4", "0.1 E"},
     {implicit, "Time stepping", "Few iterations", "8", "", "8"},
     {implicit, "Time stepping", "Many iterations", "14", "", "14"},
@@ -49,7 +49,7 @@ constexpr std::array<Row, 17> rows = {{
     {implicit, "Solver", "Linear tolerance", "1e-4", "", ""},
     // Contact: augmented where accuracy counts; in explicit scenes stiffer, and better resolved in time.
     {implicit, "Contact pairs", "Penetration tolerance", "", "1e-3", "1e-5"},
-    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "20", "0.1 / E"},
+    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "20", "0.02 / E"},
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
     {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.9", "0.4", "0.9"},
     // Elements and laws. A target error leaves the elements to the scene, as it does the mesh.

@@ -9,7 +9,7 @@ namespace billet {
 namespace {
 
 // Of the target error, what steps and penetrations may make; the rest is for what is estimated badly.
-constexpr double part_of_steps = 0.6, part_of_penetration = 0.15;
+constexpr double part_of_steps = 0.5, part_of_penetration = 0.15;
 
 ErrorControl::Tolerances tolerances_of(const parameters::Scene &parameters) {
   const double target = parameters.target_error;
@@ -33,22 +33,23 @@ bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
 }
 
 ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem)
-    : problem_(problem), errors_(tolerances_of(scene.parameters())),
+    : problem_(problem),
+      errors_(tolerances_of(scene.parameters()), scene.parameters().time_stepping.end_time),
       // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
       // surface about the square root of their number times theirs.
       residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
       controls_penetration_(may_choose_penetration(scene.parameters())) {}
 
-unsigned int ErrorWatch::before_step(const StepControl &control, const double previous_step) {
+unsigned int ErrorWatch::before_step(StepControl &control, const double previous_step) {
   if (controls_penetration_)
     problem_.set_penetration_allowed(errors_.penetration_allowed());
-  if (probe_length_ > 0. || !errors_.wants_measurement())
+  if (probe_length_ > 0. || !errors_.wants_measurement(control.next_step()))
     return 0;
   const double first = control.next_step(), end = control.time_after_next(),
                second = end - control.next_time();
   constexpr double alike = 0.01;
   if (!(std::abs(second - first) <= alike * first)) { // a stop is near; after it, then
-    errors_.miss_measurement();
+    errors_.miss_measurement(first, false);
     return 0;
   }
   probe_ = problem_.probe(end, previous_step);
@@ -57,8 +58,10 @@ unsigned int ErrorWatch::before_step(const StepControl &control, const double pr
   if (probe_.newton.converged) {
     probe_length_ = first;
     probe_end_ = end;
-  } else
-    errors_.miss_measurement();
+  } else {
+    errors_.miss_measurement(first, true);
+    control.limit(errors_.longest_step());
+  }
   return n_iterations;
 }
 
@@ -67,20 +70,23 @@ void ErrorWatch::after_step(StepControl &control, const double length, const New
   errors_.accept(length, forces, residual_factor_ * report.force);
   if (probe_length_ > 0. && control.time() < probe_end_) {
     control.plan(probe_length_);
+    last_residual_ = report.force;
     return;
   }
   if (probe_length_ > 0.) {
     if (!probe_.without_penetration.empty())
       errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration);
-    errors_.measure_steps(probe_length_, forces, probe_.forces);
+    errors_.measure_steps(probe_length_, forces, probe_.forces,
+                          residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
   }
   probe_length_ = 0.;
+  last_residual_ = report.force;
   control.limit(errors_.longest_step());
 }
 
 void ErrorWatch::after_failure() {
   if (probe_length_ > 0.)
-    errors_.miss_measurement();
+    errors_.miss_measurement(probe_length_, true);
   probe_length_ = 0.;
 }
 

@@ -16,14 +16,15 @@ void ExplicitErrors::add(const double time, const EnergyLedger &energies) {
     penetration_ += half * late_and_stored * (last_contact_ + contact);
     total_ += half * (last_total_ + total);
   }
+  // What the first touch makes stays as it is; what steps make grows.
+  constexpr double part = 0.2, growth = 1.1, shorter = 0.8, least = 0.5;
+  if (has_begun_ && total > 0. && drift > part * tolerance_ * total && drift > growth * last_drift_)
+    step_factor_ = std::max(least, shorter * step_factor_);
   has_begun_ = true;
   time_ = time;
   last_drift_ = drift;
   last_contact_ = contact;
   last_total_ = total;
-  constexpr double part = 0.2, shorter = 0.8, least = 0.2;
-  if (total > 0. && drift > part * tolerance_ * total)
-    step_factor_ = std::max(least, shorter * step_factor_);
 }
 
 void ExplicitErrors::save(StateWriter &writer) const {

@@ -16,9 +16,12 @@ public:
   static bool is_wanted(const parameters::Scene &parameters);
   ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem);
 
+  /// Begins at this time, with another method's state.
+  void begin(const double time) { errors_.begin(time); }
+
   /// Before a step: where a measurement is due, tries one of twice the length and steps back. Iterations that
   /// this took. `previous_step`: see QuasiStatic::step().
-  unsigned int before_step(const StepControl &control, double previous_step);
+  unsigned int before_step(StepControl &control, double previous_step);
   /// After an accepted step of this length, and control.accept().
   void after_step(StepControl &control, double length, const NewtonReport &report);
   /// After one that has failed.
@@ -39,6 +42,7 @@ private:
   QuasiStatic::Probe probe_;
   double probe_length_ = 0.; ///< of each of the two steps that are compared with it; 0: none
   double probe_end_ = 0.;
+  double last_residual_ = 0.;
   unsigned int n_iterations_ = 0;
 };
 

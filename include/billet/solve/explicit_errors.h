@@ -9,7 +9,7 @@ namespace billet {
 
 /// What an explicit run believes its energies to be off, ∫|E − E*| dt over ∫Σ E* dt: by steps, from the drift
 /// of the energies, and by penalties, from what their springs hold. Steps get shorter while the first is more
-/// than its part of the tolerance.
+/// than its part of the tolerance, and grows.
 ///
 /// A node that is g deep in is late by g/v, v its velocity: kinetic energy, which falls by F v in a unit of
 /// time, is off by F g = 2 E_c, and the springs hold E_c themselves.
@@ -20,7 +20,7 @@ public:
 
   /// The energies at a later time than the last ones.
   void add(double time, const EnergyLedger &energies);
-  /// What the step's length should be multiplied by from now on, from 0.2 to 1.
+  /// What the step's length should be multiplied by from now on, from 0.5 to 1.
   double step_factor() const { return step_factor_; }
 
   double steps() const { return total_ > 0. ? drift_ / total_ : 0.; }
