@@ -316,7 +316,7 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
       {"penetrations", estimate.penetration,
        "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error"},
       {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
-  result.costs = {{"steps", report.step},
+  result.costs = {{"steps taken", report.step},
                   {"Newton iterations", report.total_iterations},
                   {"of them for estimates", watch.n_iterations()}};
   return result;
@@ -603,7 +603,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     report.of_what = "energies";
     report.sources = {{"steps", errors->steps(), "try a smaller 'Safety factor'"},
                       {"penetrations", errors->penetration(), "try a larger 'Normal penalty'"}};
-    report.costs = {{"steps", problem.n_steps()},
+    report.costs = {{"steps taken", problem.n_steps()},
                     {"element updates", static_cast<double>(problem.n_steps()) *
                                             static_cast<double>(discretization.n_global_elements())}};
     problem.update_state();

@@ -132,15 +132,17 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
 
 void ErrorControl::measure_penetration(const double penetration, const Forces &forces,
                                        const Forces &without) {
-  penetration_error_ = distance(forces, without);
-  if (!has_penetration_)
-    penetration_ += penetration_error_ * unmeasured_time_;
+  const bool is_first = !has_penetration_;
   has_penetration_ = true;
+  penetration_error_ = distance(forces, without);
+  if (is_first)
+    penetration_ += penetration_error_ * unmeasured_time_;
   if (tolerances_.penetration == 0. || !(penetration_error_ > 0.))
     return;
-  const double allowed = tolerances_.penetration * force_scale();
   // In proportion; tighter than what is the tightest is not to be had.
+  const double allowed = tolerances_.penetration * std::max(force_scale(), sum_of_norms(forces));
   penetration_allowed_ = std::max(1., penetration * allowed / penetration_error_);
+  penetration_error_ *= std::min(1., penetration_allowed_ / penetration);
 }
 
 void ErrorControl::miss_measurement(const double h, const bool failed) {

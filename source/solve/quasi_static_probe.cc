@@ -39,7 +39,8 @@ double QuasiStatic::augmentation_error() const {
   return dealii::Utilities::MPI::max(error, discretization_.communicator());
 }
 
-QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step) {
+QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step,
+                                      const bool measures_penetration) {
   Probe probe;
   if (!body_failure_.empty()) // the step itself tells
     return probe;
@@ -51,7 +52,7 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
     probe.forces = trial_forces();
     probe_ = std::make_unique<ProbedState>(ProbedState{t, trial_, offsets_});
     probe.penetration = augmentation_error();
-    if (probe.penetration > 0.) {
+    if (measures_penetration && !(contacts_.empty() && body_contacts_.empty())) {
       Vector displacements = trial_;
       std::vector<double> offsets = offsets_;
       for (auto &contact : contacts_)

@@ -2,13 +2,15 @@
 """Runs of any scene, their cost, and the errors of their curves: what benchmarks of profiles and target errors share."""
 
 import csv
+import os
 import subprocess
 import sys
 import tempfile
 from bisect import bisect_right
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from billet_runs import PROGRAM, ROOT, children_seconds, read_scene, variant
+from billet_runs import PROGRAM, ROOT, read_scene, variant
 
 
 class CurveRun:
@@ -24,11 +26,15 @@ class CurveRun:
                            {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes})
             (Path(place) / "scene.prm").write_text(text)
             command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
-            before = children_seconds()
-            done = subprocess.run(command, cwd=place, capture_output=True, text=True)
-            self.seconds = children_seconds() - before
-            if done.returncode not in (0, 3):
-                sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
+            # Of this process and its own, since others may run beside it.
+            with open(Path(place) / "out", "w+") as out, open(Path(place) / "errors", "w+") as errors:
+                process = subprocess.Popen(command, cwd=place, stdout=out, stderr=errors)
+                _, status, usage = os.wait4(process.pid, 0)
+                code = process.returncode = os.waitstatus_to_exitcode(status)
+                self.seconds = usage.ru_utime + usage.ru_stime
+            self.said, self.failure = ((Path(place) / name).read_text() for name in ("out", "errors"))
+            if code not in (0, 3):
+                raise RuntimeError(f"billet ended with {code}: {self.failure}")
             with open(Path(place) / "results/history.csv", newline="") as file:
                 rows = list(csv.DictReader(file))
             believed = Path(place) / "results/believed_error.csv"
@@ -36,7 +42,7 @@ class CurveRun:
             if believed.exists():
                 with open(believed, newline="") as file:
                     self.believed = {row["quantity"]: float(row["value"]) for row in csv.DictReader(file)}
-        self.finished, self.said, self.failure = done.returncode == 0, done.stdout, done.stderr.strip()
+        self.finished, self.failure = code == 0, self.failure.strip()
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]
         self.times = [float(row["time"]) for row in rows]
         names = [key[:-len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
@@ -67,6 +73,12 @@ class CurveRun:
         start = times[i - 1] if i > 0 else 0.0
         part = (time - start) / (times[i] - start)
         return tuple(a + part * (b - a) for a, b in zip(before, curve[i]))
+
+
+def run_all(scene, variants, ranks=1, at_once=3):
+    """A CurveRun of each of these changes, in their order."""
+    with ThreadPoolExecutor(at_once) as pool:
+        return list(pool.map(lambda changes: CurveRun(scene, changes, ranks), variants))
 
 
 def without(text, keys):

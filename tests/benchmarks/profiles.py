@@ -4,7 +4,7 @@
 import math
 
 from billet_runs import ROOT, arguments, number, percent, publish, table
-from curve_runs import CurveRun, error, read_entries, write_csv
+from curve_runs import error, read_entries, run_all, write_csv
 
 options = arguments("profiles")
 PROFILES = ("fast", "balanced", "accurate")
@@ -20,6 +20,15 @@ CUT = {
     "tube_crush": {"Time stepping/End time": 4e-4},
     "cartridge": {"Time stepping/End time": 1e-3},
     "drop_hammer": {"Time stepping/End time": 2e-3},
+    "hertz_cylinders": {"Bodies/lower/Mesh/Arguments": "20, 1, 10 : 0, 0, -1 : 1, 0.1, 0 : true",
+                        "Bodies/upper/Mesh/Arguments": "17, 1, 10 : 0, 0, 0 : 1, 0.1, 1 : true"},
+    "press_fit": {"Bodies/inner/Mesh/Arguments": "4, 12, 1 : 10, 0, 0 : 20.01, 90, 1 : true",
+                  "Bodies/outer/Mesh/Arguments": "4, 12, 1 : 20, 0, 0 : 30, 90, 1 : true"},
+    "turned_blocks": {"Time stepping/End time": 5},
+    "tube_impact": {"Time stepping/End time": 5e-4},
+    "taylor_bar": {"Bodies/bar/Mesh/Refinements": 1, "Bodies/bar/Mesh/Layers": 24, "Output/Interval": 0},
+    "billet_deformable_dies": {"Time stepping/End time": 0.5, "Time stepping/Stops": None,
+                               "Bodies/die/Mesh/Arguments": "5, 5, 2 : 0, 0, 15 : 20, 20, 25 : true"},
     "ring_crush": {"Time stepping/End time": 1, "Time stepping/Stops": None},
     "hollow_block": {"Time stepping/End time": 1, "Time stepping/Stops": None},
     "ironing": {"Time stepping/End time": 1.6, "Time stepping/Stops": 1},
@@ -51,8 +60,9 @@ def reference(path, changes):
 rows, csv_rows = [], []
 for path in sorted((ROOT / "prm").glob("*.prm")):
     cut = CUT.get(path.stem, {})
-    exact = CurveRun(path, {**cut, **reference(path, cut)}, options.ranks)
-    runs = {profile: CurveRun(path, {**cut, "Profile": profile}, options.ranks) for profile in PROFILES}
+    exact, *runs = run_all(path, [{**cut, **reference(path, cut)}] + [{**cut, "Profile": profile} for profile in PROFILES],
+                           options.ranks, at_once=4)
+    runs = dict(zip(PROFILES, runs))
     for profile, run in runs.items():
         off = error(run, exact) if exact.finished else math.nan
         unit = "element updates" if run.is_explicit else "iterations"

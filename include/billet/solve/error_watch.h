@@ -35,10 +35,12 @@ public:
   void load(const StateReader &reader);
 
 private:
+  void allow_penetration();
+
   QuasiStatic &problem_;
   ErrorControl errors_;
   double residual_factor_; ///< of a force, over that of the residual
-  bool controls_penetration_;
+  bool measures_penetration_, controls_penetration_;
   QuasiStatic::Probe probe_;
   double probe_length_ = 0.; ///< of each of the two steps that are compared with it; 0: none
   double probe_end_ = 0.;

@@ -39,11 +39,12 @@ public:
     std::vector<dealii::Tensor<1, 3>> forces; ///< at its end, as forces()
     /// Largest, before augmentation, as part of the 'Penetration tolerance'.
     double penetration = 0.;
-    std::vector<dealii::Tensor<1, 3>> without_penetration; ///< the same, augmented once; or none
+    std::vector<dealii::Tensor<1, 3>>
+        without_penetration; ///< the same, augmented once; empty if that is not measured
   };
   /// Tries the step to `t`, and leaves the state as it is. The next steps up to `t` begin their iterations
   /// from what it found.
-  Probe probe(double t, double previous_step);
+  Probe probe(double t, double previous_step, bool measures_penetration);
   /// Of the tools and of pairs of bodies at the last accepted step; without either, the norm of the forces of
   /// supports.
   std::vector<dealii::Tensor<1, 3>> forces() const;
