@@ -64,9 +64,6 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   if (probe_.newton.converged) {
     probe_length_ = first;
     probe_end_ = end;
-    if (!probe_.without_penetration.empty())
-      errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration);
-    allow_penetration();
   } else {
     errors_.miss_measurement(first, true);
     control.limit(errors_.longest_step());
@@ -82,9 +79,14 @@ void ErrorWatch::after_step(StepControl &control, const double length, const New
     last_residual_ = report.force;
     return;
   }
-  if (probe_length_ > 0.)
+  if (probe_length_ > 0.) {
     errors_.measure_steps(probe_length_, forces, probe_.forces,
                           residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
+    // Not before: the three steps have to go equally deep.
+    if (!probe_.without_penetration.empty())
+      errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration);
+    allow_penetration();
+  }
   probe_length_ = 0.;
   last_residual_ = report.force;
   control.limit(errors_.longest_step());
