@@ -32,7 +32,7 @@ struct Row {
 };
 
 // The table. 'balanced' is the default of every parameter. What each profile costs, and how far it is off:
-// doc/results/profiles.md; the target error: doc/results/target-error.md.
+// scripts/benchmarks profiles; the target error: doc/results/target-error.md.
 constexpr std::array<Row, 17> rows = {{
     // Steps: fast ones follow the iterations alone and may be long; accurate ones follow their error.
     {statics, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.02 T"},
