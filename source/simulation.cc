@@ -3,10 +3,14 @@
 
 #include "billet/errors.h"
 #include "billet/output/checkpoint.h"
+#include "billet/output/error_report.h"
 #include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
 #include "billet/output/progress.h"
+#include "billet/output/stress_jumps.h"
+#include "billet/solve/error_watch.h"
 #include "billet/solve/explicit_dynamics.h"
+#include "billet/solve/explicit_errors.h"
 #include "billet/solve/quasi_static.h"
 #include "billet/solve/step_control.h"
 
@@ -280,6 +284,44 @@ private:
   const Discretization &discretization_;
 };
 
+/// Of this process, in seconds.
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Tells the user, and believed_error.csv. Collective.
+void tell_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
+                 const parameters::Scene &parameters, Outputs &outputs) {
+  report.target = parameters.target_error;
+  report.stress_jumps = stress_jumps(solution, discretization);
+  report.costs.emplace_back("CPU seconds",
+                            dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
+  outputs.progress.note(report.describe());
+  fail_together(discretization.communicator(), [&] {
+    if (outputs.is_first)
+      report.write(parameters.output.folder.value);
+  });
+}
+
+ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
+  const ErrorControl::Estimate estimate = watch.control().estimate();
+  ErrorReport result;
+  result.of_what = "forces";
+  result.sources = {
+      {"steps", estimate.steps,
+       "try a smaller 'Largest step' or 'Initial step': no step is taken back for its error, and "
+       "where contacts come and go their estimate is on the safe side"},
+      {"penetrations", estimate.penetration,
+       "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error"},
+      {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
+  result.costs = {{"steps taken", report.step},
+                  {"Newton iterations", report.total_iterations},
+                  {"of them for estimates", watch.n_iterations()}};
+  return result;
+}
+
 ExitCode run_quasi_static(const Scene &scene, const Discretization &discretization, Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
   QuasiStatic problem(scene, discretization);
@@ -290,10 +332,15 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     stops.push_back(resumption->report.release_end);
   }
   StepControl control(parameters.time_stepping, parameters.output.interval, stops);
+  std::unique_ptr<ErrorWatch> watch;
+  if (ErrorWatch::is_wanted(parameters))
+    watch = std::make_unique<ErrorWatch>(scene, discretization, problem);
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
     control.begin(resumption->report.time, 0);
+    if (watch)
+      watch->begin(resumption->report.time);
     if (resumption->reader.has("steps"))
       resumption->reader.in("steps", [&] {
         control.load(resumption->reader);
@@ -301,6 +348,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         continued = resumption->report.is_exact ? totals.at(0) : 0.;
         report.total_iterations = static_cast<unsigned int>(totals.at(1));
         report.total_cuts = control.n_cuts();
+        if (watch && resumption->reader.has("errors"))
+          watch->load(resumption->reader);
       });
   }
   Outputs outputs(scene, discretization, resumption);
@@ -314,9 +363,13 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     writer.in("steps", [&] {
       control.save(writer);
       writer.write("totals", {continued, static_cast<double>(report.total_iterations)});
+      if (watch)
+        watch->save(writer);
     });
   };
   while (!control.is_finished()) {
+    if (watch)
+      report.total_iterations += watch->before_step(control, continued);
     const double from = control.time(), to = control.next_time();
     report.length = to - from;
     try {
@@ -328,6 +381,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
     if (report.newton.converged) {
       control.accept(static_cast<unsigned int>(report.newton.iterations.size()), problem.time_error());
+      if (watch)
+        watch->after_step(control, report.length, report.newton);
       continued = report.length;
       report.step = control.n_steps();
       fail_together(discretization.communicator(), [&] {
@@ -346,6 +401,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       continue;
     }
     outputs.progress.reject(report, from, to);
+    if (watch)
+      watch->after_failure();
     const bool may_go_on = control.reject();
     report.total_cuts = control.n_cuts();
     if (!may_go_on) {
@@ -353,6 +410,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       throw SolutionFailure(explain_failure(parameters, report, from, to));
     }
   }
+  if (watch)
+    tell_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
   outputs.progress.finish(outputs.writer.file_to_open());
   return ExitCode::success;
 }
@@ -408,18 +467,14 @@ private:
   double end_, interval_, last_ = -1.;
 };
 
-/// Of this process, in seconds.
-double processor_time() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 ExitCode run_explicit(const Scene &scene, const Discretization &discretization, Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
   ExplicitDynamics problem(scene, discretization);
   const Events events(scene);
   HistoryTimes history_times(parameters);
+  std::unique_ptr<ExplicitErrors> errors;
+  if (parameters.target_error > 0.)
+    errors = std::make_unique<ExplicitErrors>(parameters.target_error);
   unsigned int balanced_step = 0; // the last at which the energies were seen to balance
   if (resumption != nullptr) {
     resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
@@ -430,6 +485,10 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         if (resumption->reader.number("interval") == history_times.interval())
           history_times.begin_after(resumption->reader.number("last"));
         balanced_step = static_cast<unsigned int>(resumption->reader.number("balanced step"));
+        if (errors && resumption->reader.has("errors")) {
+          errors->load(resumption->reader);
+          problem.shorten_steps(errors->step_factor());
+        }
       });
   }
   Outputs outputs(scene, discretization, resumption);
@@ -442,6 +501,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       writer.write("interval", {history_times.interval()});
       writer.write("last", {history_times.last()});
       writer.write("balanced step", {static_cast<double>(balanced_step)});
+      if (errors)
+        errors->save(writer);
     });
   };
   if (parameters.explicit_dynamics.scaled_step > 0.)
@@ -512,8 +573,13 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       put_out();
     else if (problem.n_steps() % steps_between_looks == 0)
       problem.update_ledger();
-    if (is_due || problem.n_steps() % steps_between_looks == 0)
+    if (is_due || problem.n_steps() % steps_between_looks == 0) {
       stop_on_drift(is_finished);
+      if (errors) {
+        errors->add(problem.time(), problem.state().energies);
+        problem.shorten_steps(errors->step_factor());
+      }
+    }
     if (problem.n_steps() == 0) {
       problem.update_state();
       outputs.snapshots.write(problem);
@@ -531,6 +597,17 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         outputs.write_checkpoint(problem.time(), save);
     if (wish == Signals::Wish::end && !is_finished)
       return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);
+  }
+  if (errors) {
+    ErrorReport report;
+    report.of_what = "energies";
+    report.sources = {{"steps", errors->steps(), "try a smaller 'Safety factor'"},
+                      {"penetrations", errors->penetration(), "try a larger 'Normal penalty'"}};
+    report.costs = {{"steps taken", problem.n_steps()},
+                    {"element updates", static_cast<double>(problem.n_steps()) *
+                                            static_cast<double>(discretization.n_global_elements())}};
+    problem.update_state();
+    tell_errors(report, problem, discretization, parameters, outputs);
   }
   outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
                              processor_seconds);

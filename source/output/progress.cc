@@ -40,6 +40,16 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   const auto histories = solution.history_sizes();
   if (!scene_.parameters().title.empty())
     stream_ << scene_.parameters().title << "\n";
+  const parameters::Scene &parameters = scene_.parameters();
+  if (!parameters.presets.empty()) {
+    if (parameters.target_error > 0.)
+      stream_ << "Target error " << 100. * parameters.target_error << " %:";
+    else
+      stream_ << "Profile " << parameters.profile << ":";
+    for (const auto &preset : parameters.presets)
+      stream_ << (&preset == parameters.presets.data() ? " " : ", ") << parameters::to_string(preset);
+    stream_ << "\n";
+  }
   stream_ << discretization.n_global_elements() << " elements, " << discretization.dof_handler().n_dofs()
           << " dofs, " << dealii::Utilities::MPI::n_mpi_processes(discretization.communicator()) << " ranks, "
           << solution.method() << ", history " << histories[0] << " + " << histories[1]

@@ -51,6 +51,11 @@ void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("Smallest step", "1e-6", Patterns::Double(),
                     "The run ends when a step would have to be cut below this. [time]");
   prm.declare_entry("Largest step", "0.1", Patterns::Double(), "A step grows up to this length. [time]");
+  prm.declare_entry(
+      "Error tolerance", "0", Patterns::Double(),
+      "Quasi-static scenes with automatic steps: steps are as long as their error, estimated by steps of "
+      "twice the length now and then, is below this part of the forces. 0: steps follow the iterations "
+      "alone.");
   prm.declare_entry("Few iterations", "5", Patterns::Integer(0),
                     "The step grows after at most so many iterations.");
   prm.declare_entry("Many iterations", "9", Patterns::Integer(0),
@@ -74,7 +79,7 @@ void TimeStepping::parse(Reader &reader) {
   if (scheme == Scheme::explicit_dynamics) {
     for (const std::string key :
          {"Step control", "Initial step", "Smallest step", "Largest step", "Few iterations",
-          "Many iterations", "Growth factor", "Shrink factor", "Cut factor"})
+          "Many iterations", "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the steps of an explicit scene follow from its elements");
     return;
@@ -85,7 +90,7 @@ void TimeStepping::parse(Reader &reader) {
     reader.reject("Initial step", "a number not above the end time");
   if (control == Control::fixed)
     for (const std::string key : {"Smallest step", "Largest step", "Few iterations", "Many iterations",
-                                  "Growth factor", "Shrink factor", "Cut factor"})
+                                  "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: steps are fixed");
   smallest_step = reader.positive("Smallest step");
@@ -96,6 +101,11 @@ void TimeStepping::parse(Reader &reader) {
     if (largest_step < initial_step)
       reader.reject("Largest step", "a number not below the initial step");
   }
+  error_tolerance = reader.not_negative("Error tolerance");
+  if (error_tolerance >= 1.)
+    reader.reject("Error tolerance", "a number >= 0 and < 1");
+  if (error_tolerance > 0. && scheme == Scheme::implicit_dynamics)
+    reader.reject("Error tolerance", "no value: that of 'Implicit dynamics' holds");
   few_iterations = reader.count("Few iterations");
   many_iterations = reader.count("Many iterations");
   if (many_iterations <= few_iterations)

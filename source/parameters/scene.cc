@@ -42,6 +42,7 @@ struct Outline {
 void declare_all(ParameterHandler &prm, const Outline &outline) {
   const auto &names_below = outline.names_below;
   prm.declare_entry("Title", "", dealii::Patterns::Anything(), "Shown in the console and in --check.");
+  declare_presets(prm);
   declare_named(prm, "Amplitudes", names_below({"Amplitudes"}),
                 [&](const std::string &) { Amplitude::declare(prm); });
   declare_named(prm, "Bodies", names_below({"Bodies"}), [&](const std::string &name) {
@@ -271,8 +272,11 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
                     [&file](const SceneFile::Path &path) { return file.value(path, "Shape", "plane"); }});
   file.set_all(prm);
 
-  Reader reader(prm, file);
   Scene scene;
+  scene.presets = apply_presets(prm, file);
+  scene.target_error = read_target_error(file);
+  Reader reader(prm, file);
+  scene.profile = reader.text("Profile");
   scene.title = reader.text("Title");
   scene.file_name = file_name;
   scene.text = file.text();

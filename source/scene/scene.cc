@@ -362,11 +362,72 @@ std::vector<double> Scene::stops() const {
   return times;
 }
 
+void Scene::describe_capabilities(std::ostream &stream) const {
+  const auto tell = [&stream](const std::string &name, const bool is_used, const std::string &how) {
+    stream << name << std::string(15 - name.size(), ' ') << (is_used ? "yes" : "no")
+           << (!is_used      ? " (neither allocated nor run)"
+               : how.empty() ? ""
+                             : ": ")
+           << (is_used ? how : "") << "\n";
+  };
+  const auto part = [](const std::ptrdiff_t n, const std::size_t all, const std::string &what) {
+    return std::to_string(n) + " of " + std::to_string(all) + " " + what;
+  };
+  const auto n_pairs = [this](const auto &has) {
+    return std::count_if(pairs_.begin(), pairs_.end(), has) +
+           std::count_if(body_pairs_.begin(), body_pairs_.end(), has);
+  };
+  const std::size_t n_all_pairs = pairs_.size() + body_pairs_.size();
+  const bool is_explicit = parameters_.is_explicit();
+  tell("Plasticity", capabilities_.plasticity,
+       "history of " +
+           part(std::count_if(bodies_.begin(), bodies_.end(),
+                              [](const Body &body) {
+                                return !std::holds_alternative<std::monostate>(body.material.hardening);
+                              }),
+                bodies_.size(), "bodies"));
+  tell("Contact", capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
+  tell("Friction", capabilities_.friction,
+       "history of " +
+           part(n_pairs([](const auto &pair) { return pair.has_friction(); }), n_all_pairs, "pairs"));
+  tell("Body contact", capabilities_.body_contact,
+       "facet search of " + part(static_cast<std::ptrdiff_t>(body_pairs_.size()), n_all_pairs, "pairs"));
+  const auto n_self = std::count_if(body_pairs_.begin(), body_pairs_.end(),
+                                    [](const BodyPair &pair) { return pair.is_self_contact; });
+  tell("Self-contact", n_self > 0, part(n_self, n_all_pairs, "pairs"));
+  const auto n_edges =
+      std::count_if(body_pairs_.begin(), body_pairs_.end(), [](const BodyPair &pair) { return pair.edges; });
+  tell("Edges", n_edges > 0, part(n_edges, n_all_pairs, "pairs"));
+  const auto n_augmented = n_pairs([](const auto &pair) { return pair.penetration_tolerance > 0.; });
+  tell("Augmentation", n_augmented > 0, part(n_augmented, n_all_pairs, "pairs"));
+  tell("Moving support", capabilities_.moving_supports, "");
+  const auto n_driven = std::count_if(
+      tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.control() != Tool::Control::motion; });
+  tell("Driven tools", n_driven > 0,
+       "travel of " + part(n_driven, tools_.size(), "tools follows from a force or moment"));
+  const auto n_loaded =
+      std::count_if(bodies_.begin(), bodies_.end(), [](const Body &body) { return !body.loads.empty(); });
+  tell("Loads", n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
+  tell("Inertia", parameters_.is_dynamic(), is_explicit ? "lumped" : "");
+  tell("Error control", parameters_.target_error > 0. || parameters_.time_stepping.error_tolerance > 0., "");
+  tell("Matrix", !is_explicit,
+       capabilities_.unsymmetric_matrix ? "unsymmetric; MUMPS, or GMRES with multigrid"
+                                        : "symmetric; MUMPS, which factorises half, or CG with multigrid");
+}
+
 void Scene::describe(std::ostream &stream) const {
-  const auto yes_no = [](const bool b) { return b ? "yes" : "no (neither allocated nor run)"; };
   stream << "Scene          " << parameters_.file_name << "\n";
   if (!parameters_.title.empty())
     stream << "Title          " << parameters_.title << "\n";
+  if (parameters_.target_error > 0.)
+    stream << "Target error   " << 100. * parameters_.target_error << " % of the "
+           << (parameters_.is_explicit() ? "energies" : "forces")
+           << ", the mesh left out; controlled during the run, from\n";
+  else
+    stream << "Profile        " << parameters_.profile
+           << (parameters_.presets.empty() ? ": the defaults\n" : "\n");
+  for (const auto &preset : parameters_.presets)
+    stream << "               " << parameters::to_string(preset) << "\n";
   std::size_t n_elements = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto &body = parameters_.bodies[i];
@@ -430,16 +491,7 @@ void Scene::describe(std::ostream &stream) const {
          << (parameters_.is_explicit()  ? "dynamic, explicit\n"
              : parameters_.is_dynamic() ? "dynamic, implicit\n"
                                         : "quasi-static, implicit\n");
-  stream << "Plasticity     " << yes_no(capabilities_.plasticity) << "\n";
-  stream << "Contact        " << yes_no(capabilities_.contact) << "\n";
-  stream << "Friction       " << yes_no(capabilities_.friction) << "\n";
-  stream << "Moving support " << yes_no(capabilities_.moving_supports) << "\n";
-  stream << "Body contact   " << yes_no(capabilities_.body_contact) << "\n";
-  stream << "Matrix         "
-         << (parameters_.is_explicit()          ? "no (neither allocated nor run)"
-             : capabilities_.unsymmetric_matrix ? "unsymmetric"
-                                                : "symmetric (half is factorised)")
-         << "\n";
+  describe_capabilities(stream);
   stream << "Output         " << parameters_.output.folder.value << "\n";
 }
 

@@ -357,7 +357,7 @@ void ExplicitDynamics::choose_step(const double event) {
   // What a change of the step by a part p costs goes with p (ω Δt)²: short steps may grow faster.
   constexpr double growth = 0.02, largest_growth = 2., short_step = 0.9, long_step = 0.99;
   constexpr double rounding = 1e-9; // a remainder that is so much too long is one step
-  const double allowed = parameters_.safety_factor * element_step_;
+  const double allowed = step_factor_ * parameters_.safety_factor * element_step_;
   const double length = step_ / allowed;
   const double largest =
       n_steps_ > 0 ? std::min(allowed, std::min(largest_growth, 1. + growth / (length * length)) * step_)

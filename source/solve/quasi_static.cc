@@ -456,9 +456,11 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
   NewtonReport report = attempt_step(t, previous_step);
-  if (!report.converged)
+  if (!report.converged) {
+    probe_.reset(); // it may have led astray
     for (const auto &contact : body_contacts_)
       report.failure += contact->describe_restless();
+  }
   report.linear_iterations = linear_->take_iterations();
   report.note = linear_->take_note();
   return report;
@@ -481,7 +483,8 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   const bool needs_no_solution =
       motion_
           ? extrapolates && extrapolate_motion(t)
-          : previous_step > 0. && (stay_at_rest(t) || (extrapolates && continue_increment(t, previous_step)));
+          : follow_probe(t) || (previous_step > 0. &&
+                                (stay_at_rest(t) || (extrapolates && continue_increment(t, previous_step))));
   NewtonIteration linear_step{};
   if (motion_)
     motion_->start_step(state_.time, t, u_n_, offsets_n_);
@@ -519,7 +522,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     const Epetra_Vector accepted = pack(x, offsets);
     Epetra_Vector residual(accepted);
     compute_residual(accepted, residual);
-    if (!is_accurate(report))
+    if (is_probing_ || !is_accurate(report))
       return report;
     commit(t);
     has_lost_pace_ = has_lost_pace_ || !stopping.empty();
@@ -532,12 +535,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
 void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
   const unsigned int most = scene_.parameters().solver.most_augmentations;
   for (unsigned int n = 0; report.converged; ++n) {
-    double error = 0.;
-    for (const auto &contact : contacts_)
-      error = std::max(error, contact.augmentation_error());
-    for (const auto &contact : body_contacts_)
-      error = std::max(error, contact->augmentation_error());
-    error = dealii::Utilities::MPI::max(error, discretization_.communicator());
+    const double error = augmentation_error() / penetration_allowed_;
     if (error <= 1.)
       return;
     if (n == most) {

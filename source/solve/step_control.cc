@@ -62,6 +62,19 @@ void StepControl::accept(const unsigned int n_iterations, const double error) {
     step_ = std::max(parameters_.smallest_step, std::min(step_, safety / std::cbrt(error) * taken));
 }
 
+double StepControl::time_after_next() const {
+  StepControl next(*this);
+  next.time_ = next_time();
+  next.step_ = next_step();
+  return next.next_time();
+}
+
+void StepControl::limit(const double length) {
+  step_ = std::max(parameters_.smallest_step, std::min(step_, length));
+}
+
+void StepControl::plan(const double length) { step_ = length; }
+
 bool StepControl::reject() {
   ++n_cuts_;
   const double failed = next_step();

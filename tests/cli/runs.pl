@@ -203,6 +203,39 @@ check 'a symmetric matrix is seen', sub {
   return $said =~ /MUMPS \(symmetric\)/ ? '' : "says $said";
 };
 
+# --- profiles and target errors ------------------------------------------------------------------------------------
+
+my $open = 'Time stepping: - Initial step & Time stepping: - Largest step';
+same 'the balanced profile', 'Profile = balanced';
+check "the profile $_->[0] is told, and what the scene sets stays", sub {
+  my ($profile, $tells) = @$_;
+  my $folder = billet("Profile = $profile & Time stepping: - Largest step");
+  return $said =~ /^Profile $profile: .*$tells/m && $said !~ /Initial step =/
+    ? near('force', force($folder, 'die'), force($reference, 'die'), 0.05) : "says $said";
+} for ['fast', 'Time stepping \/ Largest step = 0\.2, .*Solver \/ Force tolerance = 1e-3'],
+      ['accurate', 'Time stepping \/ Largest step = 0\.1, Time stepping \/ Error tolerance = 1e-3, .*Contact pairs \/ top on die \/ Penetration tolerance = 1e-3'];
+check "a target error is kept and told on $_ ranks", sub {
+  my $folder = billet("Target error = 3 percent & $open", ranks => $_);
+  my $told = $said;
+  my $exact = billet("$fixed & Time stepping: Initial step = 0.002 & top on die: Penetration tolerance = 1e-4");
+  my $believed = qr/believed error [-\d.e]+ % of the forces \(steps [-\d.e]+ %, penetrations [-\d.e]+ %, iterations [-\d.e]+ %\)/;
+  my $cost = qr/cost: \d+ steps taken, \d+ Newton iterations, \d+ of them for estimates, [\d.e-]+ CPU seconds/;
+  my %table = map { (split /,/)[0, 1] } split /\n/, read_text("$folder/believed_error.csv");
+  return "says $told" unless $told =~ /^Target error 3 %: $believed; $cost$/m;
+  return "believes $table{error} of $table{target}" unless $table{target} == 0.03 && $table{error} > 0;
+  return near('error', $table{error}, $table{steps} + $table{penetrations} + $table{iterations}, 1e-4)
+    || near('force', force($folder, 'die'), force($exact, 'die'), 0.03);
+} for 1, 2;
+check 'a target error that is missed is told', sub {
+  billet('Target error = 0.01 % & Time stepping: Initial step = 0.5 & Time stepping: Smallest step = 0.5'
+    . ' & Time stepping: Largest step = 0.5');
+  return $said =~ /^The target was not reached: steps make most of the error; try a smaller 'Largest step'/m ? '' : "says $said";
+};
+check 'an explicit target error', sub {
+  my $folder = billet('Target error = 3 %', base => $impact);
+  return $said =~ /^Target error 3 %: believed error .* of the energies \(steps .* %, penetrations .* %\); cost: \d+ steps taken, /m ? '' : "says $said";
+};
+
 # --- motions, bodies, tools ----------------------------------------------------------------------------------------
 
 check 'a smooth amplitude', sub {
@@ -413,6 +446,18 @@ check '--check of half a billion elements, which do not fit in memory', sub {
   my @changed = differences($before, picture());
   return is('exit code', "$code $errors", '0 ') || is('files written', "@changed", '')
     || ($output =~ /block: 536870912 hexahedra/ ? '' : "says $output");
+};
+check '--check tells what a profile sets, and what the scene requires', sub {
+  my ($scene) = edit($base, 'Profile = accurate & Time stepping: - Largest step & top on die: Friction coefficient = 0 & Solver: - Contact tangent');
+  write_text('scene.prm', $scene);
+  my ($code, $output, $errors) = run($billet, '--check', 'scene.prm');
+  for my $line ('Profile        accurate', '               Contact pairs / top on die / Penetration tolerance = 1e-3',
+    'Plasticity     yes: history of 1 of 1 bodies', 'Friction       no (neither allocated nor run)', 'Augmentation   yes: 1 of 1 pairs',
+    'Self-contact   no (neither allocated nor run)', 'Matrix         yes: symmetric; MUMPS, which factorises half, or CG with multigrid')
+  {
+    return "no line '$line' in $output" if $output !~ /^\Q$line\E$/m;
+  }
+  return is('exit code', "$code $errors", '0 ');
 };
 check '--check on 2 ranks', sub {
   my ($scene) = edit($base, '');

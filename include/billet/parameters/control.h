@@ -29,6 +29,7 @@ struct TimeStepping {
   // Of implicit scenes, quasi-static or dynamic:
   Control control = Control::automatic;
   double initial_step = 0., smallest_step = 0., largest_step = 0.;
+  double error_tolerance = 0.; ///< of quasi-static steps, part of the forces; 0: none
   unsigned int few_iterations = 0, many_iterations = 0;
   double growth_factor = 1., shrink_factor = 1., cut_factor = 1.;
 

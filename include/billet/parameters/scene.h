@@ -5,6 +5,7 @@
 #include "billet/parameters/body.h"
 #include "billet/parameters/control.h"
 #include "billet/parameters/implicit_dynamics.h"
+#include "billet/parameters/profile.h"
 #include "billet/parameters/tool.h"
 
 #include <iosfwd>
@@ -16,6 +17,9 @@ struct Scene {
   std::string title;
   std::string file_name;
   std::string text; ///< the file as read
+  std::string profile;
+  double target_error = 0.;    ///< part of the forces; 0: none is asked for
+  std::vector<Preset> presets; ///< what the profile, or the target error, has set
   std::vector<Amplitude> amplitudes;
   std::vector<Body> bodies;
   std::vector<Tool> tools;

@@ -144,6 +144,7 @@ public:
   void describe(std::ostream &stream) const;
 
 private:
+  void describe_capabilities(std::ostream &stream) const;
   void make_pairs();
   void allow_for_pressure();
   void choose_material_tangents();

@@ -35,6 +35,8 @@ public:
   /// admissible.
   void prepare_step(double event);
   void finish_step();
+  /// Steps are this part of what the safety factor allows, from now on.
+  void shorten_steps(const double factor) { step_factor_ = factor; }
 
   double time() const { return time_; }
   double step_length() const { return step_; }
@@ -120,6 +122,7 @@ private:
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
   double element_step_ = 0.;                               ///< stable step of the elements of all ranks
   double time_ = 0., step_ = 0., step_before_ = 0.;
+  double step_factor_ = 1.; ///< beside the safety factor
   bool is_growing_ = false; ///< steps were much shorter than they may be, and are not yet long
   double event_ = 0.;       ///< that the planned steps lead to
   unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event

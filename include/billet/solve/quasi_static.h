@@ -33,6 +33,24 @@ public:
   /// SolutionFailure, on all ranks, where the removal of tools has left a body free.
   NewtonReport step(double t, double previous_step);
 
+  /// A step that is tried and not taken.
+  struct Probe {
+    NewtonReport newton;
+    std::vector<dealii::Tensor<1, 3>> forces; ///< at its end, as forces()
+    /// Largest, before augmentation, as part of the 'Penetration tolerance'.
+    double penetration = 0.;
+    std::vector<dealii::Tensor<1, 3>>
+        without_penetration; ///< the same, augmented once; empty if that is not measured
+  };
+  /// Tries the step to `t`, and leaves the state as it is. The next steps up to `t` begin their iterations
+  /// from what it found.
+  Probe probe(double t, double previous_step, bool measures_penetration);
+  /// Of the tools and of pairs of bodies at the last accepted step; without either, the norm of the forces of
+  /// supports.
+  std::vector<dealii::Tensor<1, 3>> forces() const;
+  /// Tractions are augmented where penetrations are above so many times what pairs ask for.
+  void set_penetration_allowed(const double factor) { penetration_allowed_ = factor; }
+
   /// Of the last step that was tried, in dynamic scenes: see ImplicitMotion::step_error().
   double time_error() const { return time_error_; }
 
@@ -81,6 +99,8 @@ private:
   bool stay_at_rest(double t);
   // the last increment, continued; false where tools or supports change their pace:
   bool continue_increment(double t, double previous_step);
+  // what a probe beyond has found, in part:
+  bool follow_probe(double t);
   // one linear step from the last state, into which the motion of tools and supports is put; false where it
   // has no solution:
   bool follow_tangent(double t, NewtonIteration &iteration);
@@ -126,6 +146,10 @@ private:
   /// The augmented Lagrangian: tractions are augmented and iterated anew until all pairs have what they ask
   /// for. Continues `report`.
   void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
+  /// Largest error of contacts, as part of what pairs ask for. Collective.
+  double augmentation_error() const;
+  /// forces(), at the trial state.
+  std::vector<dealii::Tensor<1, 3>> trial_forces() const;
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
   double fading(double t, std::size_t tool) const;
   void remove_tools(double t);
@@ -171,6 +195,14 @@ private:
   double time_error_ = 0.;
   std::vector<double> offsets_, offsets_n_; ///< of all tools, beyond their prescribed motion
   std::vector<double> last_offset_increments_;
+  struct ProbedState {
+    double time;
+    Vector displacements;
+    std::vector<double> offsets;
+  };
+  std::unique_ptr<ProbedState> probe_; ///< of the last probe, while steps may start from it
+  bool is_probing_ = false;
+  double penetration_allowed_ = 1.;
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs

@@ -30,6 +30,13 @@ public:
   /// of the step. 0: does not count.
   void accept(unsigned int n_iterations, double error = 0.);
 
+  /// End of the step after that, if it is as long, and as far as stops and output times let it.
+  double time_after_next() const;
+  /// Automatic steps: the next is no longer than this, nor shorter than the smallest one.
+  void limit(double length);
+  /// Automatic steps: the next has this length.
+  void plan(double length);
+
   /// Cuts the step. False if that is not allowed: steps are fixed, or it would fall below the smallest one.
   bool reject();
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_ERROR_REPORT_H
+#define BILLET_OUTPUT_ERROR_REPORT_H
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace billet {
+
+/// The error that a run believes to have made, beside what was asked for and what it cost.
+struct ErrorReport {
+  /// One source of errors: its name, its part of the forces or energies, and what lowers it.
+  struct Source {
+    std::string name;
+    double error;
+    std::string remedy;
+  };
+
+  std::string of_what;         ///< that the errors are parts of: forces, energies
+  double target = 0.;          ///< 0: none was asked for
+  std::vector<Source> sources; ///< that are estimated
+  double stress_jumps = 0.;    ///< see stress_jumps()
+  std::vector<std::pair<std::string, double>> costs;
+
+  double total() const;
+  /// For the console.
+  std::string describe() const;
+  /// believed_error.csv in this folder: quantity, value. Throws SolutionFailure if it cannot be written.
+  void write(const std::string &folder) const;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_ERROR_CONTROL_H
+#define BILLET_SOLVE_ERROR_CONTROL_H
+
+#include "billet/state.h"
+
+#include <deal.II/base/tensor.h>
+
+#include <limits>
+#include <vector>
+
+namespace billet {
+
+/// Keeps the error of force curves within bounds, ∫Σ|F − F*| dt over ∫Σ|F*| dt, F the forces of tools and
+/// pairs of bodies: from differences that are measured now and then follow an estimate of what all steps so
+/// far have made, and the longest next step. Knows nothing of what is solved; doc/theory.md derives it.
+///
+/// A step of length h that returns stresses to a yield surface, or tractions to a friction cone, in the
+/// direction of its whole motion leaves an error c h², and errors of steps add up. From the same state one
+/// step of 2 h differs from two of h by 4 c h² − 2 c h²: by what the two are off.
+class ErrorControl {
+public:
+  using Forces = std::vector<dealii::Tensor<1, 3>>;
+
+  struct Tolerances {
+    double steps = 0.;       ///< part of the forces; 0: steps are left alone
+    double penetration = 0.; ///< part of the forces; 0: penetrations are left alone
+  };
+  ErrorControl(const Tolerances &tolerances, const double end_time)
+      : tolerances_(tolerances), end_time_(end_time) {}
+
+  /// Begins at this time.
+  void begin(const double time) { time_ = start_ = time; }
+
+  /// Whether the next two steps should be compared with one of twice the length.
+  bool wants_measurement() const { return until_measurement_ == 0; }
+
+  /// An accepted step of length `h`. `residual`: of the forces, at its end, as part of them.
+  void accept(double h, const Forces &forces, double residual);
+  /// Whether they should before a step of this length: where the last ones were much shorter.
+  bool wants_measurement(const double h) const { return wants_measurement() || h > 1.5 * measured_step_; }
+  /// After the second of two steps of length `h`: what one of twice the length gave. What `residuals` make of
+  /// the difference, as part of the forces, does not count.
+  void measure_steps(double h, const Forces &forces, const Forces &of_one_step, double residuals);
+  /// What a step gave whose deepest penetration was `penetration`, as part of the tightest that may be asked
+  /// for; and what without penetrations.
+  void measure_penetration(double penetration, const Forces &forces, const Forces &without);
+  /// Two steps of this length cannot be compared with one: another measurement is due soon. If that one
+  /// `failed`, of shorter ones.
+  void miss_measurement(double h, bool failed);
+
+  /// The next step should not be longer.
+  double longest_step() const { return longest_step_; }
+  /// The deepest penetration to allow, in units of that of measure_penetration().
+  double penetration_allowed() const { return penetration_allowed_; }
+
+  struct Estimate {
+    double steps = 0., penetration = 0., iterations = 0.; ///< parts of the forces
+    double total() const { return steps + penetration + iterations; }
+  };
+  /// Of all steps so far.
+  Estimate estimate() const;
+  unsigned int n_measurements() const { return n_measurements_; }
+
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
+private:
+  double force_scale() const;
+  void add_step_errors(double h_squared);
+  /// The error that steps may add to the forces in a unit of time from now on.
+  double allowed_rate() const;
+
+  Tolerances tolerances_;
+  double end_time_;
+  double start_ = 0., time_ = 0., last_force_ = 0., last_error_ = 0.;
+  double work_ = 0.;                                       ///< ∫Σ|F| dt
+  double steps_ = 0., penetration_ = 0., iterations_ = 0.; ///< integrals of errors
+  double force_rate_ = 0.;                                 ///< d Σ|F| / dt in the last step
+  Forces slopes_;                 ///< c of each force from the last measurement on; empty before the first
+  double last_slope_ = 0.;        ///< Σ|c|, as the last measurement was
+  Forces errors_;                 ///< of each force, by all steps so far
+  double penetration_error_ = 0.; ///< of the last measurement
+  double unmeasured_ = 0., unmeasured_span_ = 0.; ///< Σ h², Σ h of the steps since the last measurement
+  double unmeasured_time_ = 0.;                   ///< Σ h of the steps before the first one
+  double measured_step_ = 0.;                     ///< h of the last one
+  bool has_penetration_ = false;
+  unsigned int until_measurement_ = 0, interval_ = 1, n_measurements_ = 0;
+  double longest_step_ = std::numeric_limits<double>::infinity();
+  double penetration_allowed_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace billet
+
+#endif

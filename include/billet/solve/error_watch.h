@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_ERROR_WATCH_H
+#define BILLET_SOLVE_ERROR_WATCH_H
+
+#include "billet/solve/error_control.h"
+#include "billet/solve/quasi_static.h"
+#include "billet/solve/step_control.h"
+
+namespace billet {
+
+/// Lets an ErrorControl choose the steps of an implicit scene, and how deep contacts may go in: makes the
+/// measurements that it wants.
+class ErrorWatch {
+public:
+  /// Whether the scene has an 'Error tolerance' of steps or a 'Target error'.
+  static bool is_wanted(const parameters::Scene &parameters);
+  ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem);
+
+  /// Begins at this time, with another method's state.
+  void begin(const double time) { errors_.begin(time); }
+
+  /// Before a step: where a measurement is due, tries one of twice the length and steps back. Iterations that
+  /// this took. `previous_step`: see QuasiStatic::step().
+  unsigned int before_step(StepControl &control, double previous_step);
+  /// After an accepted step of this length, and control.accept().
+  void after_step(StepControl &control, double length, const NewtonReport &report);
+  /// After one that has failed.
+  void after_failure();
+
+  const ErrorControl &control() const { return errors_; }
+  /// Iterations of all measurements.
+  unsigned int n_iterations() const { return n_iterations_; }
+
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
+private:
+  void allow_penetration();
+
+  QuasiStatic &problem_;
+  ErrorControl errors_;
+  double residual_factor_; ///< of a force, over that of the residual
+  bool measures_penetration_, controls_penetration_;
+  QuasiStatic::Probe probe_;
+  double probe_length_ = 0.; ///< of each of the two steps that are compared with it; 0: none
+  double probe_end_ = 0.;
+  double last_residual_ = 0.;
+  unsigned int n_iterations_ = 0;
+};
+
+} // namespace billet
+
+#endif

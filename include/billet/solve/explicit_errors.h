@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_EXPLICIT_ERRORS_H
+#define BILLET_SOLVE_EXPLICIT_ERRORS_H
+
+#include "billet/solve/solution.h"
+#include "billet/state.h"
+
+namespace billet {
+
+/// What an explicit run believes its energies to be off, ∫|E − E*| dt over ∫Σ E* dt: by steps, from the drift
+/// of the energies, and by penalties, from what their springs hold. Steps get shorter while the first is more
+/// than its part of the tolerance, and grows.
+///
+/// A node that is g deep in is late by g/v, v its velocity: kinetic energy, which falls by F v in a unit of
+/// time, is off by F g = 2 E_c, and the springs hold E_c themselves.
+class ExplicitErrors {
+public:
+  /// `tolerance`: part of the energies.
+  explicit ExplicitErrors(const double tolerance) : tolerance_(tolerance) {}
+
+  /// The energies at a later time than the last ones.
+  void add(double time, const EnergyLedger &energies);
+  /// What the step's length should be multiplied by from now on, from 0.5 to 1.
+  double step_factor() const { return step_factor_; }
+
+  double steps() const { return total_ > 0. ? drift_ / total_ : 0.; }
+  double penetration() const { return total_ > 0. ? penetration_ / total_ : 0.; }
+
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
+private:
+  double tolerance_;
+  bool has_begun_ = false;
+  double time_ = 0., last_drift_ = 0., last_contact_ = 0., last_total_ = 0.;
+  double drift_ = 0., penetration_ = 0., total_ = 0.; ///< integrals
+  double step_factor_ = 1.;
+};
+
+} // namespace billet
+
+#endif

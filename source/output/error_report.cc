@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/error_report.h"
+
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace billet {
+
+double ErrorReport::total() const {
+  double sum = 0.;
+  for (const auto &source : sources)
+    sum += source.error;
+  return sum;
+}
+
+std::string ErrorReport::describe() const {
+  std::ostringstream text;
+  text.precision(2);
+  const auto percent = [](const double part) { return 100. * part; };
+  if (target > 0.)
+    text << "Target error " << percent(target) << " %: ";
+  text << "believed error " << percent(total()) << " % of the " << of_what << " (";
+  for (const auto &source : sources)
+    text << (&source == sources.data() ? "" : ", ") << source.name << " " << percent(source.error) << " %";
+  text << ")";
+  text.precision(7);
+  for (const auto &[name, value] : costs)
+    text << (&name == &costs.front().first ? "; cost: " : ", ") << value << " " << name;
+  text.precision(2);
+  if (target > 0. && total() > target) {
+    const auto worst = std::max_element(sources.begin(), sources.end(),
+                                        [](const Source &a, const Source &b) { return a.error < b.error; });
+    text << "\nThe target was not reached: " << worst->name << " make most of the error; " << worst->remedy;
+  }
+  text << "\nThe mesh is not part of this. Stresses jump between elements by " << percent(stress_jumps)
+       << " % in the mean: what a finer mesh would smooth";
+  return text.str();
+}
+
+void ErrorReport::write(const std::string &folder) const {
+  const std::string name = folder + "/believed_error.csv";
+  std::ofstream file(name);
+  file << "quantity,value\n";
+  if (target > 0.)
+    file << "target," << target << "\n";
+  file << "error," << total() << "\n";
+  for (const auto &source : sources)
+    file << source.name << "," << source.error << "\n";
+  file << "stress jumps," << stress_jumps << "\n";
+  file.precision(12);
+  for (const auto &[what, value] : costs)
+    file << what << "," << value << "\n";
+  if (!file.flush())
+    throw SolutionFailure(name + " cannot be written: is the disk full?");
+}
+
+} // namespace billet

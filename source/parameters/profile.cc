@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/parameters/profile.h"
+
+#include "billet/errors.h"
+#include "billet/parameters/reader.h"
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace billet::parameters {
+
+namespace {
+
+using Path = SceneFile::Path;
+
+/// Schemes for which a row counts.
+constexpr unsigned int statics = 1, implicit_dynamics = 2, implicit = 3, explicit_dynamics = 4;
+
+/// What the profiles, and the target error, make of a parameter. Empty: its default stays. "0.2 T": that part
+/// of the end time; "0.5 E": of the target error; "0.03 / E": over it.
+struct Row {
+  unsigned int schemes;
+  const char *section; ///< a subsection; of "Contact pairs", "Bodies" and "Materials" every one
+  const char *key;
+  const char *fast, *accurate, *target;
+};
+
+// The table. 'balanced' is the default of every parameter. What each profile costs, and how far it is off:
+// scripts/benchmarks profiles; the target error: doc/results/target-error.md.
+constexpr std::array<Row, 17> rows = {{
+    // Steps: fast ones follow the iterations alone and may be long; accurate ones follow their error.
+    {statics, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.02 T"},
+    {statics, "Time stepping", "Smallest step", "1e-6 T", "1e-6 T", "1e-6 T"},
+    {statics, "Time stepping", "Largest step", "0.2 T", "0.02 T", "0.2 T"},
+    {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.5 E"},
+    {implicit_dynamics, "Implicit dynamics", "Error tolerance", "1e-2", "1e-4", "0.1 E"},
+    {implicit, "Time stepping", "Few iterations", "8", "", "8"},
+    {implicit, "Time stepping", "Many iterations", "14", "", "14"},
+    {implicit, "Time stepping", "Growth factor", "2", "", "2"},
+    // Equilibrium.
+    {implicit, "Solver", "Force tolerance", "1e-3", "1e-8", "0.01 E"},
+    {implicit, "Solver", "Energy tolerance", "1e-5", "1e-12", "1e-4 E"},
+    {implicit, "Solver", "Linear tolerance", "1e-4", "", ""},
+    // Contact: augmented where accuracy counts; in explicit scenes stiffer, and better resolved in time.
+    {implicit, "Contact pairs", "Penetration tolerance", "", "1e-3", "1e-5"},
+    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "20", "0.03 / E"},
+    {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
+    {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.9", "0.4", "0.9"},
+    // Elements and laws. A target error leaves the elements to the scene, as it does the mesh.
+    {explicit_dynamics, "Bodies", "Element", "one point", "", ""},
+    {explicit_dynamics, "Materials", "Kinematics", "hypoelastic", "", ""},
+}};
+
+constexpr const char *profile_key = "Profile", *target_key = "Target error";
+constexpr double least_target =
+    1e-6; // Newton's method and rounding leave more than the hundredth part of less
+
+unsigned int scheme_of(const SceneFile &file) {
+  const std::string name = file.value({"Time stepping"}, "Scheme", "quasi-static");
+  return name == "explicit" ? explicit_dynamics : name == "implicit dynamics" ? implicit_dynamics : statics;
+}
+
+std::vector<Path> paths_of(const std::string &section, const SceneFile &file) {
+  std::vector<Path> paths;
+  if (section == "Contact pairs" || section == "Bodies")
+    for (const auto &name : file.names_below({section}))
+      paths.push_back({section, name});
+  else if (section == "Materials")
+    for (const auto &name : file.names_below({"Bodies"}))
+      paths.push_back({"Bodies", name, "Material"});
+  else
+    paths.push_back({section});
+  return paths;
+}
+
+/// Whether the scene has a use for the row there, beside what it sets itself.
+bool fits(const Row &row, const Path &path, const SceneFile &file) {
+  const std::string key = row.key;
+  if (path == Path{"Time stepping"} && key != "Initial step")
+    return file.value(path, "Step control", "automatic") == "automatic";
+  if (path == Path{"Implicit dynamics"})
+    return file.value({"Time stepping"}, "Step control", "automatic") == "automatic";
+  if (key == "Normal penalty")
+    return file.value(path, "Penalty unit", "factor") == "factor";
+  if (key == "Element") // which one-point elements do not know
+    return file.value({path[0], path[1], "Material"}, "Kinematics", "") != "neo-Hookean";
+  if (key == "Kinematics") // rates of stress keep no elastic energy
+    return file.value(path, "Law", "elastic") == "elastoplastic";
+  return true;
+}
+
+double number_in(const std::string &text, const double otherwise) {
+  try {
+    return parse_number(text);
+  } catch (const std::invalid_argument &) { // whoever reads the parameter complains
+    return otherwise;
+  }
+}
+
+std::string print(const double value) {
+  std::ostringstream text;
+  text.precision(6);
+  text << value;
+  return text.str();
+}
+
+class Evaluation {
+public:
+  Evaluation(const SceneFile &file, const double target)
+      : end_time_(number_in(file.value({"Time stepping"}, "End time", "1"), 1.)), target_(target) {}
+
+  /// A row's value in words that a scene file would have.
+  std::string operator()(const std::string &text) const {
+    std::istringstream words(text);
+    std::string unit, over;
+    double factor = 0.;
+    if (!(words >> factor) || !(words >> unit))
+      return text;
+    if (unit == "T")
+      return print(factor * end_time_);
+    if (unit == "E")
+      return print(factor * target_);
+    return unit == "/" ? print(factor / target_) : text;
+  }
+
+private:
+  double end_time_, target_;
+};
+
+/// Steps of the table between those that the scene sets.
+std::string between(const std::string &key, const std::string &value, const SceneFile &file) {
+  const auto set = [&file](const std::string &key, const double otherwise) {
+    return number_in(file.value({"Time stepping"}, key, ""), otherwise);
+  };
+  const double step = number_in(value, 0.);
+  if (key == "Initial step") {
+    const double clamped = std::max(std::min({step, set("Largest step", step), set("End time", 1.)}),
+                                    set("Smallest step", step));
+    return clamped == step ? value : print(clamped);
+  }
+  if (key == "Largest step" && set("Initial step", 0.) > step)
+    return print(set("Initial step", step));
+  if (key == "Smallest step" && set("Initial step", step) < step)
+    return print(set("Initial step", step));
+  return value;
+}
+
+void check_contradictions(const SceneFile &file, const double target) {
+  const auto refuse = [&file](const Path &path, const std::string &key, const std::string &allowed) {
+    throw InputError(file.where(path, key) + ": '" + key + "'" +
+                     (path.empty() ? "" : " in '" + join(path) + "'") + ": found '" +
+                     file.value(path, key, "") + "', allowed is " + allowed + ", since there is a '" +
+                     target_key + "'");
+  };
+  const std::vector<std::pair<Path, std::string>> limited = {{{"Time stepping"}, "Error tolerance"},
+                                                             {{"Solver"}, "Force tolerance"},
+                                                             {{"Implicit dynamics"}, "Error tolerance"}};
+  if (file.is_set({}, profile_key))
+    refuse({}, profile_key, "no value");
+  if (file.value({"Time stepping"}, "Step control", "automatic") == "fixed")
+    refuse({"Time stepping"}, "Step control", "automatic");
+  for (const auto &[path, key] : limited) {
+    const double most = key == "Force tolerance" ? 0.1 * target : target;
+    if (file.is_set(path, key) && number_in(file.value(path, key, ""), 0.) > most)
+      refuse(path, key, "a number not above " + print(most) + ", or none");
+  }
+}
+
+} // namespace
+
+void declare_presets(dealii::ParameterHandler &prm) {
+  prm.declare_entry(
+      profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
+      "One word for speed or accuracy: what parameters of steps, solver, contact and elements are by "
+      "themselves. What the scene sets stays as it is; --check tells what the profile sets. balanced: the "
+      "defaults.");
+  prm.declare_entry(
+      target_key, "", dealii::Patterns::Anything(),
+      "The error of the force curves that the scene is content with, '1 percent', '1 %' or '0.01': steps, "
+      "tolerances and augmentation are chosen, and controlled during the run, by estimates of the error, "
+      "which is told at the end. What the mesh makes is not in it. Empty: none.");
+}
+
+double read_target_error(const SceneFile &file) {
+  const std::string text = file.value({}, target_key, "");
+  if (text.empty())
+    return 0.;
+  std::string amount = text;
+  double factor = 1.;
+  for (const std::string unit : {"percent", "%"})
+    if (amount.size() > unit.size() && amount.compare(amount.size() - unit.size(), unit.size(), unit) == 0) {
+      amount = dealii::Utilities::trim(amount.substr(0, amount.size() - unit.size()));
+      factor = 0.01;
+      break;
+    }
+  const double target = factor * number_in(amount, 0.);
+  const std::string found =
+      file.where({}, target_key) + ": '" + target_key + "': found '" + text + "', allowed is ";
+  if (!(target > 0. && target < 1.))
+    throw InputError(found + "a part > 0 and < 1 of the forces, such as '1 percent' or '0.01'");
+  if (target < least_target)
+    throw InputError(found + "1e-6 or more: rounding and Newton's method leave too much for less");
+  return target;
+}
+
+std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file) {
+  const double target = read_target_error(file);
+  if (target > 0.)
+    check_contradictions(file, target);
+  const std::string profile = file.value({}, profile_key, "balanced");
+  const unsigned int scheme = scheme_of(file);
+  const Evaluation evaluate(file, target);
+  std::vector<Preset> presets;
+  for (const auto &row : rows) {
+    const std::string text = target > 0.             ? row.target
+                             : profile == "fast"     ? row.fast
+                             : profile == "accurate" ? row.accurate
+                                                     : "";
+    if (text.empty() || (row.schemes & scheme) == 0)
+      continue;
+    const std::vector<Path> paths = paths_of(row.section, file);
+    // Penetrations are controlled in all pairs at once, or not at all.
+    if (target > 0. && std::string(row.key) == "Penetration tolerance" &&
+        std::any_of(paths.begin(), paths.end(), [&](const Path &path) { return file.is_set(path, row.key); }))
+      continue;
+    for (const auto &path : paths) {
+      if (file.is_set(path, row.key) || !fits(row, path, file))
+        continue;
+      presets.push_back({path, row.key, between(row.key, evaluate(text), file)});
+      for (const auto &name : path)
+        prm.enter_subsection(name);
+      prm.set(row.key, presets.back().value);
+      for (std::size_t i = 0; i < path.size(); ++i)
+        prm.leave_subsection();
+    }
+  }
+  return presets;
+}
+
+std::string to_string(const Preset &preset) {
+  return join(preset.path) + " / " + preset.key + " = " + preset.value;
+}
+
+} // namespace billet::parameters

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/error_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+namespace {
+
+double sum_of_norms(const ErrorControl::Forces &forces) {
+  double sum = 0.;
+  for (const auto &force : forces)
+    sum += force.norm();
+  return sum;
+}
+
+double distance(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
+  double sum = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += (a[i] - b[i]).norm();
+  return sum;
+}
+
+// Steps between measurements, at least, and where little changes from one to the next.
+constexpr unsigned int shortest_interval = 1, longest_interval = 8;
+
+// Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they fade.
+// This is what the first makes of them.
+constexpr double growth_of_errors = 1.4;
+
+} // namespace
+
+double ErrorControl::force_scale() const {
+  // What it is, has been, or will be in the mean if it goes on like this.
+  constexpr double most_growth = 10.;
+  const double left = std::max(0., end_time_ - time_);
+  return std::max({last_force_, time_ > start_ ? work_ / (time_ - start_) : 0.,
+                   last_force_ + std::min(0.5 * force_rate_ * left, most_growth * last_force_)});
+}
+
+void ErrorControl::add_step_errors(const double h_squared) {
+  errors_.resize(slopes_.size()); // after a restart there may be other tools
+  for (std::size_t i = 0; i < errors_.size(); ++i)
+    errors_[i] += growth_of_errors * h_squared * slopes_[i];
+}
+
+void ErrorControl::accept(const double h, const Forces &forces, const double residual) {
+  const double force = sum_of_norms(forces);
+  work_ += 0.5 * (last_force_ + force) * h;
+  time_ += h;
+  force_rate_ = last_force_ > 0. ? (force - last_force_) / h : 0.;
+  last_force_ = force;
+  iterations_ += residual * force * h;
+  if (slopes_.size() == forces.size())
+    add_step_errors(h * h);
+  unmeasured_ += h * h;
+  unmeasured_span_ += h;
+  const double error = sum_of_norms(errors_);
+  steps_ += 0.5 * (last_error_ + error) * h;
+  last_error_ = error;
+  if (has_penetration_)
+    penetration_ += penetration_error_ * h;
+  else
+    unmeasured_time_ += h;
+  if (until_measurement_ > 0)
+    --until_measurement_;
+}
+
+double ErrorControl::allowed_rate() const {
+  // If the errors of forces grew from e at a rate r until the end, with forces as they are,
+  //   ∫ e dt = I + e t' + ½ r t'²,   ∫ Σ|F| dt = W + S t',   t' what is left of the time.
+  const double left = std::max(end_time_ - time_, 1e-3 * (end_time_ - start_)), scale = force_scale();
+  const double rate =
+      2. * (tolerances_.steps * (work_ + scale * left) - steps_ - last_error_ * left) / (left * left);
+  // Forces may be others by then: nothing is saved at any price, nor spent at once.
+  constexpr double least = 0.3, most = 3.;
+  const double even = 2. * tolerances_.steps * scale / (end_time_ - start_);
+  return std::max(least * even, std::min(most * even, rate));
+}
+
+void ErrorControl::measure_steps(const double h, const Forces &forces, const Forces &of_one_step,
+                                 const double residuals) {
+  const Forces before = slopes_.size() == forces.size() ? slopes_ : Forces();
+  const double difference = distance(of_one_step, forces), noise = residuals * sum_of_norms(forces),
+               part = difference > noise ? 1. - noise / difference : 0.;
+  Forces now(forces.size());
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    now[i] = part / (2. * h * h) * (of_one_step[i] - forces[i]);
+  const double slope = sum_of_norms(now), last_slope = before.empty() ? slope : last_slope_;
+  // So far steps since the last measurement count with c from there. Those that were measured now are known,
+  // and those between have something in between: the geometric mean, so that what happens once, such as a
+  // node that begins to slip, does not count for all.
+  const double between = slope > 0. ? std::sqrt(last_slope / slope) : 0.;
+  const double h_squared = unmeasured_ - 2. * h * h;
+  slopes_.resize(forces.size());
+  errors_.resize(forces.size());
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    errors_[i] +=
+        growth_of_errors * (2. * h * h * now[i] + h_squared * between * now[i] - unmeasured_ * slopes_[i]);
+  const double error = sum_of_norms(errors_);
+  steps_ += 0.5 * (error - last_error_) * unmeasured_span_;
+  last_error_ = error;
+  // From here on the smaller of the last two, for the same reason.
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    slopes_[i] = slope > 0. ? std::min(1., last_slope / slope) * now[i] : now[i];
+  last_slope_ = slope;
+  unmeasured_ = unmeasured_span_ = 0.;
+  measured_step_ = h;
+  ++n_measurements_;
+  const bool is_steady = slope <= 1.5 * last_slope && slope >= last_slope / 1.5 && !before.empty();
+  interval_ = is_steady ? std::min(2 * interval_, longest_interval) : shortest_interval;
+  until_measurement_ = interval_;
+  if (tolerances_.steps == 0.)
+    return;
+  const double rate = growth_of_errors * std::min(slope, last_slope) * h;
+  constexpr double least = 0.2, most = 2.; // of the change at once
+  const double factor = rate > 0. ? allowed_rate() / rate : most;
+  longest_step_ = h * std::max(least, std::min(most, factor));
+  // Where steps matter at all: not so long that c could change beyond recognition between two measurements,
+  // nor so short that what happens once in a while, whatever the step, would decide.
+  constexpr double matters = 0.01, longest = 0.75, shortest = 3.;
+  const double span = end_time_ - start_;
+  if (rate * span > 2. * matters * tolerances_.steps * force_scale()) {
+    const double most_span = longest * std::sqrt(tolerances_.steps) * span;
+    longest_step_ = std::min(longest_step_, most_span);
+    if (longest_step_ < h)
+      longest_step_ = std::max(longest_step_,
+                               std::min(h, std::min(0.5 * most_span, shortest * tolerances_.steps * span)));
+  }
+}
+
+void ErrorControl::measure_penetration(const double penetration, const Forces &forces,
+                                       const Forces &without) {
+  const bool is_first = !has_penetration_;
+  has_penetration_ = true;
+  penetration_error_ = distance(forces, without);
+  if (is_first)
+    penetration_ += penetration_error_ * unmeasured_time_;
+  if (tolerances_.penetration == 0. || !(penetration_error_ > 0.))
+    return;
+  // In proportion; tighter than what is the tightest is not to be had.
+  const double allowed = tolerances_.penetration * std::max(force_scale(), sum_of_norms(forces));
+  penetration_allowed_ = std::max(1., penetration * allowed / penetration_error_);
+  penetration_error_ *= std::min(1., penetration_allowed_ / penetration);
+}
+
+void ErrorControl::miss_measurement(const double h, const bool failed) {
+  until_measurement_ = failed ? 0 : shortest_interval;
+  if (failed && tolerances_.steps > 0.)
+    longest_step_ = std::min(longest_step_, 0.5 * h);
+}
+
+ErrorControl::Estimate ErrorControl::estimate() const {
+  if (!(work_ > 0.))
+    return {};
+  return {steps_ / work_, penetration_ / work_, iterations_ / work_};
+}
+
+void ErrorControl::save(StateWriter &writer) const {
+  const auto pack = [&writer](const std::string &name, const Forces &forces) {
+    std::vector<double> numbers;
+    for (const auto &force : forces)
+      numbers.insert(numbers.end(), force.begin_raw(), force.end_raw());
+    writer.write(name, numbers);
+  };
+  writer.write("errors", {start_,
+                          time_,
+                          last_force_,
+                          force_rate_,
+                          last_slope_,
+                          last_error_,
+                          work_,
+                          steps_,
+                          penetration_,
+                          iterations_,
+                          penetration_error_,
+                          unmeasured_,
+                          unmeasured_span_,
+                          unmeasured_time_,
+                          measured_step_,
+                          has_penetration_ ? 1. : 0.,
+                          static_cast<double>(until_measurement_),
+                          static_cast<double>(interval_),
+                          static_cast<double>(n_measurements_),
+                          longest_step_,
+                          penetration_allowed_});
+  pack("errors by steps", slopes_);
+  pack("errors of forces", errors_);
+}
+
+void ErrorControl::load(const StateReader &reader) {
+  const auto unpack = [&reader](const std::string &name) {
+    const std::vector<double> numbers = reader.read(name);
+    Forces forces;
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+      forces.push_back(dealii::Tensor<1, 3>({numbers[i], numbers[i + 1], numbers[i + 2]}));
+    return forces;
+  };
+  const std::vector<double> state = reader.read("errors");
+  start_ = state.at(0);
+  time_ = state.at(1);
+  last_force_ = state.at(2);
+  force_rate_ = state.at(3);
+  last_slope_ = state.at(4);
+  last_error_ = state.at(5);
+  work_ = state.at(6);
+  steps_ = state.at(7);
+  penetration_ = state.at(8);
+  iterations_ = state.at(9);
+  penetration_error_ = state.at(10);
+  unmeasured_ = state.at(11);
+  unmeasured_span_ = state.at(12);
+  unmeasured_time_ = state.at(13);
+  measured_step_ = state.at(14);
+  has_penetration_ = state.at(15) > 0.;
+  until_measurement_ = static_cast<unsigned int>(state.at(16));
+  interval_ = static_cast<unsigned int>(state.at(17));
+  n_measurements_ = static_cast<unsigned int>(state.at(18));
+  longest_step_ = state.at(19);
+  penetration_allowed_ = state.at(20);
+  slopes_ = unpack("errors by steps");
+  errors_ = unpack("errors of forces");
+}
+
+} // namespace billet

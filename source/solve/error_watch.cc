@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/error_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+namespace {
+
+// Of the target error, what steps and penetrations may make; the rest is for what is estimated badly.
+constexpr double part_of_steps = 0.5, part_of_penetration = 0.15;
+
+/// Whether the penetration tolerances of all pairs are left to the target error.
+bool may_choose_penetration(const parameters::Scene &parameters) {
+  return parameters.target_error > 0. && !parameters.pairs.empty() &&
+         static_cast<std::size_t>(std::count_if(parameters.presets.begin(), parameters.presets.end(),
+                                                [](const parameters::Preset &preset) {
+                                                  return preset.key == "Penetration tolerance";
+                                                })) == parameters.pairs.size();
+}
+
+ErrorControl::Tolerances tolerances_of(const parameters::Scene &parameters) {
+  const double target = parameters.target_error;
+  return {parameters.is_dynamic() ? part_of_steps * target : parameters.time_stepping.error_tolerance,
+          may_choose_penetration(parameters) ? part_of_penetration * target : 0.};
+}
+
+} // namespace
+
+bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
+  return parameters.target_error > 0. || parameters.time_stepping.error_tolerance > 0.;
+}
+
+ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem)
+    : problem_(problem),
+      errors_(tolerances_of(scene.parameters()), scene.parameters().time_stepping.end_time),
+      // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
+      // surface about the square root of their number times theirs.
+      residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
+      measures_penetration_(scene.parameters().target_error > 0.),
+      controls_penetration_(may_choose_penetration(scene.parameters())) {
+  allow_penetration();
+}
+
+void ErrorWatch::allow_penetration() {
+  if (controls_penetration_)
+    problem_.set_penetration_allowed(errors_.penetration_allowed());
+}
+
+unsigned int ErrorWatch::before_step(StepControl &control, const double previous_step) {
+  if (probe_length_ > 0. || !errors_.wants_measurement(control.next_step()))
+    return 0;
+  const double first = control.next_step(), end = control.time_after_next(),
+               second = end - control.next_time();
+  constexpr double alike = 0.01;
+  if (!(std::abs(second - first) <= alike * first)) { // a stop is near; after it, then
+    errors_.miss_measurement(first, false);
+    return 0;
+  }
+  probe_ = problem_.probe(end, previous_step, measures_penetration_);
+  const auto n_iterations = static_cast<unsigned int>(probe_.newton.iterations.size());
+  n_iterations_ += n_iterations;
+  if (probe_.newton.converged) {
+    probe_length_ = first;
+    probe_end_ = end;
+  } else {
+    errors_.miss_measurement(first, true);
+    control.limit(errors_.longest_step());
+  }
+  return n_iterations;
+}
+
+void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
+  const ErrorControl::Forces forces = problem_.forces();
+  errors_.accept(length, forces, residual_factor_ * report.force);
+  if (probe_length_ > 0. && control.time() < probe_end_) {
+    control.plan(probe_length_);
+    last_residual_ = report.force;
+    return;
+  }
+  if (probe_length_ > 0.) {
+    errors_.measure_steps(probe_length_, forces, probe_.forces,
+                          residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
+    // Not before: the three steps have to go equally deep.
+    if (!probe_.without_penetration.empty())
+      errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration);
+    allow_penetration();
+  }
+  probe_length_ = 0.;
+  last_residual_ = report.force;
+  control.limit(errors_.longest_step());
+}
+
+void ErrorWatch::after_failure() {
+  if (probe_length_ > 0.)
+    errors_.miss_measurement(probe_length_, true);
+  probe_length_ = 0.;
+}
+
+void ErrorWatch::save(StateWriter &writer) const {
+  errors_.save(writer);
+  writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
+}
+
+void ErrorWatch::load(const StateReader &reader) {
+  errors_.load(reader);
+  allow_penetration();
+  n_iterations_ = static_cast<unsigned int>(reader.read("iterations of measurements").at(0));
+}
+
+} // namespace billet

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/explicit_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+void ExplicitErrors::add(const double time, const EnergyLedger &energies) {
+  const double drift = std::abs(energies.drift()), contact = std::abs(energies.contact),
+               total = std::max(energies.total(), std::abs(energies.initial));
+  if (has_begun_) {
+    constexpr double late_and_stored = 3.;
+    const double half = 0.5 * (time - time_);
+    drift_ += half * (last_drift_ + drift);
+    penetration_ += half * late_and_stored * (last_contact_ + contact);
+    total_ += half * (last_total_ + total);
+  }
+  // What the first touch makes stays as it is; what steps make grows.
+  constexpr double part = 0.2, growth = 1.1, shorter = 0.8, least = 0.5;
+  if (has_begun_ && total > 0. && drift > part * tolerance_ * total && drift > growth * last_drift_)
+    step_factor_ = std::max(least, shorter * step_factor_);
+  has_begun_ = true;
+  time_ = time;
+  last_drift_ = drift;
+  last_contact_ = contact;
+  last_total_ = total;
+}
+
+void ExplicitErrors::save(StateWriter &writer) const {
+  writer.write("errors", {has_begun_ ? 1. : 0., time_, last_drift_, last_contact_, last_total_, drift_,
+                          penetration_, total_, step_factor_});
+}
+
+void ExplicitErrors::load(const StateReader &reader) {
+  const std::vector<double> state = reader.read("errors");
+  has_begun_ = state.at(0) > 0.;
+  time_ = state.at(1);
+  last_drift_ = state.at(2);
+  last_contact_ = state.at(3);
+  last_total_ = state.at(4);
+  drift_ = state.at(5);
+  penetration_ = state.at(6);
+  total_ = state.at(7);
+  step_factor_ = state.at(8);
+}
+
+} // namespace billet

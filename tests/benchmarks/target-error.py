@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whether runs with a 'Target error' are as accurate as they should be, and what they cost beside runs set by hand."""
+
+import math
+
+from billet_runs import ROOT, arguments, number, percent, publish, table
+from curve_runs import error, run_all, write_csv
+
+options = arguments("target-error")
+TARGETS = (0.1, 0.03, 0.01, 0.003)
+STEPS = (5, 10, 20, 40)
+REFERENCE_STEPS = 640
+
+
+def pairs(names, **values):
+    return {f"Contact pairs/{name}/{key.replace('_', ' ')}": value for name in names for key, value in values.items()}
+
+
+class Implicit:
+    """A scene, its pairs, its end time, and what is changed in all runs."""
+
+    unit = "iterations"
+
+    def __init__(self, name, pairs, end, changes):
+        self.path, self.pairs, self.end, self.changes = ROOT / f"prm/{name}.prm", pairs, end, changes
+
+    def steps(self, n):
+        return {"Time stepping/Initial step": repr(self.end / n), "Time stepping/Largest step": repr(self.end / n)}
+
+    def reference(self):
+        return {**self.changes, **self.steps(REFERENCE_STEPS), **pairs(self.pairs, Penetration_tolerance=1e-5),
+                "Solver/Force tolerance": 1e-9, "Solver/Most augmentations": 60}
+
+    def by_hand(self):
+        """What a user might set: equal steps, penalties as they are or augmented, tolerances."""
+        for n in STEPS:
+            for depth, tolerance in ((None, 1e-3), (1e-2, 1e-3), (1e-3, 1e-4)):
+                said = f"{n} steps, " + (f"augmented to {depth:g}" if depth else "penalties") + f", residual {tolerance:g}"
+                yield said, {**self.changes, **self.steps(n), **pairs(self.pairs, Penetration_tolerance=depth),
+                             "Solver/Force tolerance": tolerance,
+                             "Solver/Energy tolerance": 1e-5 if tolerance > 1e-4 else 1e-10}
+
+    def target(self, target):
+        return {**self.changes, "Target error": target, "Time stepping/Initial step": None,
+                "Time stepping/Largest step": None, **pairs(self.pairs, Penetration_tolerance=None)}
+
+
+class Explicit:
+    unit = "element updates"
+
+    def __init__(self, name, pairs, changes):
+        self.path, self.pairs, self.changes = ROOT / f"prm/{name}.prm", pairs, changes
+
+    def reference(self):
+        return {**self.changes, **pairs(self.pairs, Normal_penalty=300), "Explicit dynamics/Safety factor": 0.3,
+                "Explicit dynamics/Contact resolution": 4}
+
+    def by_hand(self):
+        for penalty in (0.3, 1, 3, 10, 30):
+            for safety in (0.9, 0.75):
+                for resolution in ((1,) if safety > 0.8 else (2,)):
+                    yield (f"penalty {penalty:g}, safety {safety:g}, resolution {resolution}",
+                           {**self.changes, **pairs(self.pairs, Normal_penalty=penalty),
+                            "Explicit dynamics/Safety factor": safety,
+                            "Explicit dynamics/Contact resolution": resolution})
+
+    def target(self, target):
+        return {**self.changes, "Target error": target, **pairs(self.pairs, Normal_penalty=None)}
+
+
+SCENES = {
+    "billet upsetting": Implicit("billet_upsetting", ["billet on die"], 1.0, {}),
+    "Hertz, two cylinders, 370 bricks": Implicit("hertz_cylinders", ["faces"], 1.0, {
+        "Bodies/lower/Mesh/Arguments": "20, 1, 10 : 0, 0, -1 : 1, 0.1, 0 : true",
+        "Bodies/upper/Mesh/Arguments": "17, 1, 10 : 0, 0, 0 : 1, 0.1, 1 : true"}),
+    "ironing, pressed down and drawn 2 mm": Implicit("ironing", ["face"], 1.4, {
+        "Time stepping/End time": 1.4, "Time stepping/Stops": 1}),
+    "Wagoner's punch, 48 bricks, 10 mm": Implicit("wagoner_punch", ["blank on punch", "blank on die"], 0.25, {
+        "Bodies/blank/Mesh/Refinements": 2, "Time stepping/End time": 0.25}),
+    "Taylor bar, 192 bricks, 40 us": Explicit("taylor_bar", ["bar on wall"], {
+        "Bodies/bar/Mesh/Refinements": 1, "Bodies/bar/Mesh/Layers": 16, "Time stepping/End time": 40e-6,
+        "Output/Interval": 0}),
+}
+
+rows, csv_rows, landed, cheap, tries = [], [], 0, 0, 0
+for name, scene in SCENES.items():
+    by_hand = list(scene.by_hand())
+    reference, *runs = run_all(scene.path, [scene.reference()] + [changes for _, changes in by_hand]
+                               + [scene.target(target) for target in TARGETS], options.ranks)
+    if not reference.finished:
+        print(f"{name}: no reference: {reference.failure}")
+        continue
+    hand = [(run.work, error(run, reference), said, run) for (said, _), run in zip(by_hand, runs)]
+    aimed = runs[len(by_hand):]
+    for work, off, said, run in hand:
+        csv_rows.append([name, "by hand", "", said, work, f"{run.seconds:.3g}", f"{off:.4g}", ""])
+    for target, run in zip(TARGETS, aimed):
+        off, tries = error(run, reference), tries + 1
+        believed = run.believed.get("error", math.nan)
+        enough = [entry for entry in hand if entry[1] <= target]
+        cheapest = min(enough, key=lambda entry: entry[0]) if enough else None
+        ratio = run.work / cheapest[0] if cheapest else math.nan
+        seconds = run.seconds / cheapest[3].seconds if cheapest else math.nan
+        landed += off <= target
+        cheap += ratio <= 1.5 or cheapest is None
+        csv_rows.append([name, "target error", target, "", run.work, f"{run.seconds:.3g}", f"{off:.4g}",
+                         f"{believed:.4g}"])
+        rows.append([name, percent(target), percent(off), percent(believed), run.steps, run.work, number(run.seconds),
+                     f"{cheapest[2]}: {cheapest[0]}" if cheapest else "none", number(ratio), number(seconds)])
+
+publish(
+    "target-error", "Runs with a target error", options,
+    "Each scene with `Target error` = 10, 3, 1 and 0.3 %, beside runs set by hand: equal steps (cut where they fail), "
+    "penalties as they are or augmented, tight or loose tolerances; of the explicit scene penalty, safety factor and contact "
+    "resolution. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of the explicit scene of "
+    f"kinetic energy and what is stored or dissipated, against a reference on the same mesh, with {REFERENCE_STEPS} steps, "
+    "augmented to 1e-5 of a facet, residuals below 1e-9; in the explicit scene with a penalty factor of 300, a "
+    "safety factor of 0.3 and a contact resolution of 4. Work: Newton iterations, with those of failed steps and of "
+    "estimates, or element updates; "
+    "the ratio is that to the cheapest run by hand whose error is no larger than the target. Each run once.",
+    f"{landed} of {tries} runs are within their target; {cheap} take at most 1.5 times the work of the cheapest run by hand.",
+    table(["scene", "target", "error", "believed", "steps", "work", "CPU seconds", "cheapest by hand", "ratio of work",
+           "of CPU seconds"], rows))
+if not options.quick:
+    write_csv("target-error", ["scene", "kind", "target", "settings", "work", "cpu_seconds", "error", "believed"], csv_rows)

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A step that is tried to measure errors, and not taken, leaves nothing behind but where the next iterations
+// begin.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+double difference(const std::vector<dealii::Tensor<1, 3>> &a, const std::vector<dealii::Tensor<1, 3>> &b) {
+  double sum = 0., size = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += (a[i] - b[i]).norm();
+    size += b[i].norm();
+  }
+  return a.size() == b.size() ? sum / size : 1.;
+}
+
+void check_scene(const std::string &name, parameters::Scene parameters, const unsigned int n_steps) {
+  parameters.solver.force_tolerance = 1e-11;
+  testing::set_fixed_steps(parameters, 2 * n_steps);
+  SceneRun tried(parameters), untried(parameters);
+  testing::set_fixed_steps(parameters, n_steps);
+  SceneRun coarse(parameters);
+  for (SceneRun *run : {&tried, &untried, &coarse})
+    run->problem.set_penetration_allowed(1e9); // so that there are some, whatever pairs ask for
+  coarse.advance();
+
+  testing::WorstError forces, energies;
+  unsigned int n_from_probe = 0, n_otherwise = 0;
+  for (unsigned int n = 0; n < 6; ++n) {
+    const double from = tried.control.time(), to = tried.control.next_time();
+    const QuasiStatic::Probe probe = tried.problem.probe(2. * to - from, n == 0 ? 0. : to - from, n < 3);
+    if (n == 0) {
+      check(name + ": a probe gives what the step gives", difference(probe.forces, coarse.problem.forces()),
+            1e-8);
+      check(name + ": without penetrations it is stiffer",
+            probe.without_penetration[0].norm() > probe.forces[0].norm());
+      check(name + ": penetrations are seen where a pair asks for it",
+            parameters.pairs[0].penetration_tolerance > 0. ? probe.penetration > 1.
+                                                           : probe.penetration == 0.);
+    }
+    n_from_probe += static_cast<unsigned int>(tried.advance().iterations.size());
+    n_otherwise += static_cast<unsigned int>(untried.advance().iterations.size());
+    forces.add(difference(tried.problem.forces(), untried.problem.forces()));
+    const EnergyLedger &e = tried.problem.state().energies, &f = untried.problem.state().energies;
+    energies.add(std::abs(e.plastic - f.plastic) + std::abs(e.elastic - f.elastic) +
+                 std::abs(e.friction - f.friction) + std::abs(e.external - f.external));
+  }
+  check(name + ": forces are those without probes", forces.value(), 1e-8);
+  check(name + ": energies are, too", energies.value() / tried.problem.state().energies.external, 1e-8);
+  check(name + ": iterations begin nearer to their end", n_from_probe <= n_otherwise);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  parameters::Scene billet = testing::read_shipped_scene("billet_upsetting.prm");
+  check_scene("billet", billet, 20);
+  billet.pairs[0].penetration_tolerance = 1e-5;
+  check_scene("billet, augmented", billet, 20);
+  check_scene("ironing", testing::read_shipped_scene("ironing.prm"), 70);
+  return billet::testing::exit_code();
+}

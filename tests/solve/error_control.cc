@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Estimates of the error of force curves, and the steps that follow from them, of made-up curves whose error
+// is known: F* = 3 + 2 t along x, to which each step of length h adds an error c h².
+#include "billet/solve/error_control.h"
+
+#include "../testing.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace billet;
+using billet::testing::check;
+using Forces = ErrorControl::Forces;
+
+namespace {
+
+Forces force(const double t, const double error) {
+  return {dealii::Tensor<1, 3>({3. + 2. * t + error, 0., 0.})};
+}
+
+struct Result {
+  ErrorControl::Estimate estimate;
+  double error; ///< true
+  unsigned int n_steps, n_measurements;
+};
+
+constexpr double caution = 1.4; // of the estimate
+
+/// Steps until time 1, in twos where a measurement is wanted. `jump`: of the error, once, at time 0.5.
+Result run(const ErrorControl::Tolerances &tolerances, const double slope, const double first_step,
+           const double stretch = 1., double jump = 0.) {
+  ErrorControl control(tolerances, 1.);
+  double t = 0., h = first_step, error = 0., error_integral = 0., work = 0., force_before = 0.;
+  unsigned int n = 0;
+  const auto advance = [&] {
+    const double before = error;
+    t += h;
+    ++n;
+    error += slope * h * h;
+    error_integral += 0.5 * (before + error) * h;
+    work += 0.5 * (force_before + 3. + 2. * t) * h;
+    force_before = 3. + 2. * t;
+    control.accept(h, force(t, error), 0.);
+  };
+  while (t < 1. - 1e-12) {
+    h = std::min(h, 1. - t);
+    if (control.wants_measurement(h) && t + 2. * h <= 1.) {
+      double of_one_step = error + slope * 4. * h * h;
+      advance();
+      advance();
+      if (t > 0.5) {
+        of_one_step += jump;
+        jump = 0.;
+      }
+      control.measure_steps(h, force(t, error), force(t, of_one_step), 0.);
+    } else
+      advance();
+    h = std::min(h * stretch, control.longest_step());
+  }
+  return {control.estimate(), error_integral / work, n, control.n_measurements()};
+}
+
+bool near(const double a, const double b, const double part) { return std::abs(a - b) <= part * std::abs(b); }
+
+} // namespace
+
+int main() {
+  const Result even = run({0., 0.}, 0.5, 0.01);
+  check("equal steps: the estimate is the error, with caution",
+        near(even.estimate.steps, caution * even.error, 1e-3));
+  check("steps are left alone without a tolerance", even.n_steps == 100 || even.n_steps == 101);
+  check("where little changes measurements are few", even.n_measurements < 25);
+  const Result disturbed = run({0., 0.}, 0.5, 0.01, 1., 1e-3);
+  check("what happens once counts once",
+        disturbed.estimate.steps - even.estimate.steps < caution * 1e-3 / 3.);
+
+  for (const double tolerance : {1e-2, 1e-3}) {
+    const Result controlled = run({tolerance, 0.}, 0.5, 0.2 * tolerance, 1.5);
+    check("controlled steps keep the tolerance", controlled.error < tolerance);
+    check("and use a good part of it", controlled.error > 0.2 * tolerance);
+    check("the estimate is the error, with caution",
+          near(controlled.estimate.steps, caution * controlled.error, 0.05));
+  }
+  const Result exact = run({1e-3, 0.}, 0., 0.01, 1.5);
+  check("without an error steps grow", exact.n_steps < 30 && exact.estimate.steps == 0.);
+  {
+    ErrorControl noisy({1e-6, 0.}, 1.);
+    noisy.accept(0.01, force(0.01, 0.), 0.);
+    noisy.accept(0.01, force(0.02, 0.), 0.);
+    noisy.measure_steps(0.01, force(0.02, 0.), force(0.02, 3e-6), 1e-6);
+    check("what residuals make of a difference shortens no steps", noisy.longest_step() > 0.01);
+  }
+
+  ErrorControl deep({0., 1e-3}, 1.);
+  deep.accept(0.1, force(0.1, 0.), 1e-5);
+  deep.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032));
+  // Of 1 % of the force a thousandth may stay.
+  check("what penetration is allowed", near(deep.penetration_allowed(), 10., 1e-9));
+  ErrorControl left({0., 0.}, 1.);
+  left.accept(0.1, force(0.1, 0.), 0.);
+  left.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032));
+  check("what residuals make", near(deep.estimate().iterations, 2e-5, 1e-9)); // from the force 0 at time 0
+  check("what penetrations make", near(left.estimate().penetration, 2. * 0.032 / 3.2, 1e-9));
+  return billet::testing::exit_code();
+}
