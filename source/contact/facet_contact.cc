@@ -394,7 +394,7 @@ void FacetContact::add_edges(FacetContactLoad &load) const {
       load.residual_force += forces[i];
       load.residual_moment +=
           dealii::cross_product_3d(positions_[crossing.nodes[i]] - positions_[crossing.nodes[0]], forces[i]);
-      if (crossing.surfaces[i / 2] == 0) {
+      if (crossing.surfaces[0] != crossing.surfaces[1] && crossing.surfaces[i / 2] == 0) {
         load.force += forces[i];
         load.moment += dealii::cross_product_3d(positions_[crossing.nodes[i]], forces[i]);
       }
@@ -421,11 +421,14 @@ FacetContactLoad FacetContact::compute_load() const {
         load.residual_moment +=
             dealii::cross_product_3d(corners[a] - slave_point(s, share, positions_), reaction[a]);
       }
-      if (slaves_[s].surface == 0) {
+      const unsigned int of_node = slaves_[s].surface, of_facet = search_.facets()[share.facet].surface;
+      if (of_node == of_facet) // nothing in all
+        return;
+      if (of_node == 0) {
         load.force += force;
         load.moment += dealii::cross_product_3d(slave_point(s, share, positions_), force);
       }
-      if (search_.facets()[share.facet].surface == 0) {
+      if (of_facet == 0) {
         load.force -= force;
         for (unsigned int a = 0; a < 4; ++a)
           load.moment += dealii::cross_product_3d(corners[a], reaction[a]);

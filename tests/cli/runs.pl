@@ -228,7 +228,7 @@ check "a target error is kept and told on $_ ranks", sub {
 } for 1, 2;
 check 'a target error that is missed is told', sub {
   billet('Target error = 0.01 % & Time stepping: Initial step = 0.5 & Time stepping: Smallest step = 0.5'
-    . ' & Time stepping: Largest step = 0.5');
+    . ' & Time stepping: Largest step = 0.5 & top on die: Penetration tolerance = 1e-6');
   return $said =~ /^The target was not reached: steps make most of the error; try a smaller 'Largest step'/m ? '' : "says $said";
 };
 check 'an explicit target error', sub {

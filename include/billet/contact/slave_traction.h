@@ -29,7 +29,7 @@ template <class Number> struct SlaveMotionOf {
   dealii::Tensor<1, 3, Number> displacement;
   dealii::Tensor<2, 3, Number> rotation; ///< R, of the facet
   double duration;                       ///< [time]; 0 in a step that takes no time
-  double lift = 0.;  ///< of augmentation: the gap is the distance less this [length]
+  double lift = 0.;                      ///< of augmentation: the gap is the distance less this [length]
   double flush = 0.; ///< a node no farther than this from its facet counts as touching it [length]
 };
 using SlaveMotion = SlaveMotionOf<double>;

@@ -25,8 +25,8 @@ template <class Number> struct FacetOverlapOf {
   std::array<std::array<Number, 4>, 4> target_parts{}; ///< ... ∫ φ_a ψ_I dA [length²]
 };
 
-/// `depth` > 0; the polygon is that of a slave whose corners are lower by `lifts` [length], the gaps in it are
-/// the true ones. Facets without area, or which do not face each other, do not overlap.
+/// `depth` > 0; the polygon is that of a slave whose corners are lower by `lifts` [length], the gaps in it
+/// are the true ones. Facets without area, or which do not face each other, do not overlap.
 template <class Number>
 FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
                                        const FacetCornersOf<Number> &target, double depth,
