@@ -217,6 +217,8 @@ public:
       contact_->correct(residual, *z(0));
     return error;
   }
+  /// Goes on with another matrix' contact dofs, where the hierarchy of an earlier one is kept.
+  void set_contact(const ContactBlock *contact) { contact_ = contact; }
   const char *Label() const override { return "smoothed aggregation"; }
   bool is_ready() const { return ml_->IsPreconditionerComputed(); }
   double memory() const {
@@ -298,22 +300,49 @@ void IterativeSolver::start_contact(const std::vector<int> &dofs) {
 }
 
 bool IterativeSolver::factorize() {
-  multigrid_.reset();
+  // What the last solve tells: a hierarchy is dear, and a Newton iteration changes little.
+  const bool keeps_pace =
+      multigrid_ != nullptr && last_pace_ >= settings_.least_pace * fresh_pace_ && fresh_pace_ > 0.;
+  if (!keeps_pace)
+    multigrid_.reset();
   contact_ = std::move(started_);
   if (contact_ != nullptr &&
       !contact_->factorize(settings_.method == Method::conjugate_gradients, communicator_)) {
+    multigrid_.reset();
     failure_ = "the stiffness of the contact dofs cannot be factorised: " + contact_->failure();
     return false;
   }
-  multigrid_ = std::make_unique<Multigrid>(settings_, *matrix_, geometry_, contact_.get());
-  if (!multigrid_->is_ready()) {
-    failure_ = "multigrid could not be set up";
-    return false;
-  }
+  is_lagging_ = keeps_pace;
+  if (!is_lagging_)
+    return renew();
+  multigrid_->set_contact(contact_.get());
   return true;
 }
 
+bool IterativeSolver::renew() {
+  is_lagging_ = false;
+  fresh_pace_ = last_pace_ = 0.;
+  multigrid_.reset();
+  multigrid_ = std::make_unique<Multigrid>(settings_, *matrix_, geometry_, contact_.get());
+  ++n_hierarchies_;
+  if (multigrid_->is_ready())
+    return true;
+  multigrid_.reset();
+  failure_ = "multigrid could not be set up";
+  return false;
+}
+
 bool IterativeSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const double relative_tolerance) {
+  if (!is_lagging_)
+    return iterate(b, x, relative_tolerance, settings_.most_iterations);
+  const double expected = -std::log(relative_tolerance) / (settings_.least_pace * fresh_pace_);
+  const double most = std::min(expected + 10., static_cast<double>(settings_.most_iterations));
+  return iterate(b, x, relative_tolerance, static_cast<unsigned int>(most)) ||
+         (renew() && iterate(b, x, relative_tolerance, settings_.most_iterations));
+}
+
+bool IterativeSolver::iterate(const Epetra_Vector &b, Epetra_Vector &x, const double relative_tolerance,
+                              const unsigned int most_iterations) {
   x.PutScalar(0.);
   relative_residual_ = 0.;
   const double size = norm(b);
@@ -328,8 +357,9 @@ bool IterativeSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const doub
     relative_residual_ = norm(residual) / size;
   };
   compute_residual();
+  const double start = relative_residual_;
   // What the recursions take for the residual may lie below it: then they go on from there.
-  unsigned int left = settings_.most_iterations;
+  unsigned int left = most_iterations;
   for (unsigned int attempt = 0; relative_residual_ > relative_tolerance && attempt < 3 && left > 0;
        ++attempt) {
     const double before = relative_residual_;
@@ -350,12 +380,17 @@ bool IterativeSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const doub
     if (!(relative_residual_ < 0.5 * before))
       break;
   }
-  if (relative_residual_ <= relative_tolerance)
+  if (relative_residual_ <= relative_tolerance) {
+    if (left < most_iterations && relative_residual_ > 0.)
+      last_pace_ = std::log(start / relative_residual_) / (most_iterations - left);
+    if (fresh_pace_ == 0.)
+      fresh_pace_ = last_pace_;
     return true;
+  }
   std::ostringstream text;
   text.precision(2);
   text << name() << " left " << relative_residual_ << " of the right-hand side after "
-       << settings_.most_iterations - left << " iterations, allowed was " << relative_tolerance;
+       << most_iterations - left << " iterations, allowed was " << relative_tolerance;
   failure_ = text.str();
   return false;
 }

@@ -122,6 +122,23 @@ int main(int argc, char *argv[]) {
     check("two iterations: do not do", !outcome.success && outcome.iterations == 2);
   }
 
+  { // A hierarchy outlives its matrix as long as it serves.
+    IterativeSolver::Settings settings;
+    settings.most_iterations = 1000;
+    IterativeSolver solver(settings, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+    solver.set_geometry(blocks.geometry());
+    const auto solves = [&](const double penalty, const bool with_block) {
+      blocks.assemble_cubes();
+      if (with_block)
+        solver.start_contact(blocks.contact_dofs());
+      blocks.add_contact(penalty, Tie::frictionless);
+      return solve(solver, load, solution, 1e-10) && true_residual(blocks, solution, load) < 1.1e-10;
+    };
+    check("hierarchy: the first", solves(1., true) && solver.n_hierarchies() == 1);
+    check("hierarchy: kept", solves(1.5, true) && solves(1e4, true) && solver.n_hierarchies() == 1);
+    check("hierarchy: replaced where it does not serve", solves(100., false) && solver.n_hierarchies() == 2);
+  }
+
   // A scene's solver, and another matrix in the middle.
   TwoBlocks others(MPI_COMM_WORLD, 9000., true);
   const Vector other_load = others.make_load();

@@ -29,6 +29,10 @@ struct NodalGeometry {
 /// as the bodies. With a first residual that vanishes on Γ all later ones do, (1) is symmetric on them, and
 /// what has to be small is the condition of the Schur complements on the other dofs of both matrices against
 /// each other: it is bounded whatever the penalty.
+///
+/// The hierarchy of an earlier matrix is kept as long as residuals fall with it, for each iteration, by
+/// `least_pace` of the logarithm that they fell by when it was new; A_ΓΓ and the finest level's residuals are
+/// always of the matrix itself. A solve that fails with an old hierarchy is repeated with a new one.
 class IterativeSolver final : public LinearSolver {
 public:
   enum class Method { conjugate_gradients, gmres };
@@ -39,6 +43,7 @@ public:
     // What doc/results/linear-solvers.md compares.
     bool solve_contact = true;     ///< (1); else a cycle alone
     double contact_stiffness = 3.; ///< of θ C, on average, over that of K at the same dofs; 0: θ = 1
+    double least_pace = 0.6;       ///< of a kept hierarchy, part of a fresh one's; > 1: none is kept
   };
 
   IterativeSolver(const Settings &settings, const Epetra_CrsMatrix &matrix, MPI_Comm communicator);
@@ -64,10 +69,17 @@ public:
   double memory() const override;
   /// |b − A x| / |b| of the last solve, computed anew.
   double relative_residual() const { return relative_residual_; }
+  /// Hierarchies set up so far.
+  unsigned int n_hierarchies() const { return n_hierarchies_; }
 
 private:
   class Multigrid;
   class ContactBlock;
+
+  /// A new hierarchy, of the matrix as it is.
+  bool renew();
+  bool iterate(const Epetra_Vector &b, Epetra_Vector &x, double relative_tolerance,
+               unsigned int most_iterations);
 
   Settings settings_;
   const Epetra_CrsMatrix *matrix_;
@@ -76,7 +88,9 @@ private:
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<ContactBlock> started_; ///< of the next matrix
   std::unique_ptr<ContactBlock> contact_;
-  unsigned int iterations_ = 0;
+  bool is_lagging_ = false;                 ///< the hierarchy is that of an earlier matrix
+  double fresh_pace_ = 0., last_pace_ = 0.; ///< −ln of what an iteration leaves; 0: not known
+  unsigned int iterations_ = 0, n_hierarchies_ = 0;
   double relative_residual_ = 0.;
 };
 
