@@ -94,6 +94,7 @@ void BodyContact::collect(const NodeKeys &keys) {
       // What is deeper than half the wall below is nearer to the wall's other side; and a node that comes in
       // from beside the facet, rather than through it, is not to be thrown out from the depth.
       facet.reach = std::min(0.1 * std::sqrt(areas_.back()), 0.4 * boundary.thickness);
+      least_reach_ = std::min(least_reach_, facet.reach);
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
             index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes_.size()));
@@ -410,8 +411,10 @@ std::string BodyContact::describe_restless() const {
   std::ostringstream text;
   text << "; contact pair '" << pair_.name << "': " << n_nodes
        << " nodes keep changing facet or status, most often, " << worst[0] << " times, the one at ("
-       << worst[1] << ", " << worst[2] << ", " << worst[3]
-       << "): try smaller steps, a softer penalty, 'Facets = overlap' or a larger 'Smoothing'";
+       << worst[1] << ", " << worst[2] << ", " << worst[3] << "): try "
+       << (contact_->method() == FacetMethod::overlap
+               ? "a softer penalty, with a 'Penetration tolerance' where that is too soft, or larger steps"
+               : "smaller steps, a softer penalty, 'Facets = overlap' or a larger 'Smoothing'");
   return text.str();
 }
 
@@ -423,8 +426,6 @@ void BodyContact::allow_overlap() {
 void BodyContact::check_overlap() const {
   const Discretization &discretization = nodes_.discretization();
   const MPI_Comm communicator = discretization.communicator();
-  if (pair_.overlap.is_allowed)
-    return;
   std::array<double, 2> sums{std::accumulate(areas_.begin(), areas_.end(), 0.),
                              static_cast<double>(areas_.size())};
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
@@ -438,14 +439,27 @@ void BodyContact::check_overlap() const {
     if (overlap.depth > deepest.depth)
       deepest = overlap;
   }
-  if (deepest.depth <= pair_.input->allowed_penetration.value * size)
+  // Deeper ones are allowed as far as they are found: half of where a step loses them.
+  const double least_reach = dealii::Utilities::MPI::min(least_reach_, communicator);
+  const double found =
+      least_reach * (contact_->method() == FacetMethod::overlap ? 0.5 * FacetOverlaps::depth : 1.);
+  const double allowed = pair_.overlap.is_allowed ? found : pair_.input->allowed_penetration.value * size;
+  if (deepest.depth <= allowed)
     return;
   std::ostringstream message;
   message << pair_.input->origin << ": the " << (pair_.is_self_contact ? "body starts " : "bodies start ")
           << deepest.depth << " deep (" << deepest.depth / size << " facet sizes) in "
           << (pair_.is_self_contact ? "itself" : "each other") << ", deepest at (" << deepest.position[0]
-          << ", " << deepest.position[1] << ", " << deepest.position[2] << "); allowed are "
-          << pair_.input->allowed_penetration.value << " facet sizes ('Allowed initial penetration')";
+          << ", " << deepest.position[1] << ", " << deepest.position[2] << "); ";
+  if (pair_.overlap.is_allowed)
+    message << "contact is found until a depth of " << found << ", "
+            << (contact_->method() == FacetMethod::overlap ? "half of the smallest facet or two walls"
+                                                           : "a tenth of the smallest facet")
+            << ": place them less deep, and move them by 'Supports'"
+            << (contact_->method() == FacetMethod::overlap ? "" : ", or take 'Facets = overlap'");
+  else
+    message << "allowed are " << pair_.input->allowed_penetration.value
+            << " facet sizes ('Allowed initial penetration')";
   throw InputError(message.str());
 }
 

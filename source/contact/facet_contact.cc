@@ -125,14 +125,19 @@ void FacetContact::update_search(const Positions &positions_n, const Positions &
 
 void FacetContact::update_overlaps() {
   nodal_lifts_.clear();
+  nodal_augmentations_.clear();
   // All ranks have lifts or none.
   if (has_lifts_) {
     nodal_lifts_.assign(exchange_.n_nodes(), 0.);
-    for (std::size_t s = 0; s < slaves_.size(); ++s)
-      nodal_lifts_[slaves_[s].node] = lift(s).now;
+    nodal_augmentations_ = nodal_lifts_;
+    for (std::size_t s = 0; s < slaves_.size(); ++s) {
+      nodal_augmentations_[slaves_[s].node] = augmentation(s);
+      nodal_lifts_[slaves_[s].node] = lift(s).now - augmentation(s);
+    }
     exchange_.update(nodal_lifts_);
+    exchange_.update(nodal_augmentations_);
   }
-  overlaps_->update(search_, positions_n_, positions_, nodal_lifts_);
+  overlaps_->update(search_, positions_n_, positions_, nodal_lifts_, nodal_augmentations_);
 }
 
 void FacetContact::find_overlaps(const std::size_t s) {
@@ -162,7 +167,7 @@ void FacetContact::find_overlaps(const std::size_t s) {
   if (!state.touched.exists())
     return;
   state.contact = combine(shares_, state.first_share);
-  state.contact.gap -= lift(s).now;
+  state.contact.gap -= augmentation(s);
   if (state.contact.gap < -rounding * sizes_[s])
     return;
   // Facets that fit just touch; others are within the lifts of their other corners.

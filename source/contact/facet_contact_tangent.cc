@@ -34,11 +34,11 @@ bool is_exact(const ContactTangent kind) {
 
 /// An overlap with derivatives by the variables of its corners: each corner's coordinates are variables.
 template <class Number>
-FacetOverlapOf<Number> follow_overlap(const FacetCornersOf<Number> &slave,
-                                      const FacetCornersOf<Number> &target, const double depth,
-                                      const std::array<double, 4> &lifts) {
+FacetOverlapOf<Number>
+follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, const double depth,
+               const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation) {
   if constexpr (std::is_same_v<Number, double>)
-    return compute_overlap(slave, target, depth, lifts);
+    return compute_overlap(slave, target, depth, lifts, augmentation);
   else {
     // By the 24 of this pair alone, and then by the chain rule: many fewer than a slave depends on.
     constexpr int n = 24;
@@ -48,7 +48,7 @@ FacetOverlapOf<Number> follow_overlap(const FacetCornersOf<Number> &slave,
         s[a][i] = Derivative(n, static_cast<int>(3 * a + i), slave[a][i].val());
         t[a][i] = Derivative(n, static_cast<int>(12 + 3 * a + i), target[a][i].val());
       }
-    FacetOverlapOf<Derivative> overlap = compute_overlap(s, t, depth, lifts);
+    FacetOverlapOf<Derivative> overlap = compute_overlap(s, t, depth, lifts, augmentation);
     const auto chain = [&](Derivative &value) {
       Derivative result = value.val();
       result.resize(slave[0][0].size());
@@ -189,7 +189,8 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
       const unsigned int corner = corner_of(own, slaves_[s].node);
       const auto corners = corners_now(share.slave_facet);
       const auto overlap =
-          follow_overlap<Number>(corners, corners_now(share.facet), share.depth, lifts_of(own.nodes));
+          follow_overlap<Number>(corners, corners_now(share.facet), share.depth,
+                                 corners_of(own, nodal_lifts_), corners_of(own, nodal_augmentations_));
       shares.push_back(share_of_overlap(overlap, corner, share.slave_facet, share.facet, share.depth));
       points.push_back(facet::interpolate(shares.back().slave_weights, corners));
     }
@@ -211,7 +212,8 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
     contact = {shares[0].projection.normal, shares[0].projection.gap};
   } else
     contact = combine(shares, 0);
-  contact.gap += state.touched.offset - lift(s).now;
+  // Overlaps know what depths allow.
+  contact.gap -= std::is_same_v<Facet, OverlapFacet> ? augmentation(s) : lift(s).now - state.touched.offset;
 
   Tensor<1, 3, Number> traction;
   if constexpr (std::is_same_v<Law, Frictionless>)
@@ -294,6 +296,10 @@ void FacetContact::add_exact_tangent(const Law &law, const std::size_t s, const 
 
 template <class Facet, class Law>
 void FacetContact::add_numerical_tangent(const Law &law, const std::size_t s, const AddTangent &add) const {
+  if (states_[s].rests) { // it sticks once it is pressed, which small differences do not show
+    add_closed_tangent(law, ContactTangent::consistent, s, add);
+    return;
+  }
   const std::vector<unsigned int> nodes = collect_nodes(s, true);
   std::vector<Tensor<1, 3>> x;
   for (const unsigned int node : nodes)

@@ -55,7 +55,8 @@ void FacetOverlaps::rebuild(const FacetSearch &search, const Positions &position
 }
 
 void FacetOverlaps::update(const FacetSearch &search, const Positions &positions_n,
-                           const Positions &positions, const std::vector<double> &lifts) {
+                           const Positions &positions, const std::vector<double> &lifts,
+                           const std::vector<double> &augmentation) {
   const auto &facets = search.facets();
   overlaps_.clear();
   first_.assign(facets.size() + 1, 0);
@@ -64,10 +65,8 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
     if (first_candidate_[f] == first_candidate_[f + 1])
       continue;
     const FacetCorners slave = corners_of(facets[f], positions);
-    std::array<double, 4> lift{};
-    if (!lifts.empty())
-      for (unsigned int a = 0; a < 4; ++a)
-        lift[a] = lifts[facets[f].nodes[a]];
+    const std::array<double, 4> lift = corners_of(facets[f], lifts),
+                                raise = corners_of(facets[f], augmentation);
     for (std::size_t i = first_candidate_[f]; i < first_candidate_[f + 1]; ++i) {
       const unsigned int target = candidates_[i];
       const facet::Expansion slave_n = corners_of(facets[f], positions_n),
@@ -76,7 +75,7 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
       const double half = 0.5 * depth * facets[target].reach,
                    limit = (slave_n.e_0 - target_n.e_0) * area_vector > -half * area_vector.norm() ? 2. * half
                                                                                                    : half;
-      const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift);
+      const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift, raise);
       if (overlap.exists)
         overlaps_.push_back({f, target, limit, overlap});
     }

@@ -165,10 +165,13 @@ void integrate(const Polygon<Number> &polygon, const Triangle<Number> &slave, co
 } // namespace
 
 template <class Number>
-FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
-                                       const FacetCornersOf<Number> &target, const double depth,
-                                       const std::array<double, 4> &lifts) {
+FacetOverlapOf<Number>
+compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, const double depth,
+                const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation) {
   FacetOverlapOf<Number> overlap;
+  std::array<double, 4> lowered = lifts;
+  for (unsigned int a = 0; a < 4; ++a)
+    lowered[a] += augmentation[a];
   const facet::ExpansionOf<Number> surface(target), slave_surface(slave);
   if (!surface.has_area() || !slave_surface.has_area())
     return overlap;
@@ -179,7 +182,7 @@ FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
   const Tensor<1, 3, Number> q = surface.e_1 / surface.e_1.norm();
   const std::array<Tensor<1, 3, Number>, 3> axes{q, dealii::cross_product_3d(overlap.normal, q),
                                                  overlap.normal};
-  const Fan<Number> of_slave(slave, surface.e_0, axes, lifts), of_target(target, surface.e_0, axes, {});
+  const Fan<Number> of_slave(slave, surface.e_0, axes, lowered), of_target(target, surface.e_0, axes, {});
   constexpr double rounding = 1e-10; // of a facet's size, by which corners that fit may miss each other
   const double height_rounding = rounding * depth;
   for (unsigned int t = 0; t < 4; ++t) {
@@ -209,15 +212,16 @@ FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
   for (unsigned int a = 0; a < 4; ++a) {
     overlap.exists = overlap.exists || overlap.areas[a] > 0.;
     for (unsigned int b = 0; b < 4; ++b) // Σ φ_b a_b is the distance by which it was lowered
-      overlap.gaps[a] += lifts[b] * overlap.slave_parts[a][b];
+      overlap.gaps[a] += augmentation[b] * overlap.slave_parts[a][b];
   }
   return overlap;
 }
 
 template FacetOverlapOf<double> compute_overlap(const FacetCorners &, const FacetCorners &, double,
-                                                const std::array<double, 4> &);
+                                                const std::array<double, 4> &, const std::array<double, 4> &);
 template FacetOverlapOf<Derivative> compute_overlap(const FacetCornersOf<Derivative> &,
                                                     const FacetCornersOf<Derivative> &, double,
+                                                    const std::array<double, 4> &,
                                                     const std::array<double, 4> &);
 
 } // namespace billet

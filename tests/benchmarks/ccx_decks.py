@@ -51,9 +51,9 @@ def read_bodies(text, digits):
 
 
 def read_bricks(text, digits):
-    """The same where there is one body."""
-    nodes, (bricks,) = read_bodies(text, digits)
-    return nodes, bricks
+    """The same of all bodies together."""
+    nodes, bodies = read_bodies(text, digits)
+    return nodes, [brick for bricks in bodies for brick in bricks]
 
 
 class CcxJob:

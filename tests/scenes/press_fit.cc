@@ -136,6 +136,26 @@ void test_pulling_apart() {
   check("bore pushed back: energy", std::abs(state.energies.elastic / stored - 1.), 1e-6);
 }
 
+/// The ramp in many small steps, with all facets on the verge of contact in the first; and deeper than
+/// contact is found.
+void test_ramp() {
+  parameters::Scene scene = read_scene(16, 0.);
+  testing::set_fixed_steps(scene, 50);
+  SceneRun fit(scene);
+  fit.finish();
+  const double mean = -p * b * b / (b * b - a * a);
+  check("ramp in 50 steps: pressure", find_errors(fit, p, {{{mean, mean * a * a}, outer_hoop(p)}}).pressure,
+        0.01);
+  scene.bodies[0].mesh.arguments = "8, 16, 1 : 10, 0, 0 : 20.9, 90, 1 : true";
+  bool is_refused = false;
+  try {
+    SceneRun(scene).finish();
+  } catch (const InputError &error) {
+    is_refused = std::string(error.what()).find("contact is found until a depth of") != std::string::npos;
+  }
+  check("too deep for contact to be found: refused", is_refused);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -147,5 +167,6 @@ int main(int argc, char *argv[]) {
   check("hoop stress, augmented", fine.hoop, 1.5e-3);
   check("the hoop stress converges at second order", fine.hoop, 0.3 * coarse.hoop);
   test_pulling_apart();
+  test_ramp();
   return testing::exit_code();
 }

@@ -114,7 +114,8 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it
   std::vector<SurfaceFacet> facets_;
-  std::vector<double> areas_; ///< of the undeformed facets
+  std::vector<double> areas_;                                    ///< of the undeformed facets
+  double least_reach_ = std::numeric_limits<double>::infinity(); ///< of this rank's facets
   std::unique_ptr<FacetContact> contact_;
   FacetContact::Positions positions_n_, positions_;
   FacetContact::Positions forces_; ///< of one step, as row_sums_

@@ -196,6 +196,7 @@ public:
   std::vector<NodeReport> report() const;
 
   const FacetSearch &search() const { return search_; }
+  FacetMethod method() const { return settings_.method; }
 
   /// A node of this rank that has changed facet or status more often than it may since restart().
   struct Restless {
@@ -253,11 +254,6 @@ private:
   bool was_touching(std::size_t s) const;
   /// What the friction of slave s starts from becomes what it is.
   void augment_friction(std::size_t s);
-  std::array<double, 4> lifts_of(const std::array<unsigned int, 4> &nodes) const {
-    return nodal_lifts_.empty() ? std::array<double, 4>{}
-                                : std::array<double, 4>{nodal_lifts_[nodes[0]], nodal_lifts_[nodes[1]],
-                                                        nodal_lifts_[nodes[2]], nodal_lifts_[nodes[3]]};
-  }
   void update_overlaps();
   /// What slave s holds against a share's facet: itself, or a point of its own facet.
   dealii::Tensor<1, 3> slave_point(std::size_t s, const FacetShare &share, const Positions &positions) const {
@@ -325,8 +321,9 @@ private:
   std::vector<double> lifts_n_, lifts_; ///< of slaves; empty as long as nothing is augmented
   std::vector<double> initial_depths_;  ///< of slaves; empty if none is allowed
   double allowed_part_ = 1., allowed_part_n_ = 1.;
-  bool has_lifts_ = false;          ///< augment() has been called
-  std::vector<double> nodal_lifts_; ///< the same, of nodes with ghosts, for overlaps
+  bool has_lifts_ = false; ///< augment() has been called
+  /// The same of nodes with ghosts, for overlaps: what depths allow, and what augmentation lifts by.
+  std::vector<double> nodal_lifts_, nodal_augmentations_;
   std::optional<FacetOverlaps> overlaps_;
   std::optional<EdgeContact> edges_;
   std::vector<double> edge_stiffness_; ///< full normal penalties of nodes, if there are edges

@@ -28,10 +28,10 @@ public:
     double depth;               ///< with which it was computed
     FacetOverlapOf<double> integrals;
   };
-  /// Overlaps at these positions, with the slave's corners lowered by `lifts`, of nodes [length]; `_n` as at
-  /// the start of the step.
+  /// Overlaps at these positions, with `lifts` and `augmentation` of nodes, if there are any, as
+  /// compute_overlap() wants them [length]; `_n` as at the start of the step.
   void update(const FacetSearch &search, const Positions &positions_n, const Positions &positions,
-              const std::vector<double> &lifts);
+              const std::vector<double> &lifts, const std::vector<double> &augmentation);
 
   /// Calls visit(overlap) for those of a slave facet, by rising keys of the targets.
   template <class Visit> void visit(const unsigned int slave, const Visit &visit) const {

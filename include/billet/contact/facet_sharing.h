@@ -40,13 +40,13 @@ FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, con
   FacetShareOf<Number> result;
   result.facet = target;
   result.share = overlap.areas[corner];
+  result.slave_facet = slave_facet;
+  result.depth = depth;
   if (!(result.share > 0.))
     return result;
   result.projection.exists = true;
   result.projection.normal = overlap.normal;
   result.projection.gap = overlap.gaps[corner] / result.share;
-  result.slave_facet = slave_facet;
-  result.depth = depth;
   for (unsigned int i = 0; i < 4; ++i) {
     result.slave_weights[i] = overlap.slave_parts[corner][i] / result.share;
     result.projection.weights[i] = overlap.target_parts[corner][i] / result.share;

@@ -20,6 +20,13 @@ inline FacetCorners corners_of(const SurfaceFacet &facet, const FacetSearch::Pos
           positions[facet.nodes[3]]};
 }
 
+/// A facet's corners' part of numbers of all nodes; none are zeros.
+inline std::array<double, 4> corners_of(const SurfaceFacet &facet, const std::vector<double> &numbers) {
+  if (numbers.empty())
+    return {};
+  return {numbers[facet.nodes[0]], numbers[facet.nodes[1]], numbers[facet.nodes[2]], numbers[facet.nodes[3]]};
+}
+
 /// The facets of a search where their nodes are now. What contact needs of one is made when it is first asked
 /// for, and kept: several nodes ask for the same facet, and of a large surface few facets are asked for.
 class MovedFacets {

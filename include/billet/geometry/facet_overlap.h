@@ -28,9 +28,9 @@ template <class Number> struct FacetOverlapOf {
 /// `depth` > 0; the polygon is that of a slave whose corners are lower by `lifts` [length], the gaps in it
 /// are the true ones. Facets without area, or which do not face each other, do not overlap.
 template <class Number>
-FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
-                                       const FacetCornersOf<Number> &target, double depth,
-                                       const std::array<double, 4> &lifts = {});
+FacetOverlapOf<Number>
+compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, double depth,
+                const std::array<double, 4> &lifts = {}, const std::array<double, 4> &augmentation = {});
 
 } // namespace billet
 
