@@ -116,7 +116,8 @@ void FacetContact::update_search(const Positions &positions_n, const Positions &
     }
     return motion;
   };
-  if (search_.is_outdated(positions_, over_all_ranks))
+  is_rebuilt_ = search_.is_outdated(positions_, over_all_ranks);
+  if (is_rebuilt_)
     rebuild();
   moved_.reset();
   if (overlaps_)

@@ -13,33 +13,6 @@
 using namespace billet;
 using namespace billet::testing;
 
-using MatrixTensor = Tensor<2, n_element_dofs>;
-
-MatrixTensor to_tensor(const ElementMatrix &K) {
-  MatrixTensor result;
-  for (unsigned int r = 0; r < n_element_dofs; ++r)
-    for (unsigned int c = 0; c < n_element_dofs; ++c)
-      result[r][c] = K[r * n_element_dofs + c];
-  return result;
-}
-
-/// Column c is the derivative of the force along displacement c; the history stays what was committed.
-MatrixTensor compute_difference(ElementBlock &block, const NodalTensor &u, const double step) {
-  MatrixTensor result;
-  for (unsigned int c = 0; c < n_element_dofs; ++c) {
-    const NodalTensor column = central_difference(
-        [&](const double e) {
-          NodalTensor moved = u;
-          moved[c] += e;
-          return compute_force(block, moved);
-        },
-        step);
-    for (unsigned int r = 0; r < n_element_dofs; ++r)
-      result[r][c] = column[r];
-  }
-  return result;
-}
-
 /// The matrix at X + u. K(ω × x) = ω × f and K t = 0: a rotation turns the forces, a translation does
 /// nothing.
 void test_matrix(const std::string &name, ElementBlock &block, const NodalTensor &X, const NodalTensor &u,

@@ -122,6 +122,33 @@ inline NodalTensor compute_force(ElementBlock &block, const NodalTensor &u, Elem
   return to_tensor(force);
 }
 
+using MatrixTensor = Tensor<2, n_element_dofs>;
+
+inline MatrixTensor to_tensor(const ElementMatrix &K) {
+  MatrixTensor result;
+  for (unsigned int r = 0; r < n_element_dofs; ++r)
+    for (unsigned int c = 0; c < n_element_dofs; ++c)
+      result[r][c] = K[r * n_element_dofs + c];
+  return result;
+}
+
+/// Column c is the derivative of the force along displacement c; the history stays what was committed.
+inline MatrixTensor compute_difference(ElementBlock &block, const NodalTensor &u, const double step) {
+  MatrixTensor result;
+  for (unsigned int c = 0; c < n_element_dofs; ++c) {
+    const NodalTensor column = central_difference(
+        [&](const double e) {
+          NodalTensor moved = u;
+          moved[c] += e;
+          return compute_force(block, moved);
+        },
+        step);
+    for (unsigned int r = 0; r < n_element_dofs; ++r)
+      result[r][c] = column[r];
+  }
+  return result;
+}
+
 } // namespace billet::testing
 
 #endif
