@@ -74,12 +74,8 @@ private:
 /// eigenproblem: the return is q − G tr b̄_e Δα = σ_y, radial in dev b̄_e. Where the box keeps tr b̄_e the
 /// return here keeps det b̄_e = 1, so that plastic flow has no volume and a state that stands still stays.
 /// Yields in Kirchhoff stress.
-template <class Hardening> class NeoHookeanPlasticity {
+template <class Hardening> class NeoHookeanPlasticity : public MultiplicativePlasticity {
 public:
-  struct History {
-    dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>(); ///< C_p⁻¹
-    double equivalent_plastic_strain = 0.;                                                     ///< α
-  };
   using Moduli = SpatialModuli;
   static constexpr bool has_plasticity = true, has_history = true, is_rate_form = false,
                         has_symmetric_moduli = false;
@@ -135,28 +131,8 @@ public:
   History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                        const double equivalent_plastic_strain) const {
     const dealii::SymmetricTensor<2, 3> X = deviator / elastic_.shear;
-    const dealii::Tensor<2, 3> F_inverse = dealii::invert(F),
-                               b_e = X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>();
-    History history;
-    history.inverse_plastic_metric = std::pow(dealii::determinant(F), 2. / 3.) *
-                                     dealii::symmetrize(F_inverse * b_e * dealii::transpose(F_inverse));
-    history.equivalent_plastic_strain = equivalent_plastic_strain;
-    return history;
-  }
-
-  /// A history as numbers.
-  static constexpr unsigned int n_history = 7;
-  static void store(const History &history, double *numbers) {
-    for (unsigned int i = 0; i < 6; ++i)
-      numbers[i] = history.inverse_plastic_metric.access_raw_entry(i);
-    numbers[6] = history.equivalent_plastic_strain;
-  }
-  static History restore(const double *numbers) {
-    History history;
-    for (unsigned int i = 0; i < 6; ++i)
-      history.inverse_plastic_metric.access_raw_entry(i) = numbers[i];
-    history.equivalent_plastic_strain = numbers[6];
-    return history;
+    return history_of(F, X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>(),
+                      equivalent_plastic_strain);
   }
 
   double yield_stress(const History &history) const {
@@ -164,9 +140,6 @@ public:
   }
   double plastic_work(const History &history) const {
     return hardening_.work(history.equivalent_plastic_strain);
-  }
-  static double equivalent_plastic_strain(const History &history) {
-    return history.equivalent_plastic_strain;
   }
 
 private:

@@ -34,16 +34,50 @@ double solve_consistency(const Hardening &hardening, const double q, const doubl
   return delta;
 }
 
-/// Multiplicative J2 plasticity with Hencky elasticity: F = F_e F_p, Kirchhoff stress linear in the elastic
-/// logarithmic strain, yield |τ| = σ_y(α) in the sense of von Mises in *Kirchhoff* stress, associated flow by
-/// the exponential map. The return map is radial in logarithmic principal space and exact (Simo & Hughes
-/// 1998, box 9.1; Eterovic & Bathe 1990).
-template <class Hardening> class HenckyPlasticity {
+/// What laws with F = F_e F_p keep of a point.
+class MultiplicativePlasticity {
 public:
   struct History {
     dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>(); ///< C_p⁻¹
     double equivalent_plastic_strain = 0.;                                                     ///< α
   };
+
+  /// A history as numbers.
+  static constexpr unsigned int n_history = 7;
+  static void store(const History &history, double *numbers) {
+    for (unsigned int i = 0; i < 6; ++i)
+      numbers[i] = history.inverse_plastic_metric.access_raw_entry(i);
+    numbers[6] = history.equivalent_plastic_strain;
+  }
+  static History restore(const double *numbers) {
+    History history;
+    for (unsigned int i = 0; i < 6; ++i)
+      history.inverse_plastic_metric.access_raw_entry(i) = numbers[i];
+    history.equivalent_plastic_strain = numbers[6];
+    return history;
+  }
+
+  static double equivalent_plastic_strain(const History &history) {
+    return history.equivalent_plastic_strain;
+  }
+
+protected:
+  /// With which F has this b̄_e: C_p⁻¹ = J^{2/3} F⁻¹ b̄_e F⁻ᵀ.
+  static History history_of(const dealii::Tensor<2, 3> &F, const dealii::Tensor<2, 3> &b_e,
+                            const double equivalent_plastic_strain) {
+    const dealii::Tensor<2, 3> F_inverse = dealii::invert(F);
+    return {std::pow(dealii::determinant(F), 2. / 3.) *
+                dealii::symmetrize(F_inverse * b_e * dealii::transpose(F_inverse)),
+            equivalent_plastic_strain};
+  }
+};
+
+/// Multiplicative J2 plasticity with Hencky elasticity: F = F_e F_p, Kirchhoff stress linear in the elastic
+/// logarithmic strain, yield |τ| = σ_y(α) in the sense of von Mises in *Kirchhoff* stress, associated flow by
+/// the exponential map. The return map is radial in logarithmic principal space and exact (Simo & Hughes
+/// 1998, box 9.1; Eterovic & Bathe 1990).
+template <class Hardening> class HenckyPlasticity : public MultiplicativePlasticity {
+public:
   using Moduli = SpatialModuli;
   static constexpr bool has_plasticity = true, has_history = true, is_rate_form = false,
                         has_symmetric_moduli = true;
@@ -94,31 +128,10 @@ public:
   }
 
   /// The history with which `F` has the Kirchhoff stress of this deviator, where that is below the yield
-  /// stress: b̄_e = exp(dev τ/G), C_p⁻¹ = J^{2/3} F⁻¹ b̄_e F⁻ᵀ.
+  /// stress: b̄_e = exp(dev τ/G).
   History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                        const double equivalent_plastic_strain) const {
-    const dealii::Tensor<2, 3> F_inverse = dealii::invert(F);
-    const dealii::Tensor<2, 3> b_e = exponential(deviator / elastic_.shear);
-    History history;
-    history.inverse_plastic_metric = std::pow(dealii::determinant(F), 2. / 3.) *
-                                     dealii::symmetrize(F_inverse * b_e * dealii::transpose(F_inverse));
-    history.equivalent_plastic_strain = equivalent_plastic_strain;
-    return history;
-  }
-
-  /// A history as numbers.
-  static constexpr unsigned int n_history = 7;
-  static void store(const History &history, double *numbers) {
-    for (unsigned int i = 0; i < 6; ++i)
-      numbers[i] = history.inverse_plastic_metric.access_raw_entry(i);
-    numbers[6] = history.equivalent_plastic_strain;
-  }
-  static History restore(const double *numbers) {
-    History history;
-    for (unsigned int i = 0; i < 6; ++i)
-      history.inverse_plastic_metric.access_raw_entry(i) = numbers[i];
-    history.equivalent_plastic_strain = numbers[6];
-    return history;
+    return history_of(F, exponential(deviator / elastic_.shear), equivalent_plastic_strain);
   }
 
   double yield_stress(const History &history) const {
@@ -126,9 +139,6 @@ public:
   }
   double plastic_work(const History &history) const {
     return hardening_.work(history.equivalent_plastic_strain);
-  }
-  static double equivalent_plastic_strain(const History &history) {
-    return history.equivalent_plastic_strain;
   }
 
 private:
