@@ -380,7 +380,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     }
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
     if (report.newton.converged) {
-      control.accept(static_cast<unsigned int>(report.newton.iterations.size()), problem.time_error());
+      control.accept(static_cast<unsigned int>(report.newton.hardest), problem.time_error());
       if (watch)
         watch->after_step(control, report.length, report.newton);
       continued = report.length;

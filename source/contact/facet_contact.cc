@@ -149,19 +149,15 @@ void FacetContact::find_overlaps(const std::size_t s) {
   search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
     const unsigned int corner = corner_of(search_.facets()[f], slaves_[s].node);
     overlaps_->visit(f, [&](const FacetOverlaps::Overlap &overlap) {
-      shares_.push_back(share_of_overlap(overlap.integrals, corner, f, overlap.target, overlap.depth));
-      const double area = shares_.back().share;
-      if (!(area > 0.)) {
-        shares_.pop_back();
-        return;
-      }
-      state.area += area;
-      if (f < exchange_.n_own_facets())
-        state.own_area += area;
-      if (area > largest) {
-        largest = area;
+      shares_.push_back(
+          share_of_overlap(overlap.integrals, corner, f, overlap.target, overlap.depth, depth_rounding(s)));
+      const FacetShare &share = shares_.back();
+      if (share.share > largest) {
+        largest = share.share;
         state.touched.facet = overlap.target;
       }
+      if (!(share.area > 0.))
+        shares_.pop_back();
     });
   });
   state.end_of_shares = shares_.size();
@@ -169,6 +165,9 @@ void FacetContact::find_overlaps(const std::size_t s) {
     return;
   state.contact = combine(shares_, state.first_share);
   state.contact.gap -= augmentation(s);
+  state.area = effective_area(shares_, state.first_share);
+  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)
+    state.own_area += area_of(state, shares_[i]);
   if (state.contact.gap < -rounding * sizes_[s])
     return;
   // Facets that fit just touch; others are within the lifts of their other corners.
@@ -363,7 +362,7 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) {
         columns += shares_[i].share * std::abs(weight);
     for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
       const FacetShare &share = shares_[i];
-      const double spring = columns * k * area_of(state, share);
+      const double spring = columns * k * spring_area_of(state, share);
       if (share.slave_facet == FacetShare::none)
         all[slaves_[s].node] += spring;
       for (unsigned int a = 0; a < 4; ++a) {
@@ -512,6 +511,7 @@ void FacetContact::restart() {
   n_changes_.assign(n_changes_.size(), 0);
   seen_.clear();
   lifts_ = lifts_n_;
+  last_augmentations_.clear();
   base_ = history_n_;
 }
 
@@ -542,12 +542,25 @@ void FacetContact::augment_friction(const std::size_t s) {
 void FacetContact::augment() {
   has_lifts_ = true;
   lifts_.resize(slaves_.size());
+  last_augmentations_.resize(slaves_.size());
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const bool presses = states_[s].presses();
     if (!base_.empty() && presses && was_touching(s)) // asks for the lift so far
       augment_friction(s);
-    lifts_[s] = presses ? states_[s].traction.pressure / stiffness_[s].normal : 0.;
+    const double gap = presses ? states_[s].contact.gap + lifts_[s] : 0.;
+    const double next = presses ? std::max(0., lifts_[s] - pace_of_augmentation(s, gap) * gap) : 0.;
+    last_augmentations_[s] = {lifts_[s], gap};
+    lifts_[s] = next;
   }
+}
+
+double FacetContact::pace_of_augmentation(const std::size_t s, const double gap) const {
+  const auto [lift_before, gap_before] = last_augmentations_[s];
+  const double lifted = lifts_[s] - lift_before, closed = gap - gap_before;
+  // Not where neighbours decided what became of it.
+  const bool goes_on = gap_before * gap > 0. && std::abs(gap) < std::abs(gap_before) && lifted * closed > 0.;
+  constexpr double fastest = 4.;
+  return goes_on ? std::clamp(lifted / closed, 1., fastest) : 1.;
 }
 
 double FacetContact::augmentation_error() const {

@@ -71,6 +71,7 @@ follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number>
     for (unsigned int a = 0; a < 4; ++a) {
       chain(overlap.areas[a]);
       chain(overlap.gaps[a]);
+      chain(overlap.depths[a]);
       for (unsigned int b = 0; b < 4; ++b) {
         chain(overlap.slave_parts[a][b]);
         chain(overlap.target_parts[a][b]);
@@ -144,28 +145,40 @@ void FacetContact::add_closed_tangent(const Law &law, const ContactTangent kind,
   } else
     (void)law, (void)kind;
   const std::vector<unsigned int> nodes = collect_nodes(s, false);
+  FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
   // By how much the node's motion, and forces of this rank, are those of the nodes.
   std::vector<double> weights(nodes.size()), areas(nodes.size());
+  const auto add_product = [&] {
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            matrix(3 * a + i, 3 * b + j) += areas[a] * weights[b] * K[i][j];
+  };
   for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
     const FacetShare &share = shares_[i];
+    const bool is_overlap = share.slave_facet != FacetShare::none;
+    if (is_overlap && share.slave_facet >= exchange_.n_own_facets())
+      continue;
     const auto add_weight = [&](const unsigned int node, const double weight) {
-      weights[index_of(nodes, node)] += share.share * weight;
-      areas[index_of(nodes, node)] += area_of(state, share) * weight;
+      const std::size_t a = index_of(nodes, node);
+      weights[a] += (is_overlap ? 1. : share.share) * weight;
+      areas[a] += (is_overlap ? share.area : area_of(state, share)) * weight;
     };
-    if (share.slave_facet == FacetShare::none)
+    if (!is_overlap)
       add_weight(slaves_[s].node, 1.);
     for (unsigned int a = 0; a < 4; ++a) {
-      if (share.slave_facet != FacetShare::none)
+      if (is_overlap)
         add_weight(search_.facets()[share.slave_facet].nodes[a], share.slave_weights[a]);
       add_weight(search_.facets()[share.facet].nodes[a], -share.projection.weights[a]);
     }
+    if (is_overlap) { // the force of each grows with its own depth
+      add_product();
+      weights.assign(nodes.size(), 0.);
+      areas.assign(nodes.size(), 0.);
+    }
   }
-  FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    for (std::size_t b = 0; b < nodes.size(); ++b)
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          matrix(3 * a + i, 3 * b + j) = areas[a] * weights[b] * K[i][j];
+  add_product(); // of all others, with their common gap
   add(nodes, matrix);
 }
 
@@ -191,7 +204,8 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
       const auto overlap =
           follow_overlap<Number>(corners, corners_now(share.facet), share.depth,
                                  corners_of(own, nodal_lifts_), corners_of(own, nodal_augmentations_));
-      shares.push_back(share_of_overlap(overlap, corner, share.slave_facet, share.facet, share.depth));
+      shares.push_back(
+          share_of_overlap(overlap, corner, share.slave_facet, share.facet, share.depth, depth_rounding(s)));
       points.push_back(facet::interpolate(shares.back().slave_weights, corners));
     }
   } else {
@@ -203,9 +217,6 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
       points.push_back(x[0]);
     }
   }
-  Number area = 0.;
-  for (const auto &share : shares)
-    area += share.share;
   SharedGapOf<Number> contact;
   if (shares.size() == 1) {
     shares[0].share = 1.;
@@ -249,6 +260,7 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
       forces[index_of(nodes, search_.facets()[share.facet].nodes[a])] += on_corners[a];
   };
   if constexpr (std::is_same_v<Facet, OverlapFacet>) {
+    const Number area = effective_area(shares, 0);
     for (std::size_t i = 0; i < shares.size(); ++i) {
       if (shares[i].slave_facet >= exchange_.n_own_facets())
         continue;
@@ -260,7 +272,7 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
     }
     return forces;
   }
-  area = 0.;
+  Number area = 0.;
   search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
     if (f < exchange_.n_own_facets())
       area += FacetAreasOf<Number>(corners_now(f))

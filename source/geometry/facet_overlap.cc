@@ -211,6 +211,7 @@ compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number
   }
   for (unsigned int a = 0; a < 4; ++a) {
     overlap.exists = overlap.exists || overlap.areas[a] > 0.;
+    overlap.depths[a] = -overlap.gaps[a];
     for (unsigned int b = 0; b < 4; ++b) // Σ φ_b a_b is the distance by which it was lowered
       overlap.gaps[a] += augmentation[b] * overlap.slave_parts[a][b];
   }

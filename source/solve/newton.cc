@@ -330,6 +330,7 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
     x = epetra(solver->getSolutionGroup().getX());
   } catch (const char *) { // where a correction cannot be computed; NOX's text, "NOX Error", says nothing
   }
+  report.hardest = report.iterations.size();
   if (!report.converged && report.failure.empty())
     report.failure =
         "the correction leads to inadmissible states (det F <= 0 or not a number), or the matrix is singular";

@@ -505,6 +505,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   report = iterate(offsets, x);
   if (!needs_no_solution)
     report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
+  report.hardest = report.iterations.size();
   augment(report, offsets, x);
 
   // A tool that has gone too far is drawn back to where it presses with its stop force.

@@ -412,6 +412,81 @@ template <class Facet> void check_sharing(const std::string &name) {
   report(name + ": corner: whichever facet was chosen", differ.value(), 1e-14);
 }
 
+/// A node that goes to and fro between the flanks of a valley, behind both, in the iterations of one step.
+void check_restless() {
+  Surface surface;
+  add_sheet(surface, 1, 1, 0, 0.1, [](const double s, const double t) {
+    return Tensor<1, 3>({1e-3 * t, 0.5 + 1e-3 * s, 0.}); // looks down
+  });
+  add_sheet(surface, 2, 1, 1, 0.1, [](const double s, const double t) {
+    return Tensor<1, 3>({2. * s - 1., t, std::abs(2. * s - 1.)});
+  });
+  const Part part = everything(surface);
+  const Positions above = part.take(surface.positions);
+  constexpr unsigned int n_iterations = 30;
+  for (const unsigned int most : {0u, 4u}) {
+    FacetContactSettings settings = make_settings(FacetMethod::planed, Frictionless(), false);
+    settings.most_changes = most;
+    FacetContact contact = make_contact(MPI_COMM_SELF, settings, part);
+    contact.restart();
+    unsigned int n_changes = 0;
+    double last = 0.;
+    for (unsigned int i = 0; i < n_iterations; ++i) {
+      Positions positions = above;
+      for (const auto &facet : part.facets)
+        if (facet.surface == 0)
+          for (const unsigned int node : facet.nodes)
+            positions[node] += Tensor<1, 3>({i % 2 == 0 ? 0.01 : -0.01, 0., -0.02});
+      Positions forces(positions.size());
+      contact.add_forces(above, positions, 0., forces);
+      const double sideways = contact.compute_load().force[0];
+      n_changes += last * sideways < 0. ? 1 : 0;
+      last = sideways;
+    }
+    const std::string name = most == 0 ? "a node may flip as it likes" : "or so often, and is held then";
+    report(name, std::abs(n_changes - (most == 0 ? n_iterations - 1. : most + 1.)), 0.);
+    double worst = 0.;
+    for (const auto &node : contact.find_restless())
+      worst = std::max<double>(worst, node.n_changes);
+    report(name + ": so it is reported", std::abs(worst - (most == 0 ? 0. : most + 1.)), 0.);
+  }
+}
+
+/// Below a flat facet, which one target holds already, another one comes up in parallel: the forces of what
+/// begins to touch begin at zero.
+void check_new_overlap(const FrictionLaw &friction, const std::string &name) {
+  const auto forces_at = [&](const double height, double &scale) {
+    Surface surface;
+    add_sheet(surface, 1, 1, 0, 0.5, [](const double s, const double t) {
+      return Tensor<1, 3>({2. * t, s, 0.}); // looks down
+    });
+    const auto add_target = [&](const double x, const double z) {
+      add_sheet(surface, 1, 1, 1, 0.5, [=](const double s, const double t) {
+        return Tensor<1, 3>({x + s, t, z});
+      });
+    };
+    add_target(0., 0.01);
+    add_target(1., height);
+    const Part part = everything(surface);
+    const Positions positions = part.take(surface.positions);
+    Positions positions_n = positions;
+    for (unsigned int node = 0; node < 4; ++node)
+      positions_n[node][0] -= 1e-3; // it slips
+    FacetContact contact =
+        make_contact(MPI_COMM_SELF, make_settings(FacetMethod::overlap, friction, false), part);
+    Positions forces(positions.size());
+    contact.add_forces(positions_n, positions, 1., forces);
+    scale = contact.compute_load().absolute_force;
+    return forces;
+  };
+  double scale = 0.;
+  const Positions before = forces_at(-1e-9, scale), after = forces_at(1e-9, scale);
+  double jump = 0.;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    jump = std::max(jump, (after[i] - before[i]).norm());
+  report(name + ": a new overlap begins without a force", jump / scale, 1e-5);
+}
+
 void check_ranks(const Surface &surface, const FacetContactSettings &settings, const std::string &name) {
   const std::size_t n = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   Random random;
@@ -494,6 +569,9 @@ int main(int argc, char *argv[]) {
   }
   check_sharing<PlanedFacet>("planed");
   check_sharing<BilinearFacet>("bilinear");
+  check_restless();
+  check_new_overlap(Frictionless(), "frictionless");
+  check_new_overlap(Coulomb{0.2}, "Coulomb");
   check_edges();
   check_potential_of_edges("roofs, skew", Tensor<1, 3>({0.3, 0.2, 0.}));
   check_potential_of_edges("roofs at an end", Tensor<1, 3>({0.3, 0.9, 0.}));

@@ -18,6 +18,7 @@ int main(int argc, char *argv[]) {
   scene.bodies[0].mesh.arguments = "28, 1, 12 : 0, 0, -1 : 1, 0.1, 0 : true";
   scene.bodies[1].mesh.arguments = "24, 1, 12 : 0, 0, 0 : 1, 0.1, 1 : true";
   scene.pairs[0].penetration_tolerance = 0.;
+  scene.solver.force_tolerance = 1e-9;
   scene.bodies[1].supports[0].displacement.value[2] = "0.04*(abs(t - 1) - 1)";
   scene.time_stepping.end_time = 2.25;
   testing::set_fixed_steps(scene, 9);
@@ -63,7 +64,7 @@ int main(int argc, char *argv[]) {
     run.advance();
     back.add(std::abs(run.problem.state().body_pair_loads[0].force[2] - forces[i]) / std::abs(forces[4]));
   }
-  check("forces on the way back", back.value(), 1e-6);
+  check("forces on the way back", back.value(), 1e-8);
   run.finish();
   testing::check_unloaded("", run, stored);
   return testing::exit_code();

@@ -254,6 +254,9 @@ private:
   bool was_touching(std::size_t s) const;
   /// What the friction of slave s starts from becomes what it is.
   void augment_friction(std::size_t s);
+  /// How many times its gap the lift of slave s grows by: the secant's, where the last augmentation closed a
+  /// part of it. Where little area touches, the same lift closes less.
+  double pace_of_augmentation(std::size_t s, double gap) const;
   void update_overlaps();
   /// What slave s holds against a share's facet: itself, or a point of its own facet.
   dealii::Tensor<1, 3> slave_point(std::size_t s, const FacetShare &share, const Positions &positions) const {
@@ -268,6 +271,13 @@ private:
       return share.share * state.own_area;
     return share.slave_facet < exchange_.n_own_facets() ? share.share * state.area : 0.;
   }
+  /// What a share's force grows with for each depth, or more.
+  double spring_area_of(const SlaveState &state, const FacetShare &share) const {
+    const double area = area_of(state, share);
+    return area > 0. ? std::max(area, share.area) : 0.;
+  }
+  /// Depths that count as none: small against those that stiff penalties leave [length].
+  double depth_rounding(const std::size_t s) const { return 1e-12 * sizes_[s]; }
   /// Whether slave s was before this facet by no more than `on_it` at the start of the step, or behind it.
   bool is_resting(const TouchedFacet &below, std::size_t s, double on_it) const;
   SlaveMotion compute_motion(std::size_t s, double duration) const;
@@ -319,7 +329,11 @@ private:
   std::vector<SlaveHistory> history_n_, history_; ///< with friction only
   std::vector<SlaveHistory> base_;      ///< what this step's tractions start from: history_n_, or augmented
   std::vector<double> lifts_n_, lifts_; ///< of slaves; empty as long as nothing is augmented
-  std::vector<double> initial_depths_;  ///< of slaves; empty if none is allowed
+  struct Augmentation {
+    double lift = 0., gap = 0.; ///< that it came from, and the gap that this left [length]
+  };
+  std::vector<Augmentation> last_augmentations_; ///< of slaves, in this step
+  std::vector<double> initial_depths_;           ///< of slaves; empty if none is allowed
   double allowed_part_ = 1., allowed_part_n_ = 1.;
   bool has_lifts_ = false; ///< augment() has been called
   /// The same of nodes with ghosts, for overlaps: what depths allow, and what augmentation lifts by.

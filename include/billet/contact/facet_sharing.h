@@ -19,6 +19,7 @@ template <class Number> struct FacetShareOf {
   unsigned int slave_facet = none;
   std::array<Number, 4> slave_weights{};
   double depth = 0.; ///< of the overlap
+  Number area = 0.;  ///< of the overlap [length²]
 };
 using FacetShare = FacetShareOf<double>;
 
@@ -32,26 +33,42 @@ using SharedGap = SharedGapOf<double>;
 /// Whether facets with these unit normals share a node on their border: at less than 60 degrees.
 bool meet_smoothly(const dealii::Tensor<1, 3> &normal, const dealii::Tensor<1, 3> &other);
 
-/// The part of an overlap that belongs to a corner of the slave facet: its `share` is the area.
+/// The part of an overlap that belongs to a corner of the slave facet, with the volume ∫ φ_a |g| dA, which a
+/// penalty makes the force of, as its `share`: what begins to touch begins without, however large it is.
+/// Where nothing is deeper than `rounding`, areas count.
 template <class Number>
 FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, const unsigned int corner,
                                       const unsigned int slave_facet, const unsigned int target,
-                                      const double depth) {
+                                      const double depth, const double rounding) {
   FacetShareOf<Number> result;
   result.facet = target;
-  result.share = overlap.areas[corner];
+  result.area = overlap.areas[corner];
   result.slave_facet = slave_facet;
   result.depth = depth;
-  if (!(result.share > 0.))
+  result.share = 0.;
+  if (!(result.area > 0.))
     return result;
+  if (overlap.depths[corner] > 0.)
+    result.share = overlap.depths[corner];
+  result.share += rounding * result.area;
   result.projection.exists = true;
   result.projection.normal = overlap.normal;
-  result.projection.gap = overlap.gaps[corner] / result.share;
+  result.projection.gap = overlap.gaps[corner] / result.area;
   for (unsigned int i = 0; i < 4; ++i) {
-    result.slave_weights[i] = overlap.slave_parts[corner][i] / result.share;
-    result.projection.weights[i] = overlap.target_parts[corner][i] / result.share;
+    result.slave_weights[i] = overlap.slave_parts[corner][i] / result.area;
+    result.projection.weights[i] = overlap.target_parts[corner][i] / result.area;
   }
   return result;
+}
+
+/// The area A = 1/Σ (s_f²/A_f) with which a node that touches by overlaps counts, from index `first` on,
+/// their shares having the sum 1: A g is then Σ A_f g_f, and a facet that begins to touch does not change A.
+template <class Number>
+Number effective_area(const std::vector<FacetShareOf<Number>> &shares, const std::size_t first) {
+  Number sum = 0.;
+  for (std::size_t i = first; i < shares.size(); ++i)
+    sum += shares[i].share * shares[i].share / shares[i].area;
+  return 1. / sum;
 }
 
 /// With the parts s_f of facets, those of `shares` from index `first` on, which are made to have the sum 1,

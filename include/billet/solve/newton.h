@@ -4,6 +4,7 @@
 
 #include "billet/parameters/control.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct NewtonReport {
   std::string failure; ///< why it did not converge
   unsigned int linear_iterations = 0;
   std::string note; ///< of the linear solver, for the user; lines
+  /// Iterations of the hardest of the solutions that were appended: what the length of a step is ruled by.
+  /// Each of many augmentations may be easy.
+  std::size_t hardest = 0;
 
   /// What came after it counts; its iterations are added.
   void append(const NewtonReport &next) {
@@ -50,6 +54,7 @@ struct NewtonReport {
     linear_iterations += next.linear_iterations;
     note += next.note;
     iterations.insert(iterations.end(), next.iterations.begin(), next.iterations.end());
+    hardest = std::max(hardest, next.hardest);
   }
 };
 
