@@ -479,6 +479,15 @@ FacetContactLoad FacetContact::compute_load() const {
   return load;
 }
 
+double FacetContact::largest_spring() const {
+  double largest = 0.;
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    largest =
+        std::max(largest, std::max(stiffness_[s].normal, history_.empty() ? 0. : stiffness_[s].tangential) *
+                              sizes_[s] * sizes_[s]);
+  return largest;
+}
+
 double FacetContact::local_dissipation() const {
   double dissipation = 0.;
   for (const auto &state : states_)

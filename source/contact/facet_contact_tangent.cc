@@ -137,7 +137,8 @@ void FacetContact::add_closed_tangent(const Law &law, const ContactTangent kind,
                                       const AddTangent &add) const {
   const SlaveState &state = states_[s];
   const Tensor<1, 3> &n = state.contact.normal;
-  Tensor<2, 3> K = stiffness_[s].normal * dealii::outer_product(n, n);
+  const Tensor<2, 3> along_normal = stiffness_[s].normal * dealii::outer_product(n, n);
+  Tensor<2, 3> K = along_normal;
   if constexpr (!std::is_same_v<Law, Frictionless>) {
     SlaveHistory ignored;
     compute_slave_traction(law, stiffness_[s], n, state.contact.gap, compute_motion(s, duration_), base_[s],
@@ -146,39 +147,38 @@ void FacetContact::add_closed_tangent(const Law &law, const ContactTangent kind,
     (void)law, (void)kind;
   const std::vector<unsigned int> nodes = collect_nodes(s, false);
   FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
-  // By how much the node's motion, and forces of this rank, are those of the nodes.
-  std::vector<double> weights(nodes.size()), areas(nodes.size());
-  const auto add_product = [&] {
+  // By how much the node's motion, and forces of this rank, are those of the nodes; of all shares, and of
+  // one.
+  std::vector<double> weights(nodes.size()), areas(nodes.size()), own(nodes.size());
+  const auto add_product = [&](const std::vector<double> &rows, const std::vector<double> &columns,
+                               const double factor, const Tensor<2, 3> &D) {
     for (std::size_t a = 0; a < nodes.size(); ++a)
       for (std::size_t b = 0; b < nodes.size(); ++b)
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
-            matrix(3 * a + i, 3 * b + j) += areas[a] * weights[b] * K[i][j];
+            matrix(3 * a + i, 3 * b + j) += factor * rows[a] * columns[b] * D[i][j];
   };
   for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
     const FacetShare &share = shares_[i];
     const bool is_overlap = share.slave_facet != FacetShare::none;
-    if (is_overlap && share.slave_facet >= exchange_.n_own_facets())
-      continue;
-    const auto add_weight = [&](const unsigned int node, const double weight) {
-      const std::size_t a = index_of(nodes, node);
-      weights[a] += (is_overlap ? 1. : share.share) * weight;
-      areas[a] += (is_overlap ? share.area : area_of(state, share)) * weight;
-    };
+    own.assign(nodes.size(), 0.);
     if (!is_overlap)
-      add_weight(slaves_[s].node, 1.);
+      own[0] = 1.;
     for (unsigned int a = 0; a < 4; ++a) {
       if (is_overlap)
-        add_weight(search_.facets()[share.slave_facet].nodes[a], share.slave_weights[a]);
-      add_weight(search_.facets()[share.facet].nodes[a], -share.projection.weights[a]);
+        own[index_of(nodes, search_.facets()[share.slave_facet].nodes[a])] += share.slave_weights[a];
+      own[index_of(nodes, search_.facets()[share.facet].nodes[a])] -= share.projection.weights[a];
     }
-    if (is_overlap) { // the force of each grows with its own depth
-      add_product();
-      weights.assign(nodes.size(), 0.);
-      areas.assign(nodes.size(), 0.);
+    const double area = area_of(state, share);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      weights[a] += share.share * own[a];
+      areas[a] += area * own[a];
     }
+    if (is_overlap && area > 0.) // A g is the sum of all A_f g_f
+      add_product(own, own, share.area, along_normal);
   }
-  add_product(); // of all others, with their common gap
+  const bool are_overlaps = shares_[state.first_share].slave_facet != FacetShare::none;
+  add_product(areas, weights, 1., are_overlaps ? K - along_normal : K);
   add(nodes, matrix);
 }
 

@@ -309,6 +309,14 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
   return load;
 }
 
+double RigidContact::largest_spring() const {
+  double largest = 0.;
+  for (const auto &node : nodes_)
+    largest =
+        std::max(largest, std::max(node.stiffness.normal, node.stiffness.tangential) * node.size * node.size);
+  return largest;
+}
+
 double RigidContact::stiffness_against_tool() const {
   double sum = 0.;
   const auto add = [&](const unsigned int i, const double area) {

@@ -83,6 +83,8 @@ public:
   /// Of this rank's nodes that are slaves.
   std::vector<ContactNodeReport> report() const;
   std::size_t history_size() const { return contact_->history_size(); }
+  /// Of this rank's nodes, the largest penalty times the facets' size squared [force/length].
+  double largest_spring() const { return contact_->largest_spring(); }
 
   /// The state at the start of the step.
   void save(StateWriter &writer) const;

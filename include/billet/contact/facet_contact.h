@@ -149,6 +149,8 @@ public:
   double local_dissipation() const;
 
   /// Doubles of history on this rank.
+  /// Of this rank's nodes, the largest penalty times the facets' size squared [force/length].
+  double largest_spring() const;
   std::size_t history_size() const {
     return (touched_n_.size() * sizeof(TouchedFacet) + 2 * history_n_.size() * sizeof(SlaveHistory)) /
            sizeof(double);

@@ -111,6 +111,8 @@ public:
 
   /// Doubles of history on this rank.
   std::size_t history_size() const;
+  /// Of this rank's nodes, the largest penalty times the facets' size squared [force/length].
+  double largest_spring() const;
 
   /// The state at the start of the step.
   void save(StateWriter &writer, const NodeKeys &keys) const;
