@@ -59,6 +59,33 @@ void test(const std::string &name, const std::string &scene, const unsigned int 
   check(name + ": no force is left", left.value(), 1e-9);
 }
 
+/// With friction on the inside the work done is what is stored and what friction takes; at the end the inside
+/// is open, and nothing holds on.
+void test_with_friction(const std::string &name, const std::string &scene, const unsigned int n) {
+  parameters::Scene parameters = testing::read_shipped_scene(scene);
+  parameters.pairs[2].friction_coefficient = 0.3;
+  parameters.time_stepping.control = parameters::TimeStepping::Control::fixed;
+  parameters.time_stepping.initial_step = 1. / n;
+  SceneRun run(parameters);
+  double largest_force = 0., largest_stored = 0.;
+  run.finish([&](const NewtonReport &) {
+    const SolutionState &state = run.problem.state();
+    largest_force = std::max(largest_force, -state.tool_loads[0].force[2]);
+    largest_stored = std::max(largest_stored, state.energies.elastic);
+  });
+  const SolutionState &end = run.problem.state();
+  check(name + ": friction has worked", end.energies.friction > 0.);
+  check(name + ": which is the work that is lost",
+        std::abs(end.energies.external - end.energies.friction) / largest_stored, 0.01);
+  check(name + ": no energy is left", end.energies.elastic / largest_stored, 1e-12);
+  bool is_open = true;
+  const auto reports = run.problem.report_contacts();
+  for (const auto &node : reports[2])
+    is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
+  check(name + ": the inside is open", is_open);
+  check(name + ": no force is left", end.tool_loads[0].force.norm() / largest_force, 1e-9);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -67,5 +94,7 @@ int main(int argc, char *argv[]) {
   test("ring, overlap", "ring_crush.prm", 100, Facets::overlap);
   test("ring, planed", "ring_crush.prm", 100, Facets::planed);
   test("block, overlap", "hollow_block.prm", 20, Facets::overlap);
+  test_with_friction("ring, friction", "ring_crush.prm", 100);
+  test_with_friction("block, friction", "hollow_block.prm", 20);
   return testing::exit_code();
 }

@@ -83,6 +83,7 @@ int main(int argc, char *argv[]) {
   const dealii::Tensor<1, 3> n({2. / 3., -1. / 3., 2. / 3.});
   const auto turned = testing::read_shipped_scene("patch_test.prm");
   using Passes = parameters::ContactPair::Passes;
+  using Facets = parameters::ContactPair::Facets;
   for (const auto passes : {Passes::one, Passes::two}) {
     const std::string name = passes == Passes::one ? "one pass" : "two passes";
     for (const double factor : {0.01, 1., 100., 1e4}) {
@@ -105,6 +106,28 @@ int main(int argc, char *argv[]) {
       check(name + ", augmented, " + print(factor) + " E/h", stress_error(run, exact_stress(n, 0.3, 0.2, 0.)),
             1e-8);
     }
+  }
+
+  // Where the upper part begins as deep in the lower one as it likes, that depth counts as none.
+  for (const auto facets : {Facets::overlap, Facets::planed}) {
+    auto scene = turned;
+    scene.pairs[0].facets.value = facets;
+    scene.pairs[0].passes = Passes::one;
+    scene.pairs[0].may_overlap = true;
+    scene.pairs[0].ramp_time = 0.;
+    scene.bodies[1].mesh.translation -= 0.01 * n;
+    const std::string name = facets == Facets::overlap ? "overlap" : "planed";
+    if (facets == Facets::overlap) {
+      SceneRun run(scene);
+      run.finish();
+      check(name + ", shifted", stress_error(run, exact_stress(n, 0.3, 0.2, scene.pairs[0].normal_penalty)),
+            1e-8);
+    }
+    for (auto &displacement : scene.bodies[1].supports[0].displacement.value)
+      displacement = "0";
+    SceneRun run(scene);
+    run.finish();
+    check(name + ", shifted, not moved", run.problem.state().body_pair_loads[0].force.norm(), 0.);
   }
 
   // The upper part is displaced by s along the cut, and is not below, or above, the other one at its ends.
@@ -137,7 +160,6 @@ int main(int argc, char *argv[]) {
           2. * 1e-6 * slave_edge / 0.004);
   }
 
-  using Facets = parameters::ContactPair::Facets;
   for (const auto facets : {Facets::overlap, Facets::planed}) {
     const std::string name = facets == Facets::overlap ? "overlap" : "planed";
     auto scene = turned;
