@@ -60,7 +60,7 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
   steps_ += 0.5 * (last_error_ + error) * h;
   last_error_ = error;
   if (has_penetration_)
-    penetration_ += penetration_error_ * h;
+    penetration_ += penetration_part_ * force * h;
   else
     unmeasured_time_ += h;
   if (until_measurement_ > 0)
@@ -108,9 +108,11 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   unmeasured_ = unmeasured_span_ = 0.;
   measured_step_ = h;
   ++n_measurements_;
-  const bool is_steady = slope <= 1.5 * last_slope && slope >= last_slope / 1.5 && !before.empty();
+  const bool is_steady = slope <= 2. * last_slope && slope >= 0.5 * last_slope && !before.empty();
   interval_ = is_steady ? std::min(2 * interval_, longest_interval) : shortest_interval;
   until_measurement_ = interval_;
+  if (until_penetration_ > 0)
+    --until_penetration_;
   if (tolerances_.steps == 0.)
     return;
   const double rate = growth_of_errors * std::min(slope, last_slope) * h;
@@ -134,15 +136,24 @@ void ErrorControl::measure_penetration(const double penetration, const Forces &f
                                        const Forces &without) {
   const bool is_first = !has_penetration_;
   has_penetration_ = true;
-  penetration_error_ = distance(forces, without);
+  const double error = distance(forces, without), force = sum_of_norms(forces);
+  const double last_part = penetration_part_;
+  penetration_part_ = force > 0. ? error / force : 0.;
   if (is_first)
-    penetration_ += penetration_error_ * unmeasured_time_;
-  if (tolerances_.penetration == 0. || !(penetration_error_ > 0.))
+    penetration_ += error * unmeasured_time_;
+  constexpr double little = 0.1;
+  const bool is_steady =
+      !is_first && penetration_part_ <= 1.5 * last_part && penetration_part_ >= last_part / 1.5;
+  const bool is_little = penetration_part_ <= little * tolerances_.penetration;
+  penetration_interval_ =
+      is_steady || is_little ? std::min(2 * penetration_interval_, longest_interval) : shortest_interval;
+  until_penetration_ = penetration_interval_;
+  if (tolerances_.penetration == 0. || !(error > 0.))
     return;
   // In proportion; tighter than what is the tightest is not to be had.
-  const double allowed = tolerances_.penetration * std::max(force_scale(), sum_of_norms(forces));
-  penetration_allowed_ = std::max(1., penetration * allowed / penetration_error_);
-  penetration_error_ *= std::min(1., penetration_allowed_ / penetration);
+  const double allowed = tolerances_.penetration * std::max(force_scale(), force);
+  penetration_allowed_ = std::max(1., penetration * allowed / error);
+  penetration_part_ *= std::min(1., penetration_allowed_ / penetration);
 }
 
 void ErrorControl::miss_measurement(const double h, const bool failed) {
@@ -174,7 +185,7 @@ void ErrorControl::save(StateWriter &writer) const {
                           steps_,
                           penetration_,
                           iterations_,
-                          penetration_error_,
+                          penetration_part_,
                           unmeasured_,
                           unmeasured_span_,
                           unmeasured_time_,
@@ -184,7 +195,9 @@ void ErrorControl::save(StateWriter &writer) const {
                           static_cast<double>(interval_),
                           static_cast<double>(n_measurements_),
                           longest_step_,
-                          penetration_allowed_});
+                          penetration_allowed_,
+                          static_cast<double>(until_penetration_),
+                          static_cast<double>(penetration_interval_)});
   pack("errors by steps", slopes_);
   pack("errors of forces", errors_);
 }
@@ -208,7 +221,7 @@ void ErrorControl::load(const StateReader &reader) {
   steps_ = state.at(7);
   penetration_ = state.at(8);
   iterations_ = state.at(9);
-  penetration_error_ = state.at(10);
+  penetration_part_ = state.at(10);
   unmeasured_ = state.at(11);
   unmeasured_span_ = state.at(12);
   unmeasured_time_ = state.at(13);
@@ -219,6 +232,8 @@ void ErrorControl::load(const StateReader &reader) {
   n_measurements_ = static_cast<unsigned int>(state.at(18));
   longest_step_ = state.at(19);
   penetration_allowed_ = state.at(20);
+  until_penetration_ = static_cast<unsigned int>(state.at(21));
+  penetration_interval_ = static_cast<unsigned int>(state.at(22));
   slopes_ = unpack("errors by steps");
   errors_ = unpack("errors of forces");
 }

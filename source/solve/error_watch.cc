@@ -58,7 +58,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
     errors_.miss_measurement(first, false);
     return 0;
   }
-  probe_ = problem_.probe(end, previous_step, measures_penetration_);
+  probe_ = problem_.probe(end, previous_step, measures_penetration_ && errors_.wants_penetration());
   const auto n_iterations = static_cast<unsigned int>(probe_.newton.iterations.size());
   n_iterations_ += n_iterations;
   if (probe_.newton.converged) {

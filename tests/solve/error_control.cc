@@ -101,5 +101,16 @@ int main() {
   left.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032));
   check("what residuals make", near(deep.estimate().iterations, 2e-5, 1e-9)); // from the force 0 at time 0
   check("what penetrations make", near(left.estimate().penetration, 2. * 0.032 / 3.2, 1e-9));
+  // A measurement of penetrations costs another solution: the first, and others as long as they change.
+  ErrorControl seldom({0., 0.1}, 1.);
+  unsigned int n_wanted = 0;
+  for (unsigned int i = 0; i < 30; ++i) {
+    seldom.accept(0.01, force(0.1, 0.), 0.);
+    n_wanted += seldom.wants_penetration() ? 1 : 0;
+    if (seldom.wants_penetration())
+      seldom.measure_penetration(100., force(0.1, 0.), force(0.1, 1e-4));
+    seldom.measure_steps(0.01, force(0.1, 0.), force(0.1, 1e-6), 0.);
+  }
+  check("penetrations that make little are measured seldom", n_wanted > 2 && n_wanted < 8);
   return billet::testing::exit_code();
 }

@@ -42,6 +42,9 @@ public:
   /// After the second of two steps of length `h`: what one of twice the length gave. What `residuals` make of
   /// the difference, as part of the forces, does not count.
   void measure_steps(double h, const Forces &forces, const Forces &of_one_step, double residuals);
+  /// Whether the next measurement should tell, too, what penetrations make: at first, and then the more
+  /// seldom the less it is, or changes.
+  bool wants_penetration() const { return until_penetration_ == 0; }
   /// What a step gave whose deepest penetration was `penetration`, as part of the tightest that may be asked
   /// for; and what without penetrations.
   void measure_penetration(double penetration, const Forces &forces, const Forces &without);
@@ -77,15 +80,16 @@ private:
   double work_ = 0.;                                       ///< ∫Σ|F| dt
   double steps_ = 0., penetration_ = 0., iterations_ = 0.; ///< integrals of errors
   double force_rate_ = 0.;                                 ///< d Σ|F| / dt in the last step
-  Forces slopes_;                 ///< c of each force from the last measurement on; empty before the first
-  double last_slope_ = 0.;        ///< Σ|c|, as the last measurement was
-  Forces errors_;                 ///< of each force, by all steps so far
-  double penetration_error_ = 0.; ///< of the last measurement
+  Forces slopes_;                ///< c of each force from the last measurement on; empty before the first
+  double last_slope_ = 0.;       ///< Σ|c|, as the last measurement was
+  Forces errors_;                ///< of each force, by all steps so far
+  double penetration_part_ = 0.; ///< of the forces, by penetrations, as of the last measurement
   double unmeasured_ = 0., unmeasured_span_ = 0.; ///< Σ h², Σ h of the steps since the last measurement
   double unmeasured_time_ = 0.;                   ///< Σ h of the steps before the first one
   double measured_step_ = 0.;                     ///< h of the last one
   bool has_penetration_ = false;
   unsigned int until_measurement_ = 0, interval_ = 1, n_measurements_ = 0;
+  unsigned int until_penetration_ = 0, penetration_interval_ = 1;
   double longest_step_ = std::numeric_limits<double>::infinity();
   double penetration_allowed_ = std::numeric_limits<double>::infinity();
 };
