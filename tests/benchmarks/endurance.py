@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A million explicit steps of a stack at rest, and the memory of long runs."""
+
+import csv
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import numpy
+from vtk import vtkXMLPUnstructuredGridReader
+from vtk.util.numpy_support import vtk_to_numpy
+
+from billet_runs import PROGRAM, ROOT, arguments, number, publish, read_scene, table, variant
+
+options = arguments("endurance")
+STEP = 3.026e-5  # of the stack, about
+N_STEPS = 100_000 if options.quick else 1_000_000
+
+
+class WatchedRun:
+    """A run whose resident memory is sampled: `memory`, pairs of (accepted steps, megabytes)."""
+
+    def __init__(self, scene, changes, folder):
+        self.folder = Path(folder)
+        (self.folder / "scene.prm").write_text(
+            variant(read_scene(scene), {"Output/Folder": "results", "Output/Verbosity": "quiet", **changes}))
+        process = subprocess.Popen([PROGRAM, "scene.prm"], cwd=folder, stdout=subprocess.DEVNULL)
+        history, self.memory = self.folder / "results/history.csv", []
+        while process.poll() is None:
+            time.sleep(0.5)
+            try:
+                status = Path(f"/proc/{process.pid}/status").read_text()
+                step = int(history.read_text().rsplit("\n", 2)[-2].split(",")[0])
+                self.memory.append((step, int(status.split("VmRSS:")[1].split()[0]) / 1024))
+            except (OSError, IndexError, ValueError):  # not begun, or over
+                continue
+        self.ended = process.returncode == 0
+        with open(history, newline="") as file:
+            self.rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def at(self, part):
+        """Megabytes when this part of the steps was done."""
+        last = self.memory[-1][0]
+        return next(megabytes for step, megabytes in self.memory if step >= part * last)
+
+    def displacements(self, index):
+        reader = vtkXMLPUnstructuredGridReader()
+        reader.SetFileName(str(sorted((self.folder / "results").glob("fields_*.pvtu"))[index]))
+        reader.Update()
+        return vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("displacement")).astype(float)
+
+
+def window(rows, key, low, high):
+    values = numpy.array([row[key] for row in rows if low <= row["time"] <= high])
+    return values.mean(), values.max() - values.min()
+
+
+memory = []
+with tempfile.TemporaryDirectory() as folder:
+    end = N_STEPS * STEP
+    run = WatchedRun(ROOT / "tests/benchmarks/resting_stack.prm",
+                     {"Time stepping/End time": end, "Output/Interval": end / 10}, folder)
+    n_steps = int(run.rows[-1]["step"])
+    early, late = (1.5, 1.5 + 0.1 * end), (0.9 * end, end)
+    quantities = (("elastic energy [J]", "elastic_energy"), ("energy in contact springs [J]", "contact_energy"),
+                  ("force on the ground [N]", "ground.force_z"), ("penetration below the lowest block [m]", "ground.deepest_penetration"),
+                  ("between middle and lowest [m]", "middle on lowest.deepest_penetration"),
+                  ("taken by friction [J]", "friction_dissipation"), ("energy drift [J]", "energy_drift"))
+    rows = []
+    for name, key in quantities:
+        (first, width), (last, last_width) = window(run.rows, key, *early), window(run.rows, key, *late)
+        rows.append([name, f"{first:.9g}", f"{last:.9g}", number(abs(last - first) / max(abs(first), 1e-300), 2),
+                     number(width, 2), number(last_width, 2)])
+    kinetic = [window(run.rows, "kinetic_energy", *span)[0] for span in (early, late)]
+    weight = 3 * 0.1**3 * 1000 * 9.81
+    largest_side = max(abs(row[f"ground.force_{i}"]) for row in run.rows if row["time"] > 1.5 for i in "xy")
+    halfway, final = run.displacements(5), run.displacements(-1)
+    moved = numpy.abs(final - halfway).max() / numpy.abs(final).max()
+    memory.append(["stack, explicit", n_steps] + [number(run.at(part), 4) for part in (0.05, 0.5, 1.0)])
+
+with tempfile.TemporaryDirectory() as folder:
+    n = 1000 if options.quick else 10_000
+    turned = WatchedRun(ROOT / "prm/turned_blocks.prm", {"Time stepping/Initial step": 47 / n, "Output/Format": "none"}, folder)
+    memory.append(["two blocks turned by 360°, implicit", int(turned.rows[-1]["step"])]
+                  + [number(turned.at(part), 4) for part in (0.05, 0.5, 1.0)])
+
+publish(
+    "endurance", "Long runs", options,
+    f"## A stack at rest\n\nThree blocks of rubber on each other and on the ground (`tests/benchmarks/resting_stack.prm`), friction 0.3, "
+    f"{n_steps} explicit steps; gravity grows within the first second. Means over a tenth of the time, early (from 1.5 s on) and at the "
+    f"end, their relative difference, and how far single values lie apart within each.",
+    table(["quantity", "early", "at the end", "difference", "apart, early", "apart, at the end"], rows),
+    f"Kinetic energy: {number(kinetic[0], 2)} J early, {number(kinetic[1], 2)} J at the end, of {number(rows and float(rows[0][1]), 3)} J "
+    f"elastic energy. Largest sideways force on the ground after 1.5 s: {number(largest_side / weight, 2)} of the weight. Displacements of "
+    f"all nodes between half of the time and the end: at most {number(moved, 2)} of the largest one (pictures hold single precision).",
+    "## Memory\n\nResident memory in MB when 5, 50 and 100 % of the steps were done, sampled twice a second.",
+    table(["run", "steps", "5 %", "50 %", "100 %"], memory))
