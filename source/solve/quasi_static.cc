@@ -72,13 +72,13 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   // A hundred times the force that the last bit of a displacement of the scene's size makes.
   round_off_force_ = 100. * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
                      discretization.radius();
-  // And ten times what that of a position makes of a stiff penalty.
+  // And three times what that of a position makes of a stiff penalty.
   double spring = 0.;
   for (const auto &contact : contacts_)
     spring = std::max(spring, contact.largest_spring());
   for (const auto &contact : body_contacts_)
     spring = std::max(spring, contact->largest_spring());
-  round_off_force_ += 10. * std::numeric_limits<double>::epsilon() *
+  round_off_force_ += 3. * std::numeric_limits<double>::epsilon() *
                       dealii::Utilities::MPI::max(spring, discretization.communicator()) *
                       (discretization.centre().norm() + discretization.radius());
 
