@@ -572,13 +572,20 @@ double FacetContact::pace_of_augmentation(const std::size_t s, const double gap)
   return goes_on ? std::clamp(lifted / closed, 1., fastest) : 1.;
 }
 
+double FacetContact::penetration() const {
+  double deepest = 0.;
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    if (states_[s].presses() && states_[s].traction.pressure > 0.)
+      deepest = std::max(deepest, std::abs(states_[s].contact.gap + augmentation(s)) / sizes_[s]);
+  return deepest;
+}
+
 double FacetContact::augmentation_error() const {
-  double worst = 0.;
+  double worst = penetration();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
     if (!state.presses() || !(state.traction.pressure > 0.))
       continue;
-    worst = std::max(worst, std::abs(state.contact.gap + augmentation(s)) / sizes_[s]);
     if (!base_.empty() && was_touching(s) && state.traction.status == ContactStatus::stick)
       worst = std::max(worst, std::hypot(history_[s].tangential[0] - base_[s].tangential[0],
                                          history_[s].tangential[1] - base_[s].tangential[1]) /

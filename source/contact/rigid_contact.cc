@@ -502,15 +502,22 @@ void RigidContact::augment() {
     base_.push_back(friction_n_[i].is_active ? friction_[i].tangential : friction_n_[i].tangential);
 }
 
+double RigidContact::penetration() const {
+  double deepest = 0.;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (states_[i].pressure > 0.)
+      deepest = std::max(deepest, std::abs(states_[i].gap + nodes_[i].lift) / nodes_[i].size);
+  return deepest;
+}
+
 double RigidContact::augmentation_error() const {
-  double worst = 0.;
   if (pair_.penetration_tolerance == 0.)
-    return worst;
+    return 0.;
+  double worst = penetration();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
     if (!(states_[i].pressure > 0.))
       continue;
-    worst = std::max(worst, std::abs(states_[i].gap + node.lift) / node.size);
     if (states_[i].status != ContactStatus::stick || friction_.empty() || !friction_n_[i].is_active)
       continue;
     const auto &from = base_.empty() ? friction_n_[i].tangential : base_[i];

@@ -472,6 +472,8 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   }
   report.linear_iterations = linear_->take_iterations();
   report.note = linear_->take_note();
+  if (report.converged)
+    report.note += watch_penalties();
   return report;
 }
 

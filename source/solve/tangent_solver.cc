@@ -3,6 +3,7 @@
 
 #include <Epetra_Comm.h>
 #include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
 
 #include <unistd.h>
 
@@ -82,8 +83,10 @@ bool TangentSolver::factorize_directly() {
   if (!direct_)
     direct_ = make_direct_solver(direct_kind_, symmetric_, *matrix_, communicator_);
   is_direct_now_ = true;
-  if (direct_->factorize())
+  if (direct_->factorize()) {
+    norm_ = has_told_condition_ ? 0. : matrix_->NormInf();
     return true;
+  }
   failure_ = direct_->failure();
   return false;
 }
@@ -132,10 +135,32 @@ bool TangentSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const double
     if (!fall_back())
       return false;
   }
-  if (direct_->solve(b, x, relative_tolerance))
+  if (direct_->solve(b, x, relative_tolerance)) {
+    watch_condition(b, x);
     return true;
+  }
   failure_ = direct_->failure();
   return false;
+}
+
+void TangentSolver::watch_condition(const Epetra_Vector &b, const Epetra_Vector &x) {
+  if (has_told_condition_)
+    return;
+  double of_b = 0., of_x = 0.;
+  b.Norm2(&of_b);
+  x.Norm2(&of_x);
+  constexpr double largest = 1e12; // four digits are left
+  const double condition = of_b > 0. ? norm_ * of_x / of_b : 0.;
+  if (!(condition > largest))
+    return;
+  std::ostringstream text;
+  text.precision(1);
+  text << "The matrix is ill-conditioned, by " << std::scientific << condition
+       << " or more: of the sixteen digits of a correction few are right. Look for a body that hardly "
+          "anything "
+          "holds, for penalties or moduli that are far apart, and for elements much longer than thick\n";
+  note_ += text.str();
+  has_told_condition_ = true;
 }
 
 unsigned int TangentSolver::take_iterations() { return iterative_ ? iterative_->take_iterations() : 0; }

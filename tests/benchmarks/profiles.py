@@ -61,7 +61,7 @@ rows, csv_rows = [], []
 for path in sorted((ROOT / "prm").glob("*.prm")):
     cut = CUT.get(path.stem, {})
     exact, *runs = run_all(path, [{**cut, **reference(path, cut)}] + [{**cut, "Profile": profile} for profile in PROFILES],
-                           options.ranks, at_once=4)
+                           options.ranks, at_once=2)
     runs = dict(zip(PROFILES, runs))
     for profile, run in runs.items():
         off = error(run, exact) if exact.finished else math.nan

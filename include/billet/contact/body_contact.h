@@ -48,6 +48,10 @@ public:
                                             : 0.;
   }
 
+  /// As RigidContact::penetration().
+  double penetration() const { return contact_->penetration(); }
+  const std::string &name() const { return pair_.name; }
+
   /// A sentence about nodes that keep changing facet or status; empty if there are none. Collective.
   std::string describe_restless() const;
 

@@ -178,6 +178,8 @@ public:
   /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its
   /// facets; after add_forces(). On this rank.
   double augmentation_error() const;
+  /// How deep the deepest of this rank's nodes that press is, in facet sizes.
+  double penetration() const;
 
   /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
   template <class Visit> void visit_touching(const Visit &visit) const {

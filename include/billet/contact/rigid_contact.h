@@ -87,6 +87,8 @@ public:
   void augment();
   /// Relative to what the pair asks for; 0 if it asks for none. On this rank.
   double augmentation_error() const;
+  /// How deep the deepest of this rank's nodes that press is, in facet sizes.
+  double penetration() const;
 
   /// On all ranks, after update().
   ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }

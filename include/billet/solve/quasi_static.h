@@ -148,6 +148,9 @@ private:
   void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
   /// Largest error of contacts, as part of what pairs ask for. Collective.
   double augmentation_error() const;
+  /// What the user should know of the penalties after a step, each once; lines. In
+  /// solve/quasi_static_guards.cc.
+  std::string watch_penalties();
   /// forces(), at the trial state.
   std::vector<dealii::Tensor<1, 3>> trial_forces() const;
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
@@ -203,6 +206,7 @@ private:
   std::unique_ptr<ProbedState> probe_; ///< of the last probe, while steps may start from it
   bool is_probing_ = false;
   double penetration_allowed_ = 1.;
+  bool has_told_soft_ = false, has_told_stiff_ = false; ///< what watch_penalties() says
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs

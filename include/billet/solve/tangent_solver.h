@@ -44,6 +44,9 @@ public:
 private:
   bool factorize_directly();
   bool fall_back();
+  /// Tells, once, of a condition |A| |x|/|b| that takes most digits: no more than that of the matrix, and for
+  /// free.
+  void watch_condition(const Epetra_Vector &b, const Epetra_Vector &x);
 
   parameters::Solver::LinearSolver direct_kind_;
   bool symmetric_;
@@ -55,6 +58,8 @@ private:
   unsigned int n_failures_ = 0; ///< of the iterative solver in succession
   unsigned int pause_ = 0;      ///< matrices for which it is not tried
   bool has_told_memory_ = false, has_told_fallback_ = false;
+  bool has_told_condition_ = false;
+  double norm_ = 0.; ///< |A|, as factorised directly
   std::string name_, failure_, note_;
 };
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Penalties far too soft or far too stiff, and matrices that lose most digits, are told, once; others are
+// not.
+#include "scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+constexpr const char *soft = "its penalty is soft", *stiff = "Round-off leaves", *ill = "ill-conditioned";
+
+/// How often each is said in a run with this penalty factor of the pair.
+std::array<unsigned int, 3> count(const std::string &scene, const double factor,
+                                  const double modulus_ratio = 1., const double force_tolerance = 1e-6) {
+  auto parameters = testing::read_shipped_scene(scene);
+  parameters.pairs[0].penalty_unit = parameters::ContactPair::PenaltyUnit::factor;
+  parameters.pairs[0].normal_penalty = parameters.pairs[0].tangential_penalty = factor;
+  parameters.bodies[0].material.young_modulus *= modulus_ratio;
+  parameters.time_stepping.end_time = scene == "billet_upsetting.prm" ? 0.2 : 1.;
+  parameters.solver.force_tolerance = force_tolerance;
+  SceneRun run(parameters);
+  std::array<unsigned int, 3> n{};
+  run.finish([&](const NewtonReport &report) {
+    n[0] += report.note.find(soft) != std::string::npos ? 1 : 0;
+    n[1] += report.note.find(stiff) != std::string::npos ? 1 : 0;
+    n[2] += report.note.find(ill) != std::string::npos ? 1 : 0;
+  });
+  return n;
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  using Counts = std::array<unsigned int, 3>;
+  for (const std::string scene : {"billet_upsetting.prm", "patch_test.prm"}) {
+    check(scene + ": nothing is said of the usual", count(scene, 10.) == Counts{});
+    check(scene + ": too soft", count(scene, 1e-4)[0] == 1);
+    check(scene + ": too stiff", count(scene, 1e6, 1., 1e-11)[1] == 1);
+  }
+  check("a body a million million times as stiff", count("patch_test.prm", 10., 1e13)[2] == 1);
+  return testing::exit_code();
+}
