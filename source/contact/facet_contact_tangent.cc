@@ -314,6 +314,7 @@ void FacetContact::add_numerical_tangent(const Law &law, const std::size_t s, co
   }
   const std::vector<unsigned int> nodes = collect_nodes(s, true);
   std::vector<Tensor<1, 3>> x;
+  x.reserve(nodes.size());
   for (const unsigned int node : nodes)
     x.push_back(positions_[node]);
   FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
