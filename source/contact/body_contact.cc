@@ -410,17 +410,28 @@ std::string BodyContact::describe_restless() const {
     return "";
   std::ostringstream text;
   text << "; contact pair '" << pair_.name << "': " << n_nodes
-       << " nodes keep changing facet or status, most often, " << worst[0] << " times, the one at ("
-       << worst[1] << ", " << worst[2] << ", " << worst[3] << "): try "
+       << (n_nodes == 1. ? " node keeps" : " nodes keep") << " changing facet or status, most often, "
+       << worst[0] << " times, the one at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << "): try "
        << (contact_->method() == FacetMethod::overlap
-               ? "a softer penalty, with a 'Penetration tolerance' where that is too soft, or larger steps"
+               ? "a softer penalty, with a 'Penetration tolerance' where that is too soft"
                : "smaller steps, a softer penalty, 'Facets = overlap' or a larger 'Smoothing'");
   return text.str();
 }
 
 void BodyContact::allow_overlap() {
-  if (pair_.overlap.is_allowed)
-    contact_->allow_initial_depths();
+  if (!pair_.overlap.is_allowed)
+    return;
+  // A node's mean gap over overlapping facets hides what is deeper in some part of them: again, then, until
+  // nothing is left. Each time takes a part of it.
+  constexpr unsigned int most_times = 200;
+  constexpr double none = 1e-10; // facet sizes
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  for (unsigned int i = 0; i < most_times; ++i) {
+    if (dealii::Utilities::MPI::max(contact_->allow_initial_depths(), communicator) <= none)
+      return;
+    forces_.assign(local_nodes_.size(), Tensor<1, 3>());
+    contact_->add_forces(positions_n_, positions_, 0., forces_);
+  }
 }
 
 void BodyContact::check_overlap() const {

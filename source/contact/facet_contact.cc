@@ -508,12 +508,17 @@ void FacetContact::commit() {
     edges_->commit();
 }
 
-void FacetContact::allow_initial_depths() {
+double FacetContact::allow_initial_depths() {
   has_lifts_ = true;
-  initial_depths_.assign(slaves_.size(), 0.);
+  initial_depths_.resize(slaves_.size());
+  double deepest = 0.;
   for (std::size_t s = 0; s < slaves_.size(); ++s)
-    if (states_[s].presses())
-      initial_depths_[s] = std::max(0., -states_[s].contact.gap);
+    if (states_[s].presses()) {
+      const double depth = std::max(0., -states_[s].contact.gap);
+      initial_depths_[s] += depth;
+      deepest = std::max(deepest, depth / sizes_[s]);
+    }
+  return deepest;
 }
 
 void FacetContact::restart() {

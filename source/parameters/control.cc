@@ -252,7 +252,7 @@ void Solver::declare(ParameterHandler &prm) {
       "Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
       "Direct: MUMPS, its symmetric form, KLU, which runs on one rank at a time and is slow. "
       "Iterative, with multigrid: CG, for symmetric matrices, and GMRES. automatic: a direct one "
-      "for scenes that are small or yield, as long as the machine's memory lets it.");
+      "for small scenes, as long as the machine's memory lets it.");
   prm.declare_entry(
       "Forcing", "Eisenstat-Walker", Patterns::Selection("Eisenstat-Walker|fixed"),
       "How exactly iterative solvers solve. Eisenstat-Walker: the closer the better Newton's "

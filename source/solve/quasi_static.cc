@@ -469,6 +469,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     probe_.reset(); // it may have led astray
     for (const auto &contact : body_contacts_)
       report.failure += contact->describe_restless();
+    report.failure += describe_residual();
   }
   report.linear_iterations = linear_->take_iterations();
   report.note = linear_->take_note();

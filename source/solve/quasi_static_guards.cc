@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Penalties that are too soft for what presses, or too stiff for sixteen digits.
+// What users should know: penalties that are too soft for what presses, or too stiff for sixteen digits, and
+// where a step failed.
 #include "billet/solve/quasi_static.h"
 
+#include <Epetra_Vector.h>
+
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace billet {
@@ -36,6 +41,40 @@ std::string QuasiStatic::watch_penalties() {
     has_told_stiff_ = true;
   }
   return note.str();
+}
+
+std::string QuasiStatic::describe_residual() {
+  const Epetra_Vector x = pack(trial_, offsets_);
+  Epetra_Vector residual(x);
+  if (!compute_residual(x, residual))
+    return "";
+  const MPI_Comm communicator = discretization_.communicator();
+  // The largest nodal force that is out of balance, where, and of which body.
+  std::array<double, 5> mine{};
+  for (std::size_t body = 0; body < discretization_.n_bodies(); ++body)
+    for (const auto &element : discretization_.elements(body))
+      for (const unsigned int v : element.cell->vertex_indices()) {
+        double square = 0.;
+        std::array<double, 3> position{};
+        for (unsigned int i = 0; i < 3; ++i) {
+          const DofIndex dof = element.dofs[3 * v + i];
+          position[i] = element.cell->vertex(v)[i] + trial_ghosted_(dof);
+          const int place = residual.Map().LID(static_cast<int>(dof));
+          square += place >= 0 ? residual[place] * residual[place] : 0.;
+        }
+        if (square > mine[0])
+          mine = {square, position[0], position[1], position[2], static_cast<double>(body)};
+      }
+  std::array<double, 5> worst{};
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
+    if (of_rank[0] > worst[0])
+      worst = of_rank;
+  if (!(worst[0] > 0.))
+    return "";
+  std::ostringstream text;
+  text << "; the largest residual is in body '" << scene_.bodies()[static_cast<std::size_t>(worst[4])].name
+       << "' at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ")";
+  return text.str();
 }
 
 } // namespace billet

@@ -160,8 +160,10 @@ public:
   void commit();
 
   /// How deep nodes are in facets at the last add_forces(), before the first commit(), is allowed: only what
-  /// is deeper than a part of it counts from then on, at first all of it. Collective.
-  void allow_initial_depths();
+  /// is deeper than a part of it counts from then on, at first all of it. What overlapping facets then still
+  /// find is allowed by another call after another add_forces(). Returns the deepest that was new on this
+  /// rank [facet sizes].
+  double allow_initial_depths();
   /// That part at the start and the end of the step.
   void set_allowed_part(const double at_start, const double at_end) {
     allowed_part_n_ = at_start;

@@ -18,10 +18,10 @@ namespace billet {
 /// Number: double, or Derivative.
 template <class Number> struct FacetOverlapOf {
   bool exists = false;
-  dealii::Tensor<1, 3, Number> normal;                 ///< unit, out of the target's body
-  std::array<Number, 4> areas{};                       ///< ∫ φ_a dA [length²]
-  std::array<Number, 4> gaps{};                        ///< ∫ φ_a g dA [length³]
-  std::array<Number, 4> depths{};                      ///< ∫ φ_a |g| dA of the lowered slave, >= 0 [length³]
+  dealii::Tensor<1, 3, Number> normal; ///< unit, out of the target's body
+  std::array<Number, 4> areas{};       ///< ∫ φ_a dA [length²]
+  std::array<Number, 4> gaps{};        ///< ∫ φ_a g dA [length³]
+  std::array<Number, 4> depths{};      ///< ∫ φ_a |g| dA of the lowered slave, >= 0 [length³]
   std::array<std::array<Number, 4>, 4> slave_parts{};  ///< ∫ φ_a φ_b dA, as ...
   std::array<std::array<Number, 4>, 4> target_parts{}; ///< ... ∫ φ_a ψ_I dA [length²]
 };

@@ -151,6 +151,8 @@ private:
   /// What the user should know of the penalties after a step, each once; lines. In
   /// solve/quasi_static_guards.cc.
   std::string watch_penalties();
+  /// Where the residual of a failed step is largest. Collective.
+  std::string describe_residual();
   /// forces(), at the trial state.
   std::vector<dealii::Tensor<1, 3>> trial_forces() const;
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
