@@ -236,7 +236,6 @@ void ExplicitDynamics::compute_internal_forces() {
     elastic_energy_ += result.elastic_energy;
     works_.plastic += result.plastic_work;
     works_.viscous += result.viscous_work;
-    works_.hourglass += result.hourglass_work;
     hourglass_energy_ += result.hourglass_energy;
   }
 }
@@ -506,7 +505,7 @@ void ExplicitDynamics::update_ledger() {
     own[contact] += load.stored_energy;
   own[friction] = works_.friction;
   own[viscous] = works_.viscous;
-  own[hourglass] = works_.hourglass + hourglass_energy_;
+  own[hourglass] = hourglass_energy_;
   own[external] = works_.external;
   std::vector<double> totals(own.size());
   dealii::Utilities::MPI::sum(own, communicator, totals);

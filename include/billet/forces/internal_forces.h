@@ -32,7 +32,7 @@ public:
   struct Energies {
     double elastic = 0.;
     double plastic = 0.;
-    double hourglass = 0.; ///< stored and lost
+    double hourglass = 0.; ///< stored by the stabilisation
   };
   /// At committed history; on all ranks the same.
   Energies compute_energies(const Vector &displacements) const;

@@ -74,7 +74,6 @@ public:
     /// equal steps from rest is not, if viscosity is linear.
     double viscous_work;
     double hourglass_energy; ///< stored by the stabilisation now [energy]
-    double hourglass_work;   ///< dissipated by the stabilisation in this step, ≥ 0 [energy]
     std::size_t inverted;    ///< an element with det F ≤ 0 or not finite, or size()
   };
 
