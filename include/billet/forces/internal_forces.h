@@ -4,6 +4,7 @@
 
 #include "billet/discretization/supports.h"
 #include "billet/mechanics/element_block.h"
+#include "billet/usage.h"
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -49,7 +50,11 @@ public:
 
 private:
   const Discretization &discretization_;
+  void count() const;
+
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
+  std::size_t n_plastic_ = 0, n_stabilised_ = 0;      ///< elements
+  HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
 };
 
 } // namespace billet

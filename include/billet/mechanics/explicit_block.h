@@ -105,6 +105,9 @@ public:
   virtual void set_stress(std::size_t element, const double *displacements, const ElementStress &stress) = 0;
 };
 
+/// What the stabilisation of a one-point element keeps [bytes].
+constexpr std::size_t explicit_stabilisation_size = 19 * sizeof(double);
+
 /// What a history means: element and kinematics in words.
 std::string describe(const ExplicitFormulation &formulation);
 

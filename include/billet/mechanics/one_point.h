@@ -40,6 +40,8 @@ public:
     HourglassVector shift{};
   };
   static constexpr unsigned int n_history = 12;
+  static constexpr std::size_t stabilisation_size =
+      sizeof(HourglassVector) + 6 * sizeof(double); ///< of Reference [bytes]
   static void store(const History &history, double *numbers);
   static History restore(const double *numbers);
 

@@ -9,6 +9,7 @@
 #include "billet/mechanics/explicit_block.h"
 #include "billet/solve/free_tool.h"
 #include "billet/solve/restart.h"
+#include "billet/usage.h"
 
 #include <memory>
 #include <vector>
@@ -134,6 +135,7 @@ private:
   struct Works {
     double external = 0., plastic = 0., friction = 0., viscous = 0.;
   };
+  HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
   Works works_;                                        ///< since time 0, of this rank
   double elastic_energy_ = 0., hourglass_energy_ = 0.; ///< at t_n, of this rank
   SolutionState state_;
