@@ -565,7 +565,7 @@ void FacetContact::augment() {
   lifts_.resize(slaves_.size());
   last_augmentations_.resize(slaves_.size());
   Usage::count(Capability::augmentation, slaves_.size());
-  augmentation_memory_.set(2 * lifts_.size() * sizeof(double));
+  augmentation_memory_.set(lifts_.size() * (sizeof(double) + sizeof(Augmentation)));
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const bool presses = states_[s].presses();
     if (!base_.empty() && presses && was_touching(s)) // asks for the lift so far
