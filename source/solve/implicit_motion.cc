@@ -194,7 +194,7 @@ void ImplicitMotion::start_step(const double t_n, const double t, const Vector &
                                 const std::vector<double> &offsets) {
   if (t_n_ == t_n && step_ == t - t_n)
     return;
-  Usage::count(Capability::inertia, displacements.local_size());
+  Usage::count(Capability::inertia, displacements.locally_owned_size());
   t_n_ = t_n;
   step_ = t - t_n;
   u_n_ = displacements;
