@@ -2,6 +2,7 @@
 #include "billet/simulation.h"
 
 #include "billet/errors.h"
+#include "billet/output/capabilities_file.h"
 #include "billet/output/checkpoint.h"
 #include "billet/output/error_report.h"
 #include "billet/output/field_writer.h"
@@ -625,8 +626,10 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
     resumption = std::make_unique<Resumption>(parameters, communicator);
   const Scene scene(parameters);
   const Discretization discretization(scene, communicator);
-  return parameters.is_explicit() ? run_explicit(scene, discretization, resumption.get())
-                                  : run_quasi_static(scene, discretization, resumption.get());
+  const ExitCode code = parameters.is_explicit() ? run_explicit(scene, discretization, resumption.get())
+                                                 : run_quasi_static(scene, discretization, resumption.get());
+  write_capabilities(parameters.output.folder.value, communicator);
+  return code;
 }
 
 } // namespace billet

@@ -45,6 +45,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
   if (!std::holds_alternative<Frictionless>(settings.friction))
     history_n_.resize(slaves_.size());
   base_ = history_ = history_n_;
+  friction_memory_.set(3 * history_.size() * sizeof(SlaveHistory));
   if (settings.method == FacetMethod::overlap)
     overlaps_.emplace();
   if (settings.edges) {
@@ -98,6 +99,10 @@ void FacetContact::rebuild() {
       const auto found = index.find(keys[s]);
       touched_n_[s].facet = found == index.end() ? TouchedFacet::none : found->second;
     }
+  memory_.set(search_.n_candidates() * sizeof(unsigned int) + search_.facets().size() * sizeof(SurfaceFacet) +
+              slaves_.size() * (sizeof(SlaveNode) + sizeof(SlaveState)));
+  if (edges_)
+    edge_memory_.set(edges_->n_pairs() * 2 * sizeof(std::size_t));
 }
 
 void FacetContact::update_search(const Positions &positions_n, const Positions &positions) {
@@ -323,6 +328,11 @@ template <class Facet, class Law> void FacetContact::evaluate(const Law &law, co
 
 void FacetContact::add_forces(const Positions &positions_n, const Positions &positions, const double duration,
                               Positions &forces) {
+  Usage::count(Capability::contact, slaves_.size());
+  Usage::count(Capability::body_contact, slaves_.size());
+  Usage::count_if(!history_n_.empty(), Capability::friction, slaves_.size());
+  Usage::count_if(settings_.partners == FacetSearch::Partners::other_surfaces_and_self,
+                  Capability::self_contact, slaves_.size());
   update_search(positions_n, positions);
   duration_ = duration;
   nodal_forces_.assign(exchange_.n_nodes(), Tensor<1, 3>());
@@ -335,8 +345,10 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
 
   if (settings_.most_changes > 0)
     count_changes();
-  if (edges_)
+  if (edges_) {
+    Usage::count(Capability::edges, edges_->n_pairs());
     crossings_ = edges_->find_crossings(positions_n_, positions_, has_started_);
+  }
   for (const auto &crossing : crossings_)
     if (crossing.counted_gap() < 0.) {
       const auto crossing_forces = crossing.forces(edge_stiffness(crossing));
@@ -557,6 +569,8 @@ void FacetContact::augment() {
   has_lifts_ = true;
   lifts_.resize(slaves_.size());
   last_augmentations_.resize(slaves_.size());
+  Usage::count(Capability::augmentation, slaves_.size());
+  augmentation_memory_.set(lifts_.size() * (sizeof(double) + sizeof(Augmentation)));
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const bool presses = states_[s].presses();
     if (!base_.empty() && presses && was_touching(s)) // asks for the lift so far

@@ -47,6 +47,8 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
       friction_n_[i].tool_position = X;
   }
   friction_ = friction_n_;
+  memory_.set(nodes_.size() * (sizeof(Node) + sizeof(NodeState)) + facets_.size() * sizeof(Facet));
+  friction_memory_.set(2 * friction_.size() * sizeof(FrictionHistory));
 }
 
 void RigidContact::collect_facets(const Discretization &discretization, const double young_modulus) {
@@ -90,6 +92,8 @@ void RigidContact::remove_tool() {
 template <class DisplacementOf> void RigidContact::update_states(const DisplacementOf &displacement_of) {
   if (is_removed_)
     return;
+  Usage::count(Capability::contact, nodes_.size());
+  Usage::count_if(!friction_.empty(), Capability::friction, friction_.size());
   std::visit(
       [&](const auto &law) {
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -495,6 +499,7 @@ void RigidContact::restart() {
 }
 
 void RigidContact::augment() {
+  Usage::count(Capability::augmentation, nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].lift = states_[i].pressure / nodes_[i].stiffness.normal;
   base_.clear();

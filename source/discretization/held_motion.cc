@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/held_motion.h"
+#include "billet/usage.h"
 
 #include <cmath>
 
@@ -31,6 +32,9 @@ HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
         term.weight /= length;
       node.directions.push_back(direction);
     }
+    if (std::any_of(node.directions.begin(), node.directions.end(),
+                    [](const Direction &direction) { return !direction.terms.empty(); }))
+      ++n_moving_;
     nodes_.push_back(node);
     held_.push_back(node.node);
   }
@@ -55,6 +59,7 @@ void HeldMotion::set_displacements(const double t, NodalVectors &displacements) 
 void HeldMotion::constrain(const double t, const double dt, const NodalVectors &displacements,
                            const std::vector<double> &masses, NodalVectors &velocities,
                            NodalVectors &impulses) const {
+  Usage::count_if(n_moving_ > 0, Capability::moving_supports, n_moving_);
   for (const auto &node : nodes_) {
     Tensor<1, 3> change;
     const Tensor<1, 3> velocity = get_vector(velocities.data(), node.node);

@@ -3,6 +3,7 @@
 
 #include "billet/compatibility.h"
 #include "billet/errors.h"
+#include "billet/usage.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -156,6 +157,9 @@ Constraints Supports::at_time(const double t) const {
 }
 
 Constraints Supports::change(const double t_n, const double t, bool &moves) const {
+  const auto n_moving =
+      std::count_if(lines_.begin(), lines_.end(), [](const Line &line) { return !line.terms.empty(); });
+  Usage::count_if(n_moving > 0, Capability::moving_supports, static_cast<std::size_t>(n_moving));
   // Time by time: an expression is parsed anew when the time changes.
   std::vector<double> values;
   fail_together(discretization_.communicator(), [&] {

@@ -3,6 +3,7 @@
 
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
+#include "billet/usage.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -87,6 +88,8 @@ void ExternalLoads::add_resistances(const Load &load, const std::size_t body) {
 
 void ExternalLoads::add_forces(const double t, const NodalVectors &displacements,
                                const NodalVectors &velocities, NodalVectors &forces) const {
+  const std::size_t n_loads = accelerations_.size() + pressures_.size() + resistances_.size();
+  Usage::count_if(n_loads > 0, Capability::loads, n_loads);
   for (const auto &acceleration : accelerations_) {
     Tensor<1, 3> a;
     for (unsigned int i = 0; i < 3; ++i)

@@ -2,6 +2,7 @@
 #include "billet/forces/internal_forces.h"
 
 #include "billet/errors.h"
+#include "billet/mechanics/one_point.h"
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/lac/full_matrix.h>
@@ -12,6 +13,7 @@ namespace billet {
 
 InternalForces::InternalForces(const Scene &scene, const Discretization &discretization)
     : discretization_(discretization) {
+  std::size_t plastic_bytes = 0;
   fail_together(discretization.communicator(), [&] {
     for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
       std::vector<ElementVectors> positions;
@@ -26,11 +28,27 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
                 << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
         throw InputError(message.str());
       }
+      const Body &body = scene.bodies()[b];
+      const bool is_plastic = !std::holds_alternative<std::monostate>(body.material.hardening);
+      if (is_plastic)
+        n_plastic_ += positions.size();
+      if (body.formulation.element == ElementFormulation::Element::one_point)
+        n_stabilised_ += positions.size();
+      if (is_plastic)
+        plastic_bytes += blocks_.back()->history_size() * positions.size() * sizeof(double);
     }
   });
+  plastic_memory_.set(plastic_bytes);
+  stabilised_memory_.set(n_stabilised_ * OnePointElement::stabilisation_size);
+}
+
+void InternalForces::count() const {
+  Usage::count_if(n_plastic_ > 0, Capability::plasticity, n_plastic_);
+  Usage::count_if(n_stabilised_ > 0, Capability::stabilisation, n_stabilised_);
 }
 
 bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces) {
+  count();
   ElementVectors force{};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto &elements = discretization_.elements(b);
@@ -45,6 +63,7 @@ bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces
 
 bool InternalForces::assemble_tangent(const Vector &displacements, const TangentSystem &system,
                                       const double yield_slack) {
+  count();
   ElementVectors force{};
   ElementMatrix tangent{};
   dealii::FullMatrix<double> cell_matrix(n_element_dofs, n_element_dofs);

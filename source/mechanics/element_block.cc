@@ -10,8 +10,7 @@ using Kinematics = ElementFormulation::Kinematics;
 
 bool has_symmetric_tangent(const ElementFormulation &formulation, const bool is_plastic) {
   return formulation.kinematics != Kinematics::hypoelastic &&
-         !(is_plastic &&
-           (formulation.kinematics == Kinematics::neo_hookean || formulation.element == Element::one_point));
+         !(is_plastic && formulation.kinematics == Kinematics::neo_hookean);
 }
 
 std::string describe(const ElementFormulation &formulation) {

@@ -138,8 +138,8 @@ public:
     const explicit_kernels::Step step{nodes.displacements, nodes.velocities, nodes.forces,
                                       dt > 0. ? 1. / dt : 0., dt};
     kernel_(storage_.elements(), material_, functions_, step, result);
-    return {1. / result.largest_rate, result.elastic_energy, result.plastic_work, result.viscous_work,
-            result.hourglass_energy,  result.hourglass_work, result.inverted};
+    return {1. / result.largest_rate, result.elastic_energy,   result.plastic_work,
+            result.viscous_work,      result.hourglass_energy, result.inverted};
   }
 
   void add_masses(double *masses) const override { storage_.add_masses(material_.density, masses); }

@@ -85,43 +85,17 @@ void add_mean_tangent(const double volume, const Gradients<n_linear_modes> &grad
   add_point_tangent(volume, gradients, tau, rates, matrix.data(), n_modal_dofs);
 }
 
-/// s : δτ as a tensor that is contracted with L, s = dev τ; of moduli with or without the pressure's part,
-/// which s does not see.
-Tensor<2, 3> project(const SymmetricTensor<2, 3> &tau, const SpatialModuli &moduli) {
-  const SymmetricTensor<2, 3> s = dealii::deviator(tau);
-  SymmetricTensor<2, 3> projected;
-  for (unsigned int j = 0; j < 6; ++j) {
-    double sum = 0.;
-    for (unsigned int i = 0; i < 6; ++i)
-      sum += (i < 3 ? 1. : 2.) * s.access_raw_entry(i) * moduli[i][j];
-    projected.access_raw_entry(j) = sum;
-  }
-  return static_cast<Tensor<2, 3>>(projected) +
-         2. * static_cast<Tensor<2, 3>>(s) * static_cast<Tensor<2, 3>>(tau);
-}
-
-Tensor<2, 3> project(const SymmetricTensor<2, 3> &tau, const GradientModuli &moduli) {
-  const SymmetricTensor<2, 3> s = dealii::deviator(tau);
-  Tensor<2, 3> projected;
-  for (unsigned int j = 0; j < 9; ++j)
-    for (unsigned int i = 0; i < 6; ++i)
-      projected[j / 3][j % 3] += (i < 3 ? 1. : 2.) * s.access_raw_entry(i) * moduli[i][j];
-  return projected;
-}
-
 } // namespace
 
 void OnePointElement::store(const History &history, double *numbers) {
   for (unsigned int k = 0; k < 12; ++k)
     numbers[k] = history.shift[k / 3][k % 3];
-  numbers[12] = history.lost;
 }
 
 OnePointElement::History OnePointElement::restore(const double *numbers) {
   History history;
   for (unsigned int k = 0; k < 12; ++k)
     history.shift[k / 3][k % 3] = numbers[k];
-  history.lost = numbers[12];
   return history;
 }
 
@@ -230,30 +204,13 @@ OnePointElement::Stabilisation OnePointElement::stabilise(const Reference &refer
   return result;
 }
 
-OnePointElement::Stabilisation OnePointElement::stabilise(const Reference &reference,
-                                                          const Kinematics &kinematics,
-                                                          const double yield_stress, const double yield_slack,
-                                                          const History &history_n, History &history) const {
-  Stabilisation result = stabilise(reference, kinematics, history_n);
-  history = history_n;
-  const double factor = stiffness_ * reference.volume, density = result.energy / factor;
-  result.limit = yield_stress * yield_stress / (6. * shear_);
-  result.is_limited = density > result.limit * (1. + 2. * yield_slack);
-  if (result.is_limited) {
-    const double share = result.limit / std::max(density, result.limit);
-    result.root = std::sqrt(share);
-    // The mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight
-    // on, as the explicit kernels book it.
-    history.lost += 2. * factor * density * (result.root - share);
-    result.energy *= share;
-    for (unsigned int m = 0; m < 4; ++m)
-      for (unsigned int k = 0; k < 3; ++k) {
-        history.shift[m][k] += (1. - result.root) * result.strain[m][k];
-        result.strain[m][k] *= result.root;
-        result.stress[m][k] *= result.root;
-      }
-  }
-  return result;
+OnePointElement::History OnePointElement::flow(const Stabilisation &stabilisation, const History &history_n) {
+  History history = history_n;
+  const double lost = 1. - stabilisation.yield.share;
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      history.shift[m][k] += lost * stabilisation.strain[m][k];
+  return history;
 }
 
 OnePointElement::History OnePointElement::find_history(const Reference &reference,
@@ -274,8 +231,9 @@ void OnePointElement::add_force(const Reference &reference, const Kinematics &ki
   std::array<std::array<double, 3>, 3> mean_forces{}; // of the columns of J̄
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
-      const double t = Z[0][i] * stabilisation.stress[m][0] + Z[1][i] * stabilisation.stress[m][1] +
-                       Z[2][i] * stabilisation.stress[m][2];
+      const double t = stabilisation.yield.share *
+                       (Z[0][i] * stabilisation.stress[m][0] + Z[1][i] * stabilisation.stress[m][1] +
+                        Z[2][i] * stabilisation.stress[m][2]);
       modal[3 + m][i] = t;
       for (unsigned int k = 0; k < 3; ++k)
         mean_forces[k][i] -= t * kinematics.strain[m][k];
@@ -295,23 +253,21 @@ void OnePointElement::add_force(const Reference &reference, const Kinematics &ki
 template <class Moduli>
 void OnePointElement::compute_tangent(const Reference &reference, const Kinematics &kinematics,
                                       const SymmetricTensor<2, 3> &tau, const Moduli &moduli,
-                                      const Stabilisation &stabilisation, const bool yields,
-                                      ElementMatrix &matrix) const {
+                                      const Stabilisation &stabilisation, ElementMatrix &matrix) const {
   ModalMatrix modal{};
   add_mean_tangent(reference.volume, kinematics.gradients, tau, moduli, bulk_, modal);
 
-  // δ(limit)/limit = δ(s : s)/(s : s) on the yield surface, contracted with L.
-  Tensor<2, 3> limit_rate;
-  if (stabilisation.is_limited && yields)
-    limit_rate = project(tau, moduli) / (2. * shear_ * stabilisation.limit);
+  const SharedYield &yield = stabilisation.yield;
+  const auto flow = multiply_gradients(dealii::deviator(tau) * (yield.slope / yield.share),
+                                       kinematics.gradients); // of δτ, by the trial's δ(energy)
 
   const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
   const HourglassVector &c = kinematics.strain, &s = stabilisation.stress;
   HourglassVector t; // forces of the modes b and c
   for (unsigned int p = 0; p < 4; ++p)
     for (unsigned int i = 0; i < 3; ++i)
-      t[p][i] = Z[0][i] * s[p][0] + Z[1][i] * s[p][1] + Z[2][i] * s[p][2];
-  const double factor = stabilisation.root * stiffness_ * reference.volume;
+      t[p][i] = yield.share * (Z[0][i] * s[p][0] + Z[1][i] * s[p][1] + Z[2][i] * s[p][2]);
+  const double factor = yield.share * stiffness_ * reference.volume;
   for (unsigned int m = 0; m < n_element_modes; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
       // A unit of component i of mode m: δJ̄ = e_i ⊗ β, δ(b_p) = e_i if p is m − 3; δc = Z (δb − δJ̄ c).
@@ -327,16 +283,14 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
           dc[p][k] = share * Z[k][i];
       }
       HourglassVector ds = respond(dc, reference.ratios);
-      double turn = 0.; // δ(root)/root
-      if (stabilisation.is_limited)
-        turn = 0.5 * (limit_rate[i][0] * gradient[0] + limit_rate[i][1] * gradient[1] +
-                      limit_rate[i][2] * gradient[2]) -
-               0.5 * contract(s, dc) / stabilisation.energy * stabilisation.root;
+      const double energy_rate = contract(s, dc);
+      const double share_rate = yield.rate[i][0] * gradient[0] + yield.rate[i][1] * gradient[1] +
+                                yield.rate[i][2] * gradient[2] + yield.slope * energy_rate / reference.volume;
       std::array<std::array<double, 3>, 3> mean_rates{};
       ModalForces rates{};
       for (unsigned int p = 0; p < 4; ++p) {
         for (unsigned int k = 0; k < 3; ++k)
-          ds[p][k] = factor * ds[p][k] + turn * s[p][k];
+          ds[p][k] = factor * ds[p][k] + share_rate * s[p][k];
         for (unsigned int j = 0; j < 3; ++j) {
           // δt = Zᵀ δs − Zᵀ δJ̄ᵀ t, Zᵀ β = gradient
           const double dt =
@@ -347,9 +301,11 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
         }
       }
       for (unsigned int n = 0; n < n_linear_modes; ++n)
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int j = 0; j < 3; ++j)
+        for (unsigned int j = 0; j < 3; ++j) {
+          rates[n][j] += energy_rate * flow[3 * n + j];
+          for (unsigned int k = 0; k < 3; ++k)
             rates[n][j] += mean_rates[k][j] * reference.beta[n][k];
+        }
       for (std::size_t n = 0; n < n_element_modes; ++n)
         for (std::size_t j = 0; j < 3; ++j)
           modal[(3 * n + j) * n_modal_dofs + 3 * m + i] += rates[n][j];
@@ -359,9 +315,9 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
 
 template void OnePointElement::compute_tangent(const Reference &, const Kinematics &,
                                                const SymmetricTensor<2, 3> &, const SpatialModuli &,
-                                               const Stabilisation &, bool, ElementMatrix &) const;
+                                               const Stabilisation &, ElementMatrix &) const;
 template void OnePointElement::compute_tangent(const Reference &, const Kinematics &,
                                                const SymmetricTensor<2, 3> &, const GradientModuli &,
-                                               const Stabilisation &, bool, ElementMatrix &) const;
+                                               const Stabilisation &, ElementMatrix &) const;
 
 } // namespace billet

@@ -2,6 +2,7 @@
 #include "billet/output/checkpoint.h"
 
 #include "billet/errors.h"
+#include "billet/usage.h"
 #include "billet/version.h"
 
 #include <deal.II/base/mpi.h>
@@ -463,6 +464,7 @@ bool Checkpoints::is_due(const unsigned int step, const double time) const {
 }
 
 std::string Checkpoints::write(const double time, const std::function<void(StateWriter &)> &save) {
+  Usage::count(Capability::checkpoints, 1);
   const Checkpoints before(*this);
   std::ostringstream name;
   name << parameters_.folder.value << "/checkpoint_" << std::setw(5) << std::setfill('0') << n_written_

@@ -386,6 +386,13 @@ void Scene::describe_capabilities(std::ostream &stream) const {
                                 return !std::holds_alternative<std::monostate>(body.material.hardening);
                               }),
                 bodies_.size(), "bodies"));
+  tell("Stabilisation", capabilities_.stabilisation,
+       "hourglass modes of " + part(std::count_if(bodies_.begin(), bodies_.end(),
+                                                  [](const Body &body) {
+                                                    return body.formulation.element ==
+                                                           ElementFormulation::Element::one_point;
+                                                  }),
+                                    bodies_.size(), "bodies"));
   tell("Contact", capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
   tell("Friction", capabilities_.friction,
        "history of " +
@@ -409,7 +416,13 @@ void Scene::describe_capabilities(std::ostream &stream) const {
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body &body) { return !body.loads.empty(); });
   tell("Loads", n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
   tell("Inertia", parameters_.is_dynamic(), is_explicit ? "lumped" : "");
-  tell("Error control", parameters_.target_error > 0. || parameters_.time_stepping.error_tolerance > 0., "");
+  const bool has_inertia = parameters_.is_dynamic() && !is_explicit;
+  tell("Error control",
+       parameters_.target_error > 0. || parameters_.time_stepping.error_tolerance > 0. ||
+           (has_inertia && parameters_.implicit_dynamics.error_tolerance > 0.),
+       "");
+  const auto &[every_steps, interval, keep] = parameters_.output.checkpoint;
+  tell("Checkpoints", every_steps > 0 || interval > 0., "the last " + std::to_string(keep) + " are kept");
   tell("Matrix", !is_explicit,
        capabilities_.unsymmetric_matrix ? "unsymmetric; MUMPS, or GMRES with multigrid"
                                         : "symmetric; MUMPS, which factorises half, or CG with multigrid");

@@ -11,6 +11,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <dmumps_c.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace billet {
@@ -124,8 +125,10 @@ public:
 
   std::string name() const override { return is_symmetric_ ? "MUMPS (symmetric)" : "MUMPS (unsymmetric)"; }
   double memory() const override {
-    return 1e6 * mumps_.infog[18];
-  } // INFOG(19): allocated on all ranks, in 1e6 bytes
+    // INFOG(19): allocated on all ranks, in 1e6 bytes. INFOG(29): entries of the factors, or minus millions.
+    const double n_entries = mumps_.infog[28] < 0 ? -1e6 * mumps_.infog[28] : mumps_.infog[28];
+    return std::max(1e6 * mumps_.infog[18], sizeof(double) * n_entries);
+  }
 
 private:
   static constexpr int job_initialize = -1, job_end = -2, job_analyze = 1, job_factorize = 2, job_solve = 3;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/error_watch.h"
+#include "billet/usage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,7 @@ void ErrorWatch::allow_penetration() {
 }
 
 unsigned int ErrorWatch::before_step(StepControl &control, const double previous_step) {
+  Usage::count(Capability::error_control, 1);
   if (probe_length_ > 0. || !errors_.wants_measurement(control.next_step()))
     return 0;
   const double first = control.next_step(), end = control.time_after_next(),

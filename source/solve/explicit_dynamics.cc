@@ -98,6 +98,7 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
 }
 
 void ExplicitDynamics::make_blocks() {
+  std::size_t plastic = 0, stabilised = 0; // bytes
   fail_together(discretization_.communicator(), [&] {
     for (std::size_t b = 0; b < scene_.bodies().size(); ++b) {
       const Body &body = scene_.bodies()[b];
@@ -116,8 +117,14 @@ void ExplicitDynamics::make_blocks() {
                 << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
         throw InputError(message.str());
       }
+      if (!std::holds_alternative<std::monostate>(body.material.hardening))
+        plastic += blocks_.back()->size() * blocks_.back()->history_size() * sizeof(double);
+      if (body.formulation.element == ElementFormulation::Element::one_point)
+        stabilised += blocks_.back()->size() * explicit_stabilisation_size;
     }
   });
+  plastic_memory_.set(plastic);
+  stabilised_memory_.set(stabilised);
 }
 
 void ExplicitDynamics::make_masses() {
@@ -232,11 +239,15 @@ void ExplicitDynamics::compute_internal_forces() {
         why << "at no finite place: a velocity, a load or a penalty may be too large for its units";
       fail(why.str());
     }
+    const Body &body = scene_.bodies()[b];
+    Usage::count_if(!std::holds_alternative<std::monostate>(body.material.hardening), Capability::plasticity,
+                    blocks_[b]->size());
+    Usage::count_if(body.formulation.element == ElementFormulation::Element::one_point,
+                    Capability::stabilisation, blocks_[b]->size());
     element_step_ = std::min(element_step_, result.stable_step);
     elastic_energy_ += result.elastic_energy;
     works_.plastic += result.plastic_work;
     works_.viscous += result.viscous_work;
-    works_.hourglass += result.hourglass_work;
     hourglass_energy_ += result.hourglass_energy;
   }
 }
@@ -386,6 +397,7 @@ void ExplicitDynamics::choose_step(const double event) {
 }
 
 void ExplicitDynamics::kick() {
+  Usage::count(Capability::inertia, inverse_masses_.size());
   const bool is_first = n_steps_ == 0;
   const double half_sum = is_first ? step_ : 0.5 * (step_before_ + step_);
   // At the start v_ is v_0, and v_{−½} follows below.
@@ -419,6 +431,7 @@ void ExplicitDynamics::kick() {
     const ContactLoad load = tools_[i].wants_load()
                                  ? sum_over_ranks(tool_loads_[i], discretization_.communicator())
                                  : ContactLoad();
+    Usage::count_if(tools_[i].wants_load(), Capability::driven_tools, 1);
     tools_[i].kick(time_, load, step_before_, step_, is_first);
   }
 }
@@ -506,7 +519,7 @@ void ExplicitDynamics::update_ledger() {
     own[contact] += load.stored_energy;
   own[friction] = works_.friction;
   own[viscous] = works_.viscous;
-  own[hourglass] = works_.hourglass + hourglass_energy_;
+  own[hourglass] = hourglass_energy_;
   own[external] = works_.external;
   std::vector<double> totals(own.size());
   dealii::Utilities::MPI::sum(own, communicator, totals);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit_errors.h"
+#include "billet/usage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 namespace billet {
 
 void ExplicitErrors::add(const double time, const EnergyLedger &energies) {
+  Usage::count(Capability::error_control, 1);
   const double drift = std::abs(energies.drift()), contact = std::abs(energies.contact),
                total = std::max(energies.total(), std::abs(energies.initial));
   if (has_begun_) {

@@ -111,8 +111,8 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   for (const auto &tool : tools_)
     kinetic += tool.kinetic_energy();
   writer.write("kinetic energy", {kinetic});
-  const std::vector<double> own{works_.external,  works_.plastic,  works_.friction,  works_.viscous,
-                                works_.hourglass, elastic_energy_, hourglass_energy_};
+  const std::vector<double> own{works_.external, works_.plastic,  works_.friction,
+                                works_.viscous,  elastic_energy_, hourglass_energy_};
   std::vector<double> sums(own.size());
   dealii::Utilities::MPI::sum(own, communicator, sums);
   EnergyLedger energies = state_.energies;
@@ -121,11 +121,11 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   energies.plastic = sums[1];
   energies.friction = sums[2];
   energies.viscous = sums[3];
-  energies.hourglass = sums[4] + sums[6];
-  energies.elastic = sums[5];
+  energies.elastic = sums[4];
+  energies.hourglass = sums[5];
   writer.write("energies", to_numbers(energies));
   writer.write("largest energy", {largest_energy_});
-  writer.write_rows("works", 5, {rank}, {own.begin(), own.begin() + 5});
+  writer.write_rows("works", 4, {rank}, {own.begin(), own.begin() + 4});
 
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     writer.in(group("body", b), [&] {
@@ -197,18 +197,11 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
   const bool is_same_partition =
       is_exact && reader.n_ranks() == dealii::Utilities::MPI::n_mpi_processes(discretization_.communicator());
   if (is_same_partition) {
-    const std::vector<double> works = reader.read_rows("works", 5, {rank});
-    works_ = {works[0], works[1], works[2], works[3], works[4]};
+    const std::vector<double> works = reader.read_rows("works", 4, {rank});
+    works_ = {works[0], works[1], works[2], works[3]};
   } else if (rank == 0) {
     const EnergyLedger &e = state_.energies;
-    works_ = {e.external, e.plastic, e.friction, e.viscous, is_exact ? 0. : e.hourglass};
-  }
-  if (is_exact && !is_same_partition) {
-    // Of the hourglass energy only what was lost is kept as a sum.
-    double lost = 0.;
-    for (std::uint64_t r = 0; r < reader.n_ranks(); ++r)
-      lost += reader.read_rows("works", 5, {r})[4];
-    works_.hourglass = rank == 0 ? lost : 0.;
+    works_ = {e.external, e.plastic, e.friction, e.viscous};
   }
   if (is_exact)
     largest_energy_ = reader.number("largest energy");

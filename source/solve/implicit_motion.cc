@@ -2,6 +2,7 @@
 #include "billet/solve/implicit_motion.h"
 
 #include "billet/errors.h"
+#include "billet/usage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,7 @@ void ImplicitMotion::start_step(const double t_n, const double t, const Vector &
                                 const std::vector<double> &offsets) {
   if (t_n_ == t_n && step_ == t - t_n)
     return;
+  Usage::count(Capability::inertia, displacements.locally_owned_size());
   t_n_ = t_n;
   step_ = t - t_n;
   u_n_ = displacements;
@@ -296,6 +298,7 @@ double ImplicitMotion::tool_slope(const std::size_t tool) const {
 double ImplicitMotion::step_error(const Vector &displacements) const {
   if (parameters_.error_tolerance == 0.)
     return 0.;
+  Usage::count(Capability::error_control, 1);
   Vector change = a_;
   change -= a_n_;
   const double error = integrator_.error_factor() * step_ * step_ * mean_size(change);

@@ -708,6 +708,7 @@ double QuasiStatic::imbalance(const std::size_t tool, const double t) const {
 
 void QuasiStatic::assemble_tool_tangent() {
   const std::size_t n = unknown_tools_.size();
+  Usage::count_if(n > 0, Capability::driven_tools, n);
   tool_columns_.assign(n, discretization_.make_owned_vector());
   tool_rows_ = tool_columns_;
   tool_block_.reinit(n, n);

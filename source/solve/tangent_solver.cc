@@ -85,14 +85,30 @@ bool TangentSolver::factorize_directly() {
   is_direct_now_ = true;
   if (direct_->factorize()) {
     norm_ = has_told_condition_ ? 0. : matrix_->NormInf();
+    note_memory();
     return true;
   }
   failure_ = direct_->failure();
   return false;
 }
 
+void TangentSolver::note_memory() {
+  // Of factors only their sum over all ranks is known.
+  const auto share = [this](const double bytes) {
+    return static_cast<std::size_t>(bytes / matrix_->Comm().NumProc());
+  };
+  const std::size_t factors = direct_ ? share(direct_->memory()) : 0;
+  matrix_memory_.set(static_cast<std::size_t>(matrix_->NumMyNonzeros()) * (sizeof(double) + sizeof(int)) +
+                     (symmetric_ ? factors : 0));
+  unsymmetric_memory_.set(symmetric_ ? 0 : factors);
+  iterative_memory_.set(is_direct_now_ ? 0 : share(iterative_->memory()));
+}
+
 bool TangentSolver::factorize() {
   failure_.clear();
+  Usage::count(Capability::matrix, static_cast<std::size_t>(matrix_->NumMyNonzeros()));
+  Usage::count_if(!symmetric_, Capability::unsymmetric_matrix,
+                  static_cast<std::size_t>(matrix_->NumMyNonzeros()));
   if (!iterative_)
     return factorize_directly();
   if (pause_ > 0) {
@@ -103,6 +119,7 @@ bool TangentSolver::factorize() {
   is_direct_now_ = false;
   if (!iterative_->factorize())
     return fall_back();
+  note_memory();
   if (!has_told_memory_) {
     std::ostringstream text;
     text.precision(3);
@@ -163,7 +180,13 @@ void TangentSolver::watch_condition(const Epetra_Vector &b, const Epetra_Vector 
   has_told_condition_ = true;
 }
 
-unsigned int TangentSolver::take_iterations() { return iterative_ ? iterative_->take_iterations() : 0; }
+unsigned int TangentSolver::take_iterations() {
+  if (!iterative_)
+    return 0;
+  const unsigned int n = iterative_->take_iterations();
+  Usage::count_if(n > 0, Capability::iterative_solver, n);
+  return n;
+}
 
 std::string TangentSolver::take_note() {
   std::string result;

@@ -35,8 +35,8 @@ publish(
     "the section; each run once.",
     "## Meshes, eight points with mean dilatation", table(HEAD, [run(m, {ELEMENT: "mean dilatation"}) for m in meshes]),
     "## Meshes, one point", table(HEAD, [run(m, {ELEMENT: "one point"}) for m in meshes]),
-    "The two elements approach each other from both sides: the end's radius, at its rim, which lifts off the wall, from "
-    "above with eight points and from below with one. The usual values are of meshes as coarse as the first two, with "
-    "one point.",
+    "One point agrees with eight within 1 % on each mesh, and takes as many steps, since elements at the end are squeezed as "
+    "much. The usual values are of meshes as coarse as the first two, with one point and hourglass control: where that "
+    "keeps its elastic stiffness in plastic flow the radius is 7.09 on 2304 bricks, and comes from below.",
     "## Elements and laws",
     table(["element", "law"] + HEAD, [list(v) + run(2, {ELEMENT: v[0], LAW: v[1]}) for v in variants]))

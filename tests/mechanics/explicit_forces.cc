@@ -170,33 +170,68 @@ void test_hourglass() {
         1e-6);
 }
 
-/// Plasticity limits what the stabilisation stores; what it loses is dissipated.
-void test_hourglass_yield(const Kinematics kinematics) {
+/// Bending by the stabilisation alone, to and fro: one yield condition for both, (M32). With e the strain at
+/// the faces and E' = E/(1 − ν²): q = √(G E') |e|, moment and plastic strain of the first way in closed form.
+void test_plastic_bending(const Kinematics kinematics) {
   const Formulation formulation = make_formulation(Element::one_point, kinematics);
   Body body(make_mesh(cube()), {steel, perfect}, formulation);
-  const NodalTensor field = hourglass_field(2, 0);
-  const double limit = 700. * 700. / (6. * steel.shear);
-  double work = 0., dissipated = 0.;
-  WorstError above, negative;
+  const NodalTensor field = hourglass_field(2, 0); // e = 2 of a unit
+  const double yield = 700., G = steel.shear, plane = young / (1. - poisson * poisson);
+  const double limit = yield * yield / (6. * G);
+  double work = 0., dissipated = 0., amplitude = 0.;
+  WorstError above, negative, moment, strain;
   NodalTensor last;
-  double amplitude = 0.;
   for (unsigned int step = 1; step <= 2000; ++step) {
-    amplitude += step <= 1000 ? 2e-5 : -2e-5;
+    const double change = step <= 1000 ? 2e-5 : -2e-5;
+    amplitude += change;
     const NodalTensor force = body.advance(amplitude * field, 0.);
-    work += 0.5 * ((force + last) * field) * (step <= 1000 ? 2e-5 : -2e-5);
+    work += 0.5 * ((force + last) * field) * change;
     last = force;
-    dissipated += body.result().hourglass_work;
+    dissipated += body.result().plastic_work;
     above.add(body.result().hourglass_energy / limit - 1.);
-    negative.add(-body.result().hourglass_work);
+    negative.add(-body.result().plastic_work);
+    const double q = std::sqrt(G * plane) * 2. * amplitude;
+    if (step <= 1000 && q > yield) {
+      moment.add(std::abs(force * field / (2. / 3. * yield * std::sqrt(plane / G)) - 1.));
+      strain.add(std::abs(body.summarize().equivalent_plastic_strain / ((q - yield) / (3. * G)) - 1.));
+    }
   }
-  const std::string name = name_of(formulation) + ", hourglass strain beyond yield, ";
+  const std::string name = name_of(formulation) + ", bending beyond yield, ";
   check(name + "stored energy is limited", above.value(), 1e-12);
+  check(name + "moment", moment.value(), 1e-12);
+  check(name + "plastic strain", strain.value(), 1e-10);
   check(name + "dissipation is positive", negative.value(), 0.);
   check(name + "it dissipates", dissipated > limit);
   check(name + "work is stored or dissipated",
         std::abs(work - dissipated - body.result().hourglass_energy - body.summarize().elastic_energy) /
             dissipated,
         5e-3);
+}
+
+/// Simple shear that flows, and bending beside it: the stabilisation is as stiff as flow is, σ_y/3 α̇ for G;
+/// of bending by Δe in each step σ_y/(3 G Δα) Δe stays elastic.
+void test_hourglass_flow(const Kinematics kinematics) {
+  const Formulation formulation = make_formulation(Element::one_point, kinematics);
+  const double yield = 7., change = 2e-5, part = 0.1;
+  Body body(make_mesh(cube()), {steel, LinearHardening{yield, 0.}}, formulation);
+  Tensor<2, 3> shear;
+  shear[0][1] = 1.;
+  const NodalTensor field = displace(unit + shear, cube()) + part * hourglass_field(2, 0);
+  NodalTensor force;
+  double before = 0., now = 0.;
+  for (unsigned int step = 1; step <= 200; ++step) {
+    force = body.advance(step * change * field, 1.);
+    before = now;
+    now = body.summarize().equivalent_plastic_strain;
+  }
+  const double rate = now - before, e = 2. * part * change, plane = young / (1. - poisson * poisson);
+  const std::string name = name_of(formulation) + ", bending in flow, ";
+  check(name + "plastic strain",
+        std::abs(rate / std::sqrt(change * change / 3. + plane * e * e / (9. * steel.shear)) - 1.), 1e-2);
+  check(name + "moment",
+        std::abs(force * hourglass_field(2, 0) / (2. / 3. * plane * e * yield / (3. * steel.shear * rate)) -
+                 1.),
+        1e-2);
 }
 
 int main() {
@@ -210,7 +245,9 @@ int main() {
       test_energy(formulation);
   });
   test_hourglass();
-  for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic})
-    test_hourglass_yield(kinematics);
+  for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic}) {
+    test_plastic_bending(kinematics);
+    test_hourglass_flow(kinematics);
+  }
   return exit_code();
 }

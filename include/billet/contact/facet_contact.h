@@ -9,6 +9,7 @@
 #include "billet/contact/surface_exchange.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/state.h"
+#include "billet/usage.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -352,6 +353,8 @@ private:
   std::vector<std::vector<std::uint64_t>> coupled_;
   Positions nodal_forces_; ///< with ghosts, of one step
   std::vector<double> nodal_sums_;
+  HeldMemory memory_{Capability::body_contact}, friction_memory_{Capability::friction},
+      edge_memory_{Capability::edges}, augmentation_memory_{Capability::augmentation};
 };
 
 } // namespace billet

@@ -9,6 +9,7 @@
 #include "billet/geometry/frame.h"
 #include "billet/scene/rigid_motions.h"
 #include "billet/state.h"
+#include "billet/usage.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -217,6 +218,7 @@ private:
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
   bool is_removed_ = false;
+  HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction};
 };
 
 } // namespace billet

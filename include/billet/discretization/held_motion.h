@@ -45,6 +45,7 @@ private:
 
   std::vector<Node> nodes_;
   std::vector<unsigned int> held_;
+  std::size_t n_moving_ = 0; ///< nodes with a prescribed motion
 };
 
 } // namespace billet

@@ -4,6 +4,7 @@
 
 #include "billet/discretization/supports.h"
 #include "billet/mechanics/element_block.h"
+#include "billet/usage.h"
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -32,7 +33,7 @@ public:
   struct Energies {
     double elastic = 0.;
     double plastic = 0.;
-    double hourglass = 0.; ///< stored and lost
+    double hourglass = 0.; ///< stored by the stabilisation
   };
   /// At committed history; on all ranks the same.
   Energies compute_energies(const Vector &displacements) const;
@@ -49,7 +50,11 @@ public:
 
 private:
   const Discretization &discretization_;
+  void count() const;
+
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
+  std::size_t n_plastic_ = 0, n_stabilised_ = 0;      ///< elements
+  HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
 };
 
 } // namespace billet

@@ -114,14 +114,16 @@ public:
   /// See HypoelasticElasticity::update() and, for `yield_slack`, HenckyPlasticity::update(). With s the trial
   /// deviator, dev τ = β s: the moduli are β A + s ⊗ (k − β)/q ∂q, k = σ_y'/(3 G + σ_y'), ∂q = 3/2 s : A/q.
   bool update(const dealii::Tensor<2, 3> &F, const double J, const History &history_n, History &history,
-              dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli,
-              const double yield_slack = 0.) const {
+              dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const double yield_slack = 0.,
+              SharedYield *shared = nullptr) const {
     if (!elastic_law_.update(F, J, history_n, history, tau, moduli))
       return false;
     const double alpha_n = history_n.equivalent_plastic_strain;
     history.equivalent_plastic_strain = alpha_n;
     const dealii::SymmetricTensor<2, 3> s = history.deviator;
-    const double q = std::sqrt(1.5) * s.norm(), yield_stress = hardening_.stress(alpha_n);
+    const double q =
+        std::sqrt(1.5 * (s * s) + (shared != nullptr ? 6. * elastic_.shear * shared->energy : 0.));
+    const double yield_stress = hardening_.stress(alpha_n);
     if (q > yield_stress * (1. + yield_slack)) {
       const double three_g = 3. * elastic_.shear;
       const double delta_alpha = q > yield_stress ? solve_consistency(hardening_, q, three_g, alpha_n) : 0.;
@@ -129,13 +131,19 @@ public:
       history.equivalent_plastic_strain += delta_alpha;
       history.deviator = beta * s;
       tau -= reduction * s;
+      const double slope = hardening_.slope(alpha_n + delta_alpha), k = slope / (three_g + slope);
+      if (shared != nullptr) {
+        shared->share = beta;
+        shared->slope = three_g * (k - beta) / (q * q);
+      }
       if (moduli != nullptr) {
-        const double slope = hardening_.slope(alpha_n + delta_alpha);
-        const double factor = 1.5 * (slope / (three_g + slope) - beta) / (q * q);
+        const double factor = 1.5 * (k - beta) / (q * q);
         for (unsigned int j = 0; j < 9; ++j) {
           double projection = 0.; // s : A
           for (unsigned int i = 0; i < 6; ++i)
             projection += (i < 3 ? 1. : 2.) * s.access_raw_entry(i) * (*moduli)[i][j];
+          if (shared != nullptr)
+            shared->rate[j / 3][j % 3] = factor * projection;
           for (unsigned int i = 0; i < 6; ++i)
             (*moduli)[i][j] = beta * (*moduli)[i][j] + factor * projection * s.access_raw_entry(i);
         }
@@ -162,9 +170,6 @@ public:
     return {HypoelasticElasticity::restore(numbers), numbers[n_history - 1]};
   }
 
-  double yield_stress(const History &history) const {
-    return hardening_.stress(history.equivalent_plastic_strain);
-  }
   double plastic_work(const History &history) const {
     return hardening_.work(history.equivalent_plastic_strain);
   }

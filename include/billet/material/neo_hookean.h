@@ -86,13 +86,15 @@ public:
   /// See HenckyPlasticity::update(). The moduli are exact, and unsymmetric by the order of the elastic strain
   /// where the point yields: their s ⊗ ∂β is.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
-              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli,
-              const double yield_slack = 0.) const {
+              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli, const double yield_slack = 0.,
+              SharedYield *shared = nullptr) const {
     IsochoricState trial;
     if (!compute_isochoric_state(F, history_n.inverse_plastic_metric, trial))
       return false;
     const dealii::SymmetricTensor<2, 3> s = elastic_.shear * trial.deviator;
-    const double q = std::sqrt(1.5) * s.norm(), alpha_n = history_n.equivalent_plastic_strain;
+    const double alpha_n = history_n.equivalent_plastic_strain;
+    const double q =
+        std::sqrt(1.5 * (s * s) + (shared != nullptr ? 6. * elastic_.shear * shared->energy : 0.));
     const double yield_stress = hardening_.stress(alpha_n);
     double beta = 1., delta_alpha = 0.;
     dealii::SymmetricTensor<2, 3> beta_rate;
@@ -100,8 +102,14 @@ public:
       const double m = 3. * elastic_.shear * trial.mean;
       delta_alpha = q > yield_stress ? solve_consistency(hardening_, q, m, alpha_n) : 0.;
       beta = 1. - m * delta_alpha / q;
+      const double slope = hardening_.slope(alpha_n + delta_alpha), k = slope / (m + slope);
       if (moduli != nullptr)
-        beta_rate = compute_beta_rate(s, q, m, beta, delta_alpha, hardening_.slope(alpha_n + delta_alpha));
+        beta_rate = compute_beta_rate(s, q, m, beta, k, delta_alpha);
+      if (shared != nullptr) {
+        shared->share = beta;
+        shared->slope = 3. * elastic_.shear * (k - beta) / (q * q);
+        shared->rate = beta_rate;
+      }
     }
     tau = beta * s + elastic_.bulk * std::log(trial.J) * dealii::unit_symmetric_tensor<3>();
     if (moduli != nullptr)
@@ -135,27 +143,20 @@ public:
                       equivalent_plastic_strain);
   }
 
-  double yield_stress(const History &history) const {
-    return hardening_.stress(history.equivalent_plastic_strain);
-  }
   double plastic_work(const History &history) const {
     return hardening_.work(history.equivalent_plastic_strain);
   }
 
 private:
-  /// ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), and the rates of q and m = 3 μ̄:
-  ///   q̇ = √(3/2) (2 μ̄ n + 2 |s| dev n²) : d,   ṁ = 2 s : d,   n = s/|s|.
+  /// ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), k = σ_y'/(m + σ_y'), and the rates of q and m = 3 μ̄:
+  ///   q q̇ = (m s + 3 dev s²) : d,   ṁ = 2 s : d.
   static dealii::SymmetricTensor<2, 3> compute_beta_rate(const dealii::SymmetricTensor<2, 3> &s,
                                                          const double q, const double m, const double beta,
-                                                         const double delta_alpha, const double slope) {
-    const double norm = s.norm();
-    const dealii::SymmetricTensor<2, 3> n = s / norm;
-    const dealii::Tensor<2, 3> matrix = n;
-    const dealii::SymmetricTensor<2, 3> q_rate =
-        std::sqrt(1.5) *
-        ((2. / 3.) * m * n + 2. * norm * dealii::deviator(dealii::symmetrize(matrix * matrix)));
-    const double k = slope / (m + slope);
-    return ((k - beta) * q_rate - (2. * k * delta_alpha) * s) / q;
+                                                         const double k, const double delta_alpha) {
+    const dealii::Tensor<2, 3> matrix = s;
+    return ((k - beta) / q * (m * s + 3. * dealii::deviator(dealii::symmetrize(matrix * matrix))) -
+            (2. * k * delta_alpha) * s) /
+           q;
   }
 
   ElasticModuli elastic_;

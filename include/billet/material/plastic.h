@@ -10,6 +10,16 @@
 
 namespace billet {
 
+/// The yield condition that a point shares with the stabilisation of its element, (M32) of doc/theory.md:
+/// √(q² + 6 G W) = σ_y, as W = σ_y²/6G is what a yielding point stores. The return leaves the same share of
+/// both stresses.
+struct SharedYield {
+  double energy = 0.;        ///< W: what the stabilisation would store without flow [energy/volume]
+  double share = 1.;         ///< β
+  double slope = 0.;         ///< ∂β/∂W
+  dealii::Tensor<2, 3> rate; ///< ∂β : L is the rate of β at given W
+};
+
 /// Solves q − 3G Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0. Newton,
 /// kept inside a shrinking bracket: hardening laws with kinks or steep starts cannot throw it off. Ends at
 /// round-off.
@@ -89,14 +99,15 @@ public:
   /// `tau` [stress], the history at its end, and, if `moduli` is given, the consistent tangent. `history_n`
   /// and `history` may not be the same object. False where F is not admissible (not finite, singular): the
   /// step has to be cut. A point yields where q > σ_y (1 + `yield_slack`): in a state that has just yielded,
-  /// where round-off would decide, 1e-9 gives the tangent of unloading, −1e-9 that of further loading.
+  /// where round-off would decide, 1e-9 gives the tangent of unloading, −1e-9 that of further loading. With
+  /// `shared`, whose energy is given, q is that of both; its other numbers are answers.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
-              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli,
-              const double yield_slack = 0.) const {
+              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli, const double yield_slack = 0.,
+              SharedYield *shared = nullptr) const {
     PrincipalElasticState trial;
     PrincipalResponse response;
     double delta_alpha = 0.;
-    if (!respond(F, history_n, yield_slack, trial, response, delta_alpha))
+    if (!respond(F, history_n, yield_slack, shared, trial, response, delta_alpha))
       return false;
     tau = compute_kirchhoff_stress(trial, response);
     if (moduli != nullptr)
@@ -123,8 +134,9 @@ public:
     PrincipalElasticState trial;
     PrincipalResponse response;
     double delta_alpha = 0.;
-    return respond(F, history, 0., trial, response, delta_alpha) ? compute_elastic_energy(elastic_, trial)
-                                                                 : 0.;
+    return respond(F, history, 0., nullptr, trial, response, delta_alpha)
+               ? compute_elastic_energy(elastic_, trial)
+               : 0.;
   }
 
   /// The history with which `F` has the Kirchhoff stress of this deviator, where that is below the yield
@@ -134,16 +146,14 @@ public:
     return history_of(F, exponential(deviator / elastic_.shear), equivalent_plastic_strain);
   }
 
-  double yield_stress(const History &history) const {
-    return hardening_.stress(history.equivalent_plastic_strain);
-  }
   double plastic_work(const History &history) const {
     return hardening_.work(history.equivalent_plastic_strain);
   }
 
 private:
   bool respond(const dealii::Tensor<2, 3> &F, const History &history_n, const double yield_slack,
-               PrincipalElasticState &trial, PrincipalResponse &response, double &delta_alpha) const {
+               SharedYield *shared, PrincipalElasticState &trial, PrincipalResponse &response,
+               double &delta_alpha) const {
     const dealii::Tensor<2, 3> C_p_inverse = history_n.inverse_plastic_metric;
     const double J = dealii::determinant(F);
     if (!(J > 0.) ||
@@ -156,20 +166,31 @@ private:
     double dev_norm = 0.;
     for (const double e : trial.deviatoric_log_strains)
       dev_norm += e * e;
+    const double three_g = 3. * elastic_.shear;
+    const double own = two_g * three_g * dev_norm; // square of the trial state's von Mises stress
+    const double q = std::sqrt(own + (shared != nullptr ? 2. * three_g * shared->energy : 0.));
     dev_norm = std::sqrt(dev_norm);
-    const double q = std::sqrt(1.5) * two_g * dev_norm; // von Mises stress of the trial state
 
     delta_alpha = 0.;
     const double alpha_n = history_n.equivalent_plastic_strain;
     const double yield_stress = hardening_.stress(alpha_n);
     if (q > yield_stress * (1. + yield_slack)) {
-      const double three_g = 3. * elastic_.shear;
       delta_alpha = q > yield_stress ? solve_consistency(hardening_, q, three_g, alpha_n) : 0.;
       const double reduction = three_g * delta_alpha / q;
       response.beta = 1. - reduction;
-      response.gamma = three_g / (three_g + hardening_.slope(alpha_n + delta_alpha)) - reduction;
-      for (unsigned int a = 0; a < 3; ++a)
-        response.flow_direction[a] = trial.deviatoric_log_strains[a] / dev_norm;
+      const double gamma = three_g / (three_g + hardening_.slope(alpha_n + delta_alpha)) - reduction;
+      if (dev_norm > 0.) {
+        response.gamma = gamma * own / (q * q);
+        for (unsigned int a = 0; a < 3; ++a)
+          response.flow_direction[a] = trial.deviatoric_log_strains[a] / dev_norm;
+      }
+      if (shared != nullptr) {
+        shared->share = response.beta;
+        shared->slope = -gamma * three_g / (q * q);
+        for (unsigned int a = 0; a < 3; ++a)
+          shared->rate += shared->slope * two_g * trial.deviatoric_log_strains[a] *
+                          dealii::outer_product(trial.directions[a], trial.directions[a]);
+      }
     }
     for (unsigned int a = 0; a < 3; ++a)
       response.stress[a] = elastic_.bulk * trial.volumetric_log_strain +

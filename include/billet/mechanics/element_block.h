@@ -39,8 +39,8 @@ struct ElementFormulation {
   bool is_symmetrised = false; ///< the symmetric part of an unsymmetric tangent, see has_symmetric_tangent()
 };
 
-/// Whether the exact tangent of a body is symmetric: not with the hypoelastic law; where `is_plastic` not
-/// with the neo-Hookean law, nor with the one-point element, whose stabilisation yields with the point.
+/// Whether the exact tangent of a body is symmetric: not with the hypoelastic law, nor, where `is_plastic`,
+/// with the neo-Hookean law.
 bool has_symmetric_tangent(const ElementFormulation &formulation, bool is_plastic);
 
 /// What a history means: element and kinematics in words.
@@ -52,7 +52,7 @@ struct ElementSummary {
   double equivalent_plastic_strain = 0.;       ///< average over the reference volume
   double elastic_energy = 0.;                  ///< integral [energy]
   double plastic_work = 0.;                    ///< integral [energy]
-  double hourglass_energy = 0.;                ///< stored in the stabilisation, and lost there [energy]
+  double hourglass_energy = 0.;                ///< stored in the stabilisation [energy]
 };
 
 /// Where a material point stands, whatever law and kinematics it has: enough to go on with others.

@@ -74,7 +74,6 @@ public:
     /// equal steps from rest is not, if viscosity is linear.
     double viscous_work;
     double hourglass_energy; ///< stored by the stabilisation now [energy]
-    double hourglass_work;   ///< dissipated by the stabilisation in this step, ≥ 0 [energy]
     std::size_t inverted;    ///< an element with det F ≤ 0 or not finite, or size()
   };
 
@@ -105,6 +104,9 @@ public:
   /// law is hypoelastic.
   virtual void set_stress(std::size_t element, const double *displacements, const ElementStress &stress) = 0;
 };
+
+/// What the stabilisation of a one-point element keeps [bytes].
+constexpr std::size_t explicit_stabilisation_size = 19 * sizeof(double);
 
 /// What a history means: element and kinematics in words.
 std::string describe(const ExplicitFormulation &formulation);

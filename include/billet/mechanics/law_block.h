@@ -54,30 +54,32 @@ public:
     ElementHistory &history = history_at(history_, element);
     Stresses tau;
     Moduli moduli;
-    for (unsigned int q = 0; q < n_points; ++q)
-      if (!update(reference, kinematics, q, history_n.points[q], history.points[q], tau[q],
-                  matrix != nullptr ? &moduli[q] : nullptr, yield_slack))
-        return false;
     force.fill(0.);
     if constexpr (Element::is_stabilised) {
       typename Element::Stabilisation stabilisation;
-      bool yields = false;
-      if constexpr (Law::has_plasticity) {
-        const double yield_stress = law_.yield_stress(history.points[0]);
-        yields = law_.equivalent_plastic_strain(history.points[0]) >
-                     law_.equivalent_plastic_strain(history_n.points[0]) ||
-                 (yield_slack < 0. &&
-                  std::sqrt(1.5) * dealii::deviator(tau[0]).norm() > yield_stress * (1. + yield_slack));
-        stabilisation = element_.stabilise(reference, kinematics, yield_stress, yield_slack,
-                                           history_n.element, history.element);
-      } else
+      typename Law::Moduli *const wanted = matrix != nullptr ? &moduli[0] : nullptr;
+      if constexpr (keeps_element_history) {
+        stabilisation = element_.stabilise(reference, kinematics, history_n.element);
+        stabilisation.yield.energy = stabilisation.energy / reference.volume;
+        if (!update(reference, kinematics, 0, history_n.points[0], history.points[0], tau[0], wanted,
+                    yield_slack, &stabilisation.yield))
+          return false;
+        history.element = Element::flow(stabilisation, history_n.element);
+      } else {
         stabilisation = element_.stabilise(reference, kinematics, {});
+        if (!update(reference, kinematics, 0, history_n.points[0], history.points[0], tau[0], wanted))
+          return false;
+      }
       Element::add_force(reference, kinematics, tau[0], stabilisation, force);
       if (matrix != nullptr) {
-        element_.compute_tangent(reference, kinematics, tau[0], moduli[0], stabilisation, yields, *matrix);
+        element_.compute_tangent(reference, kinematics, tau[0], moduli[0], stabilisation, *matrix);
         finish_(*matrix);
       }
     } else {
+      for (unsigned int q = 0; q < n_points; ++q)
+        if (!update(reference, kinematics, q, history_n.points[q], history.points[q], tau[q],
+                    matrix != nullptr ? &moduli[q] : nullptr, yield_slack))
+          return false;
       Element::template add_force<Law::is_rate_form>(reference, kinematics, tau, force);
       if (matrix != nullptr)
         compute_tangent_(element_, reference, kinematics, tau, moduli, *matrix);
@@ -100,7 +102,7 @@ public:
       const double w = Element::reference_volume(reference, q);
       typename Law::History ignored;
       dealii::SymmetricTensor<2, 3> tau;
-      if (!update(reference, kinematics, q, history, ignored, tau, nullptr, 0.))
+      if (!update(reference, kinematics, q, history, ignored, tau, nullptr))
         continue;
       summary.cauchy_stress += w * tau; // σ J w = τ w
       summary.equivalent_plastic_strain += w * law_.equivalent_plastic_strain(history);
@@ -117,8 +119,7 @@ public:
     summary.equivalent_plastic_strain /= reference_volume;
     if constexpr (Element::is_stabilised) {
       if constexpr (keeps_element_history)
-        summary.hourglass_energy =
-            element_.stabilise(reference, kinematics, histories.element).energy + histories.element.lost;
+        summary.hourglass_energy = element_.stabilise(reference, kinematics, histories.element).energy;
       else
         summary.hourglass_energy = element_.stabilise(reference, kinematics, {}).energy;
     }
@@ -166,7 +167,7 @@ public:
     for (unsigned int q = 0; q < n_points; ++q) {
       typename Law::History ignored;
       const auto &history = history_at(history_n_, element).points[q];
-      if (update(reference, kinematics, q, history, ignored, stress[q].deviator, nullptr, 0.))
+      if (update(reference, kinematics, q, history, ignored, stress[q].deviator, nullptr))
         stress[q].deviator = dealii::deviator(stress[q].deviator);
       stress[q].equivalent_plastic_strain = law_.equivalent_plastic_strain(history);
     }
@@ -218,16 +219,16 @@ private:
   template <class E> struct StabilisedPoints : Points { typename E::History element; };
   using ElementHistory = std::conditional_t<keeps_element_history, StabilisedPoints<Element>, Points>;
 
+  /// `more`: the yield slack and, of plastic laws, what is shared with the stabilisation.
+  template <class... More>
   bool update(const Reference &reference, const Kinematics &kinematics, const unsigned int q,
               const typename Law::History &history_n, typename Law::History &history,
-              dealii::SymmetricTensor<2, 3> &tau, typename Law::Moduli *moduli,
-              const double yield_slack) const {
+              dealii::SymmetricTensor<2, 3> &tau, typename Law::Moduli *moduli, More... more) const {
     const auto &F = Element::template deformation<Law::is_rate_form>(reference, kinematics, q);
     if constexpr (Law::is_rate_form)
-      return law_.update(F, Element::volume_ratio(kinematics, q), history_n, history, tau, moduli,
-                         yield_slack);
+      return law_.update(F, Element::volume_ratio(kinematics, q), history_n, history, tau, moduli, more...);
     else
-      return law_.update(F, history_n, history, tau, moduli, yield_slack);
+      return law_.update(F, history_n, history, tau, moduli, more...);
   }
 
   template <bool is_symmetrised>

@@ -2,6 +2,7 @@
 #ifndef BILLET_MECHANICS_ONE_POINT_H
 #define BILLET_MECHANICS_ONE_POINT_H
 
+#include "billet/material/plastic.h"
 #include "billet/mechanics/element_block.h"
 #include "billet/mechanics/modal_geometry.h"
 #include "billet/mechanics/point_tangent.h"
@@ -10,7 +11,7 @@ namespace billet {
 
 /// The one-point brick of the explicit kernels, with its tangent: stored energy V ψ(F̄) of the mean gradient
 /// F̄, and that of the hourglass strains ĥ which F̄ does not see, (X4), (X5) of doc/theory.md. Where the body
-/// is plastic the latter is limited to what a yielding point stores, σ_y²/6G, by moving ĥ_0.
+/// is plastic both yield together, (M32), and flow moves ĥ_0.
 class OnePointElement {
 public:
   static constexpr unsigned int n_points = 1;
@@ -34,22 +35,21 @@ public:
     HourglassVector strain;                ///< ĉ = J̄⁻¹ (b_1, b_2, b_3, c)
     double volume;                         ///< V J
   };
-  /// What the stabilisation keeps: how far plastic flow has moved ĥ_0, and the energy lost with it.
+  /// What the stabilisation keeps: how far plastic flow has moved ĥ_0.
   struct History {
     HourglassVector shift{};
-    double lost = 0.;
   };
-  static constexpr unsigned int n_history = 13;
+  static constexpr unsigned int n_history = 12;
+  static constexpr std::size_t stabilisation_size =
+      sizeof(HourglassVector) + 6 * sizeof(double); ///< of Reference [bytes]
   static void store(const History &history, double *numbers);
   static History restore(const double *numbers);
 
   /// The stabilisation's answer.
   struct Stabilisation {
-    HourglassVector strain, stress; ///< ĥ and V ∂W/∂ĥ after the limit
-    bool is_limited = false;
-    double root = 1.;   ///< what the limit has multiplied them with
-    double limit = 0.;  ///< [energy/volume]
-    double energy = 0.; ///< stored
+    HourglassVector strain, stress; ///< ĥ and V ∂W/∂ĥ without flow
+    double energy = 0.;             ///< that they store
+    SharedYield yield;              ///< what is left of both
   };
 
   OnePointElement(const ElasticModuli &elastic, const ElementFormulation &formulation);
@@ -70,12 +70,11 @@ public:
     return reference.volume;
   }
 
-  /// Elastic.
+  /// Without flow.
   Stabilisation stabilise(const Reference &reference, const Kinematics &kinematics,
                           const History &history_n) const;
-  /// With the yield stress [stress] at the end of the step; `yield_slack` as in HenckyPlasticity::update().
-  Stabilisation stabilise(const Reference &reference, const Kinematics &kinematics, double yield_stress,
-                          double yield_slack, const History &history_n, History &history) const;
+  /// Of the end of the step.
+  static History flow(const Stabilisation &stabilisation, const History &history_n);
   /// The history with which the element's hourglass strains hold no energy.
   static History find_history(const Reference &reference, const Kinematics &kinematics);
 
@@ -83,12 +82,11 @@ public:
                         const dealii::SymmetricTensor<2, 3> &tau, const Stabilisation &stabilisation,
                         ElementVectors &force);
 
-  /// `yields`: the limit follows the point's stress, on the yield surface. Symmetric where the moduli are and
-  /// it does not.
+  /// Symmetric where the moduli are and the rate of the share belongs to them: with Hencky's law.
   template <class Moduli>
   void compute_tangent(const Reference &reference, const Kinematics &kinematics,
                        const dealii::SymmetricTensor<2, 3> &tau, const Moduli &moduli,
-                       const Stabilisation &stabilisation, bool yields, ElementMatrix &matrix) const;
+                       const Stabilisation &stabilisation, ElementMatrix &matrix) const;
 
 private:
   HourglassVector respond(const HourglassVector &h, const std::array<double, 6> &ratios) const;

@@ -9,6 +9,7 @@
 #include "billet/mechanics/explicit_block.h"
 #include "billet/solve/free_tool.h"
 #include "billet/solve/restart.h"
+#include "billet/usage.h"
 
 #include <memory>
 #include <vector>
@@ -132,8 +133,9 @@ private:
   double largest_energy_ = 0.;
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
   struct Works {
-    double external = 0., plastic = 0., friction = 0., viscous = 0., hourglass = 0.;
+    double external = 0., plastic = 0., friction = 0., viscous = 0.;
   };
+  HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
   Works works_;                                        ///< since time 0, of this rank
   double elastic_energy_ = 0., hourglass_energy_ = 0.; ///< at t_n, of this rank
   SolutionState state_;

@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_TANGENT_SOLVER_H
 
 #include "billet/solve/iterative_solver.h"
+#include "billet/usage.h"
 
 #include <memory>
 #include <string>
@@ -61,6 +62,10 @@ private:
   bool has_told_condition_ = false;
   double norm_ = 0.; ///< |A|, as factorised directly
   std::string name_, failure_, note_;
+  HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},
+      iterative_memory_{Capability::iterative_solver};
+
+  void note_memory();
 };
 
 } // namespace billet

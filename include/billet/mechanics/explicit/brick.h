@@ -208,7 +208,7 @@ inline std::size_t count_elements(const Elements &elements, const std::size_t fi
 
 /// Of an element, or summed over batches.
 struct Energies {
-  Real elastic = {}, plastic = {}, viscous = {}, hourglass = {}, hourglass_work = {};
+  Real elastic = {}, plastic = {}, viscous = {}, hourglass = {};
 };
 
 /// Sums over the batches.
@@ -223,7 +223,6 @@ struct Totals {
     add(n, more.plastic, energies.plastic);
     add(n, more.viscous, energies.viscous);
     add(n, more.hourglass, energies.hourglass);
-    add(n, more.hourglass_work, energies.hourglass_work);
   }
 
   void finish(Result &result) const {
@@ -232,7 +231,6 @@ struct Totals {
     result.plastic_work = sum_lanes(energies.plastic);
     result.viscous_work = sum_lanes(energies.viscous);
     result.hourglass_energy = sum_lanes(energies.hourglass);
-    result.hourglass_work = sum_lanes(energies.hourglass_work);
   }
 
 private:

@@ -45,12 +45,13 @@ BILLET_INLINE void add_point(const Material &material, const LaneFunctions &func
     middle.complete();
     map.complete();
     sums.inadmissible |= !(middle.det > 0.);
-    Law::template update<is_plastic>(material, functions, middle, d, history, stress, sums.watch);
+    Law::template update<is_plastic>(material, functions, middle, d, Real{}, history, stress, sums.watch);
     factor = inverse_mean_J;
   } else {
     map.complete();
     factor = weight * map.inverse_det;
-    Law::template update<is_plastic>(material, functions, map, map.det / weight, history, stress, sums.watch);
+    Law::template update<is_plastic>(material, functions, map, map.det / weight, Real{}, history, stress,
+                                     sums.watch);
   }
   sums.inadmissible |= !(map.det > 0. && map.det < 1e300);
   const Real volume = is_rate_form<Law> ? factor * map.det : weight; // as the forces have it

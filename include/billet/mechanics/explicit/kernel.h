@@ -63,7 +63,7 @@ struct Step {
 
 struct Result {
   double largest_rate; ///< 1/stable step
-  double elastic_energy, plastic_work, viscous_work, hourglass_energy, hourglass_work;
+  double elastic_energy, plastic_work, viscous_work, hourglass_energy;
   std::size_t inverted; ///< n_elements if none
 };
 

@@ -4,8 +4,9 @@
 
 #include "billet/mechanics/explicit/lanes.h"
 
-// The laws at a point. Symmetric tensors are 11, 22, 33, 12, 13, 23. Matrices are arrays of columns: m[k][i]
-// is row i of column k.
+// The laws at a point. `hourglass` is what a one-point element's stabilisation adds to the square of the
+// stress in the yield condition, 6 G W (M32); zero for eight points. Symmetric tensors are 11, 22, 33, 12,
+// 13, 23. Matrices are arrays of columns: m[k][i] is row i of column k.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -98,7 +99,8 @@ BILLET_INLINE Real bound_eigenvalue(const Real a[6]) {
 struct Watch {
   Real distortion = {};   ///< elastic energy, but for that of the volume
   Real plastic_work = {}; ///< of the step: mean yield stress times the change of α
-  Real mises = {};        ///< largest von Mises stress (Kirchhoff) of the points
+  Real mises = {};        ///< largest stress in the yield condition (Kirchhoff) of the points
+  Real share = {};        ///< β of the last point: what the return has left of its trial stress
   Mask failed = {};       ///< not admissible
 };
 
@@ -144,7 +146,7 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
   return delta;
 }
 
-/// Where the yield condition is exceeded α grows; returns (q − m Δα)/q, or 1. `history` points at α (and
+/// Where the yield condition is exceeded α grows; returns β = (q − m Δα)/q, or 1. `history` points at α (and
 /// σ_y).
 template <bool is_plastic>
 BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
@@ -250,7 +252,8 @@ struct Hencky {
 
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, const Map &map,
-                                   const Real, double *history, Real dev_tau[6], Watch &watch) {
+                                   const Real, const Real hourglass, double *history, Real dev_tau[6],
+                                   Watch &watch) {
     Real h[6], x[6];
     for (unsigned int k = 0; k < 6; ++k)
       h[k] = load(history + k * n_lanes);
@@ -262,13 +265,14 @@ struct Hencky {
     Real log_b[6], mean;
     compute_logarithm(functions, x, i2, log_b, mean, watch.failed);
 
-    const Real norm = square_root(contract(log_b, log_b));
-    const Real q = (1.224744871391589 * material.shear) * norm; // √(3/2)
+    const Real own = (1.5 * material.shear * material.shear) * contract(log_b, log_b);
+    const Real q = square_root(own + hourglass);
     Mask yields{};
     const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3. * material.shear),
                                              history + 6 * n_lanes, yields, watch);
     watch.mises = max(watch.mises, beta * q);
-    watch.distortion = (beta * q) * (beta * q) * (1. / (6. * material.shear));
+    watch.distortion = beta * beta * own * (1. / (6. * material.shear));
+    watch.share = beta;
     const Real factor = beta * material.shear;
     for (unsigned int k = 0; k < 6; ++k)
       dev_tau[k] = factor * log_b[k];
@@ -305,7 +309,8 @@ struct NeoHookean {
 
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, const Map &map,
-                                   const Real J, double *history, Real dev_tau[6], Watch &watch) {
+                                   const Real J, const Real hourglass, double *history, Real dev_tau[6],
+                                   Watch &watch) {
     Real h[6], b[6];
     for (unsigned int k = 0; k < 6; ++k)
       h[k] = load(history + k * n_lanes);
@@ -315,20 +320,22 @@ struct NeoHookean {
     const Real mean = (b[0] + b[1] + b[2]) * (1. / 3.);
     for (unsigned int k = 0; k < 6; ++k)
       dev_tau[k] = (material.shear * scale) * (b[k] - (k < 3 ? mean : Real{}));
-    const Real q = square_root(1.5 * contract(dev_tau, dev_tau));
+    const Real own = 1.5 * contract(dev_tau, dev_tau);
+    const Real q = square_root(own + hourglass);
     Mask yields{};
     const Real mean_bar = scale * mean; // tr b̄_e / 3
     const Real beta = return_map<is_plastic>(material, functions, q, (3. * material.shear) * mean_bar,
                                              history + 6 * n_lanes, yields, watch);
     // The bound of the tangent takes 2 G; what tr b̄_e/3 adds to it is put into the stress.
     watch.mises = max(watch.mises, beta * q + (material.shear * (2. / 3.)) * (mean_bar - 1.));
+    watch.share = beta;
     if (is_plastic && any(yields)) {
       for (unsigned int k = 0; k < 6; ++k)
         dev_tau[k] *= beta;
       flow(material, map, yields, scale, mean_bar, beta, dev_tau, history, watch);
     } else {
       const double flexibility = 1. / material.shear;
-      const Real i2 = (flexibility * flexibility / 3.) * q * q;
+      const Real i2 = (flexibility * flexibility / 3.) * own;
       const Real i3 = (flexibility * flexibility * flexibility) * determinant(dev_tau);
       watch.distortion = compute_distortion(material, mean_bar, i2, i3);
     }
@@ -373,8 +380,8 @@ struct Hypoelastic {
 
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions,
-                                   const Map &middle, const Real delta[3][3], double *history,
-                                   Real dev_tau[6], Watch &watch) {
+                                   const Map &middle, const Real delta[3][3], const Real hourglass,
+                                   double *history, Real dev_tau[6], Watch &watch) {
     Real l[3][3]; // l[k][i] = ΔL_ik = Σ_m Δ_im cof_km / det
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
@@ -388,12 +395,14 @@ struct Hypoelastic {
     for (unsigned int k = 3; k < 6; ++k)
       dev_tau[k] += material.shear * (l[column_of[k]][row_of[k]] + l[row_of[k]][column_of[k]]);
 
-    const Real q = square_root(1.5 * contract(dev_tau, dev_tau));
+    const Real own = 1.5 * contract(dev_tau, dev_tau);
+    const Real q = square_root(own + hourglass);
     Mask yields{};
     const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3. * material.shear),
                                              history + 5 * n_lanes, yields, watch);
     watch.mises = max(watch.mises, beta * q);
-    watch.distortion = (beta * q) * (beta * q) * (1. / (6. * material.shear));
+    watch.distortion = beta * beta * own * (1. / (6. * material.shear));
+    watch.share = beta;
     if (is_plastic)
       for (unsigned int k = 0; k < 6; ++k)
         dev_tau[k] *= beta;

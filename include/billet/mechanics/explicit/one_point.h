@@ -79,72 +79,70 @@ BILLET_INLINE void compute_mean(const Modes &modes, const double *constants, Rea
     }
 }
 
-struct HourglassResult {
-  Real energy, work, bound;
+/// Of a step's end before plastic flow: ĉ = J̄⁻¹ (b_1, b_2, b_3, c), ĥ, and what they store.
+struct HourglassTrial {
+  Real c[4][3], h[4][3], s[4][3], ratio[6];
+  Real density; ///< energy per reference volume, the scene's factor counted
 };
 
-/// Forces of modes b and c, and those of J̄'s columns added to `mean_forces`. In plasticity the stored energy
-/// per volume is limited to what a yielding point stores, σ_y²/(6 G), by moving ĥ_0. The work lost is that of
-/// the mean of the stresses at both ends of the step, as if it had begun at the limit and gone straight on.
-template <bool is_plastic>
-BILLET_INLINE HourglassResult add_hourglass(const Material &material, const Modes &x, const Map &map,
-                                            const Real metric[6], const Real eigenvalue,
-                                            const double *constants, double *history, const Real yield_stress,
-                                            Modes &forces, Real mean_forces[3][3]) {
-  const HourglassModuli moduli(material);
-  const Real volume = load(constants + one_point::volume * n_lanes);
-  Real c[4][3], h[4][3], s[4][3], ratio[6];
+BILLET_INLINE void compute_hourglass(const Material &material, const HourglassModuli &moduli, const Modes &x,
+                                     const Map &map, const double *constants, const double *history,
+                                     HourglassTrial &trial) {
   for (unsigned int k = 0; k < 6; ++k)
-    ratio[k] = load(constants + (one_point::ratios + k) * n_lanes);
+    trial.ratio[k] = load(constants + (one_point::ratios + k) * n_lanes);
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int k = 0; k < 3; ++k) {
-      c[m][k] = map.inverse_det * dot(map.cofactor[k], x.m[3 + m]);
-      h[m][k] = c[m][k] - load(history + (one_point::hourglass + 3 * m + k) * n_lanes);
+      trial.c[m][k] = map.inverse_det * dot(map.cofactor[k], x.m[3 + m]);
+      trial.h[m][k] = trial.c[m][k] - load(history + (one_point::hourglass + 3 * m + k) * n_lanes);
     }
-  Real density = moduli.respond(h, ratio, s);
-  HourglassResult result;
-  Real factor = material.hourglass_stiffness * volume;
-  result.work = Real{};
-  if constexpr (is_plastic) {
-    const Real limit = yield_stress * yield_stress * (1. / (6. * material.shear));
-    if (any(density > limit)) {
-      const Real share = limit / max(density, limit);
-      const Real root = square_root(share);
-      result.work = 2. * factor * density * (root - share);
-      density *= share;
-      for (unsigned int m = 0; m < 4; ++m)
-        for (unsigned int k = 0; k < 3; ++k) {
-          h[m][k] *= root;
-          s[m][k] *= root;
-          store(history + (one_point::hourglass + 3 * m + k) * n_lanes, c[m][k] - h[m][k]);
-        }
-    }
-  }
-  result.energy = factor * density;
+  trial.density = material.hourglass_stiffness * moduli.respond(trial.h, trial.ratio, trial.s);
+}
 
-  factor *= map.inverse_det;
+/// Plastic flow leaves the `share` of the hourglass strains' elastic part that it leaves of the point's
+/// stress, (M33): ĥ_0 takes the rest.
+BILLET_INLINE void flow(const Real share, double *history, HourglassTrial &trial) {
+  if (!any(share < 1.))
+    return;
+  const Real lost = 1. - share;
+  trial.density *= share * share;
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k) {
+      double *shift = history + (one_point::hourglass + 3 * m + k) * n_lanes;
+      store(shift, load(shift) + lost * trial.h[m][k]);
+      trial.h[m][k] *= share;
+      trial.s[m][k] *= share;
+    }
+}
+
+/// Forces of modes b and c, and those of J̄'s columns added to `mean_forces`. Returns a bound of their
+/// stiffness.
+BILLET_INLINE Real add_hourglass(const Material &material, const HourglassModuli &moduli,
+                                 const HourglassTrial &hourglass, const Map &map, const Real metric[6],
+                                 const Real eigenvalue, const double *constants, Modes &forces,
+                                 Real mean_forces[3][3]) {
+  const Real total = material.hourglass_stiffness * load(constants + one_point::volume * n_lanes);
+  const Real factor = total * map.inverse_det;
   Real c2{}, h2{};
   for (unsigned int m = 0; m < 4; ++m) {
-    c2 += dot(c[m], c[m]);
-    h2 += dot(h[m], h[m]);
+    const Real *c = hourglass.c[m], *h = hourglass.h[m], *s = hourglass.s[m];
+    c2 += dot(c, c);
+    h2 += dot(h, h);
     for (unsigned int i = 0; i < 3; ++i) {
-      const Real t = factor * (map.cofactor[0][i] * s[m][0] + map.cofactor[1][i] * s[m][1] +
-                               map.cofactor[2][i] * s[m][2]);
+      const Real t =
+          factor * (map.cofactor[0][i] * s[0] + map.cofactor[1][i] * s[1] + map.cofactor[2][i] * s[2]);
       forces.m[3 + m][i] += t;
       for (unsigned int k = 0; k < 3; ++k)
-        mean_forces[k][i] -= t * c[m][k];
+        mean_forces[k][i] -= t * c[k];
     }
   }
-  result.bound = material.hourglass_stiffness * volume * moduli.bound(metric, eigenvalue, ratio) *
-                 (1. + c2 + square_root(h2) * (2. + c2)) *
-                 load(constants + one_point::hourglass_bound * n_lanes);
-  return result;
+  return total * moduli.bound(metric, eigenvalue, hourglass.ratio) * (1. + c2 + square_root(h2) * (2. + c2)) *
+         load(constants + one_point::hourglass_bound * n_lanes);
 }
 
 template <class Law, bool is_plastic>
 BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &functions, const Modes &delta,
-                               const double *constants, const Real J, const Map &map, double *history,
-                               Real dev_tau[6], Watch &watch) {
+                               const double *constants, const Real J, const Real hourglass, const Map &map,
+                               double *history, Real dev_tau[6], Watch &watch) {
   if constexpr (is_rate_form<Law>) {
     Real d[3][3];
     compute_mean(delta, constants, d);
@@ -154,9 +152,9 @@ BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &fu
         middle.j[k][i] = map.j[k][i] - 0.5 * d[k][i];
     middle.complete();
     watch.failed |= !(middle.det > 0.);
-    Law::template update<is_plastic>(material, functions, middle, d, history, dev_tau, watch);
+    Law::template update<is_plastic>(material, functions, middle, d, hourglass, history, dev_tau, watch);
   } else
-    Law::template update<is_plastic>(material, functions, map, J, history, dev_tau, watch);
+    Law::template update<is_plastic>(material, functions, map, J, hourglass, history, dev_tau, watch);
 }
 
 template <class Law, bool is_plastic>
@@ -180,7 +178,13 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   Real stress[6], metric[6];
   Watch watch;
   double *point_history = history + one_point::point * n_lanes;
-  update_mean<Law, is_plastic>(material, functions, delta, constants, J, map, point_history, stress, watch);
+  const HourglassModuli moduli(material);
+  HourglassTrial hourglass;
+  compute_hourglass(material, moduli, x, map, constants, history, hourglass);
+  update_mean<Law, is_plastic>(material, functions, delta, constants, J,
+                               (6. * material.shear) * hourglass.density, map, point_history, stress, watch);
+  if constexpr (is_plastic)
+    flow(watch.share, history, hourglass);
   map.compute_metric(metric);
   for (Real &component : metric)
     component *= map.inverse_det * map.inverse_det;
@@ -199,14 +203,8 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
     multiply(stress, map.cofactor[k], mean_forces[k]);
 
   Modes forces{};
-  Real yield_stress{};
-  if constexpr (is_plastic)
-    yield_stress = material.hardening_kind == HardeningKind::linear
-                       ? material.yield_stress +
-                             material.hardening_modulus * load(point_history + Law::n_tensor * n_lanes)
-                       : load(point_history + (Law::n_tensor + 1) * n_lanes);
-  const HourglassResult hourglass = add_hourglass<is_plastic>(material, x, map, metric, eigenvalue, constants,
-                                                              history, yield_stress, forces, mean_forces);
+  const Real hourglass_bound =
+      add_hourglass(material, moduli, hourglass, map, metric, eigenvalue, constants, forces, mean_forces);
   for (unsigned int m = 0; m < 6; ++m)
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int k = 0; k < 3; ++k)
@@ -218,8 +216,8 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
   const Real elastic = watch.distortion + compute_dilatation_energy(material, mean_tau);
   const Energies energies{reference_volume * elastic, reference_volume * watch.plastic_work, damping.work,
-                          hourglass.energy, hourglass.work};
-  totals.add(n, bound_rate(modulus * omega + hourglass.bound, damping.rate * J * omega), energies);
+                          reference_volume * hourglass.density};
+  totals.add(n, bound_rate(modulus * omega + hourglass_bound, damping.rate * J * omega), energies);
   const Mask bad = watch.failed | !(map.det > 0. && map.det < 1e300);
   if (__builtin_expect(any(bad), 0))
     note_failure(bad, first, result);

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_USAGE_H
+#define BILLET_USAGE_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace billet {
+
+/// What a scene may ask of the program, and pays for if it does: Scene::describe_capabilities() says which of
+/// the first it asks for.
+enum class Capability {
+  plasticity,
+  stabilisation, ///< of one-point elements
+  contact,
+  friction,
+  body_contact, ///< search and exchange of facets
+  self_contact,
+  edges,
+  augmentation,
+  moving_supports,
+  driven_tools,
+  loads,
+  inertia,
+  error_control,
+  matrix,
+  unsymmetric_matrix,
+  iterative_solver,
+  checkpoints,
+  n
+};
+
+/// As in describe_capabilities().
+const char *name_of(Capability capability);
+
+/// How often the loops of each capability have run in this process, over how many items (elements, nodes,
+/// pairs, tools, entries), and the most memory that they held. Counted by the loop, never inside one. What a
+/// scene does not ask for stays at 0.
+class Usage {
+public:
+  struct Entry {
+    std::uint64_t calls = 0, items = 0;
+    std::uint64_t bytes = 0, peak = 0; ///< held now, and at most
+  };
+
+  static void count(const Capability capability, const std::size_t n_items) {
+    Entry &entry = at(capability);
+    ++entry.calls;
+    entry.items += n_items;
+  }
+  /// Counts where that is asked for.
+  static void count_if(const bool is_used, const Capability capability, const std::size_t n_items) {
+    if (is_used)
+      count(capability, n_items);
+  }
+  static const Entry &of(const Capability capability) { return at(capability); }
+
+private:
+  friend class HeldMemory;
+  static Entry &at(const Capability capability) { return entries[static_cast<std::size_t>(capability)]; }
+  static std::array<Entry, static_cast<std::size_t>(Capability::n)> entries;
+};
+
+/// Memory that an object holds for a capability, as long as the object lives.
+class HeldMemory {
+public:
+  explicit HeldMemory(const Capability capability) : capability_(capability) {}
+  HeldMemory(HeldMemory &&other) noexcept
+      : capability_(other.capability_), bytes_(std::exchange(other.bytes_, 0)) {}
+  HeldMemory(const HeldMemory &) = delete;
+  HeldMemory &operator=(const HeldMemory &) = delete;
+  HeldMemory &operator=(HeldMemory &&) = delete;
+  ~HeldMemory() { set(0); }
+
+  void set(const std::size_t bytes) {
+    Usage::Entry &entry = Usage::at(capability_);
+    entry.bytes += bytes - bytes_;
+    entry.peak = entry.bytes > entry.peak ? entry.bytes : entry.peak;
+    bytes_ = bytes;
+  }
+
+private:
+  Capability capability_;
+  std::size_t bytes_ = 0;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a scene pays for each capability that it asks for: instructions and memory, from one elastic body on."""
+
+import csv
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from billet_runs import PROGRAM, Measured, arguments, number, percent, publish, table
+
+options = arguments("capabilities")
+EDGE = 5
+STEPS, END = 3, 1e-5  # of static scenes; of explicit ones, in s
+
+
+def body(name, bottom, plastic, element, more):
+    supports = {"lower": "set Symmetry planes = x = 0 ; y = 0 ; z = 0", "upper": "set Symmetry planes = x = 0 ; y = 0"}
+    hardening = "set Yield stress = 300\n set Hardening modulus = 1000" if plastic else "set Law = elastic"
+    return f"""subsection {name}
+ {supports[bottom]}
+ set Element = {element}
+ subsection Mesh
+ set Primitive = subdivided_hyper_rectangle
+ set Arguments = {EDGE}, {EDGE}, {EDGE if bottom == "lower" else 1} : 0, 0, {0 if bottom == "lower" else 10} : 10, 10, {10 if bottom == "lower" else 12} : true
+ end
+ subsection Material
+ set Density = 7.8e-9
+ set Young modulus = 200e3
+ {hardening}
+ end
+ {more}
+end
+"""
+
+
+def scene(explicit=False, plastic=False, element="mean dilatation", tool=False, friction=False, second=False, augmented=False,
+          edges=False, self_contact=False):
+    push = (f"subsection Loads\n subsection push\n set Type = pressure\n set Boundary ids = 5\n set Pressure = 400*t/{END}\n end\n end"
+            if explicit else "subsection Supports\n subsection push\n set Boundary ids = 5\n set Components = z\n"
+            " set Displacement = 0 ; 0 ; -0.05*t\n end\n end")
+    pairs, time = "", "t" + (f"/{END}" if explicit else "")
+    of_pair = ("set Normal penalty = 1\n" + ("set Friction coefficient = 0.1\n" if friction else "")
+               + ("set Penetration tolerance = 1e-4\n" if augmented else "") + ("set Edges = true\n" if edges else ""))
+    if second:
+        pairs += ("subsection block on cap\n set Body = block\n set Boundary ids = 5\n set Second body = cap\n"
+                  " set Second boundary ids = 4\n" + of_pair + "end\n")
+    if tool:
+        pairs += "subsection die\n set Body = block\n set Boundary ids = 1\n set Tool = die\n" + of_pair.replace("set Edges = true\n", "") + "end\n"
+    if self_contact:
+        pairs += ("subsection folds\n set Body = block\n set Boundary ids = 1, 3\n set Second body = block\n set Normal penalty = 1\nend\n")
+    text = "subsection Bodies\n" + body("block", "lower", plastic, element, "" if second else push)
+    if second:
+        text += body("cap", "upper", False, "mean dilatation", push)
+    text += "end\n"
+    if tool:
+        text += ("subsection Tools\n subsection die\n subsection Surfaces\n subsection face\n set Point = 10, 0, 0\n set Normal = -1, 0, 0\n"
+                 f" end\n end\n subsection Motion\n set Translation = -0.01*{time} ; 0 ; 0\n end\n end\nend\n")
+    if pairs:
+        text += "subsection Contact pairs\n" + pairs + "end\n"
+    if explicit:
+        text += (f"subsection Time stepping\n set Scheme = explicit\n set End time = {END}\nend\n"
+                 "subsection Explicit dynamics\n set Instructions = AVX2\nend\n")  # what valgrind knows
+    else:
+        text += (f"subsection Time stepping\n set Step control = fixed\n set Initial step = {1 / STEPS}\nend\n")
+    return text + "subsection Output\n set Folder = results\n set Format = none\n set Verbosity = quiet\nend\n"
+
+
+class Run:
+    """`instructions` of a run, without what libraries do before it; `rows` of capabilities.csv by name, the `last` of the history,
+    `megabytes`."""
+
+    def __init__(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder)
+            (place / "scene.prm").write_text(text)
+            plain = Measured([PROGRAM, "scene.prm"], place)
+            if plain.code != 0:
+                sys.exit(f"billet ended with {plain.code}: {plain.stderr}\n{text}")
+            self.megabytes = plain.megabytes
+            done = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=billet::run_simulation(*",
+                                   "--callgrind-out-file=/dev/null", PROGRAM, "scene.prm"], cwd=place, capture_output=True, text=True,
+                                  env={**os.environ, "OPENBLAS_CORETYPE": "Haswell"})
+            if done.returncode != 0:
+                sys.exit(f"under valgrind billet ended with {done.returncode}: {done.stderr}")
+            self.instructions = int(re.search(r"Collected : (\d+)", done.stderr).group(1))
+            with open(place / "results/capabilities.csv", newline="") as file:
+                self.rows = {row["capability"]: {key: int(row[key]) for key in ("calls", "items", "bytes")} for row in csv.DictReader(file)}
+            with open(place / "results/history.csv", newline="") as file:
+                self.last = list(csv.DictReader(file))[-1]
+        print(f"{self.instructions / 1e6:.5g} million instructions, {self.megabytes:.4g} MB", file=sys.stderr, flush=True)
+
+    def paid(self):
+        return ", ".join(name.lower() for name, row in self.rows.items() if row["calls"])
+
+    def counted(self):
+        return sum(row["bytes"] for row in self.rows.values()) / 1e6
+
+    def iterations(self):
+        return int(self.last["total_iterations"])
+
+
+def static_rows(cases):
+    rows, base = [], None
+    for name, changes in cases:
+        run = Run(scene(**changes))
+        each = run.instructions / run.iterations()
+        base = base or each
+        factors = run.rows["Matrix"]["bytes"] + run.rows["Unsymmetric"]["bytes"]
+        rows.append([name, run.paid(), run.iterations(), number(run.instructions / 1e6, 5), number(each / 1e6, 4), number(each / base, 3),
+                     number(factors / 1e6, 3), number(run.counted(), 3), number(run.megabytes, 4)])
+    return rows
+
+
+def explicit_rows(cases):
+    rows, base = [], None
+    for name, changes in cases:
+        run = Run(scene(explicit=True, **changes))
+        steps = int(run.last["step"])
+        n_elements = EDGE ** 3 + (EDGE ** 2 if changes.get("second") else 0)
+        each = run.instructions / steps / n_elements
+        base = base or each
+        rows.append([name, run.paid(), steps, number(run.instructions / 1e6, 5), number(each, 4), number(each / base, 3),
+                     number(run.counted(), 3), number(run.megabytes, 4)])
+    return rows
+
+
+STATIC = [
+    ("one elastic body", {}),
+    ("plastic", {"plastic": True}),
+    ("against a tool", {"plastic": True, "tool": True}),
+    ("the tool rough", {"plastic": True, "tool": True, "friction": True}),
+    ("two bodies", {"plastic": True, "second": True}),
+    ("all: two bodies and a tool, rough, augmented", {"plastic": True, "tool": True, "friction": True, "second": True, "augmented": True}),
+]
+EXPLICIT = [
+    ("one elastic body", {}),
+    ("plastic", {"plastic": True}),
+    ("against a tool", {"plastic": True, "tool": True}),
+    ("two bodies", {"plastic": True, "second": True}),
+    ("all: two bodies and a tool, rough, edges, self-contact",
+     {"plastic": True, "tool": True, "friction": True, "second": True, "edges": True, "self_contact": True}),
+]
+static, explicit = static_rows(STATIC), explicit_rows(EXPLICIT)
+publish(
+    "capabilities", "What capabilities cost", options,
+    f"A block of {EDGE} × {EDGE} × {EDGE} bricks that is pressed by 0.5 % (explicit: by a pressure), and what is added to it; the second body is a cap of {EDGE} × {EDGE} bricks, the tool a plane at "
+    "the side. Instructions are those of the whole run, set-up and output counted, by callgrind; memory as counted by capability in "
+    "`capabilities.csv`, and the largest of the process, of which 100 MB and more are libraries. Each line is a scene that pays for "
+    "what stands in its second column and for nothing else; `tests/cli/capabilities.pl` holds each capability to that.",
+    "## Static", f"In {STEPS} steps. The last column but three: instructions of an iteration over those of the first line.",
+    table(["scene", "pays for", "iterations", "10⁶ instructions", "10⁶ of an iteration", "over the first", "MB of matrix and factors", "MB counted",
+           "MB of the process"], static),
+    "## Explicit", "AVX2. Instructions of a step and element, set-up shared out.",
+    table(["scene", "pays for", "steps", "10⁶ instructions", "of a step and element", "over the first", "MB counted", "MB of the process"], explicit))
