@@ -3,6 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/output/checkpoint.h"
+#include "billet/output/energy_watch.h"
 #include "billet/output/error_report.h"
 #include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
@@ -335,6 +336,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   std::unique_ptr<ErrorWatch> watch;
   if (ErrorWatch::is_wanted(parameters))
     watch = std::make_unique<ErrorWatch>(scene, discretization, problem);
+  EnergyWatch energies(parameters.is_dynamic() ? EnergyWatch::Balance::is_told
+                                               : EnergyWatch::Balance::is_left);
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
@@ -390,6 +393,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
+      outputs.progress.warn(energies.look(control.time(), problem.state().energies));
       outputs.snapshots.after_step(control.n_steps(), problem);
       const Signals::Wish wish = outputs.signals.look();
       const bool is_last = control.is_finished() && outputs.checkpoints.is_regular();
@@ -508,6 +512,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   if (parameters.explicit_dynamics.scaled_step > 0.)
     outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
 
+  EnergyWatch energies(EnergyWatch::Balance::is_left); // where they fail to balance the run ends
   const auto put_out = [&] {
     problem.update_ledger();
     fail_together(discretization.communicator(), [&] {
@@ -515,6 +520,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         outputs.history->write(problem.n_steps(), problem.step_length(), problem.state());
     });
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
+    outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
   };
   constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
   // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in

@@ -115,7 +115,7 @@ class Runner:
 
         with open(work / "stdout", "w") as out, open(work / "stderr", "w") as err:
             process = subprocess.Popen([str(self.program), "scene.prm"], cwd=work, stdout=out, stderr=err, preexec_fn=small,
-                                       start_new_session=True, env={**os.environ, **ALONE})
+                                       start_new_session=True, env={**os.environ, **ALONE, "TMPDIR": str(work)})
             try:
                 code = process.wait(limit)
             except subprocess.TimeoutExpired:
