@@ -383,7 +383,8 @@ def symmetry(r, name, map_point, map_vector):
         return []
     scale = float(numpy.max(numpy.abs(u)))
     allowed = newton(r, 100, 1e-4)
-    if "kinetic_energy" in r.history and r.knobs.penalty > 1e3:
+    ratio = r.knobs.modulus_ratio  # the stiffer side sets the penalty
+    if "kinetic_energy" in r.history and r.knobs.penalty * max(ratio, 1 / ratio) >= 1e3:
         allowed = 0.05  # nodes rattle on such penalties: a billiard, in which round-off grows with every blow
     return [Finding(name, part(float(numpy.max(numpy.abs(u[to] - map_vector(u)))), scale), allowed)]
 
@@ -425,8 +426,8 @@ def ledger(h):
 def drift(r):
     """Energies balance; the program's own sum is done again here."""
     h = r.history
-    scale = float(numpy.max(h["kinetic_energy"] + h["elastic_energy"], initial=0.0))
     total = ledger(h) - h["external_work"]
+    scale = max(float(numpy.max(ledger(h))), float(numpy.max(numpy.abs(h["external_work"] + total[0]))))
     return [Finding("energy balance", part(float(numpy.max(numpy.abs(h["energy_drift"]))), scale), 0.3),
             Finding("energy balance at the end", part(abs(h["energy_drift"][-1]), scale), 0.055),
             Finding("energy ledger", part(float(numpy.max(numpy.abs(total - total[0] + h["energy_drift"] - h["energy_drift"][0]))), scale), 1e-6)]
@@ -483,7 +484,7 @@ def skidding(mass, speed, gravity):
         h, law = r.history, r.setup.facts["friction"]
         t, along, up = h["time"], h["momentum_x"], h["momentum_z"] + mass * gravity * h["time"]
         scale = mass * max(speed, gravity * float(t[-1]))
-        found = [Finding("momentum across", float(numpy.max(numpy.abs(h["momentum_y"]))) / scale, 1e-4),
+        found = [Finding("momentum across", float(numpy.max(numpy.abs(h["momentum_y"]))) / scale, 1e-4 if r.knobs.penalty < 1e3 else 0.05),
                  Finding("not pushed", max(0.0, float(numpy.max(along - mass * speed))) / scale, 1e-3),
                  Finding("borne", max(0.0, -float(numpy.min(up))) / scale, 1e-6)]
         if law["law"] != "pressure dependent":
@@ -518,19 +519,22 @@ def closed_cycles(name):
 
 # --- two runs ----------------------------------------------------------------------------------------------------------------
 
-def same(r, other, loose=1e-6, count=True):
-    """The same scene in other units, or turned: as many iterations and steps, and the same history."""
+def same(r, other, loose=1e-6, count="exact"):
+    """The same scene in other units, or turned: as many iterations and steps, and the same history. Where units are no powers of
+    two round-off differs, and a node that is just at the limit of friction may slip in the one and stick in the other: a
+    correction or a cut more ('nearly')."""
     found = []
     if count:
         for column in ("step", "total_iterations", "total_cuts"):
             if column in r.history and column in other.history:
-                found.append(Finding(f"as many: {column}", abs(float(r.history[column][-1]) - float(other.history[column][-1])), 0.5))
+                a, b = float(r.history[column][-1]), float(other.history[column][-1])
+                found.append(Finding(f"as many: {column}", abs(a - b), 0.5 if count == "exact" else 1.5 + 0.1 * b, f"{a:g} for {b:g}"))
     for name in r.named:
         if name not in other.named:
             continue
         a, b = r.force(name), other.force(name)
         n = min(len(a), len(b))
-        if not count:
+        if count != "exact":
             a, b, n = a[-1:], b[-1:], 1
         found.append(Finding(f"same force: {name}", part(float(numpy.max(numpy.abs(a[:n] - b[:n]))), max(largest_force(r), largest_force(other))), loose))
     u, v = r.fields["displacement"], other.fields["displacement"]

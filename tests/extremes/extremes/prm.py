@@ -18,7 +18,9 @@ def text(sections, depth=0):
 
 
 def number(value):
-    return f"{value:.15g}"
+    """So that it is read back as it is."""
+    short = f"{value:.15g}"
+    return short if float(short) == float(value) else repr(float(value))
 
 
 def rotation(axis, degrees):
