@@ -100,13 +100,45 @@ private:
   double last_ = -1.;
 };
 
+/// Whether its yield stress does not grow without end.
+bool has_limit(const parameters::Material &material) {
+  if (material.law == parameters::Material::Law::elastic)
+    return false;
+  switch (material.hardening) {
+  case parameters::Material::Hardening::table:
+    return true;
+  case parameters::Material::Hardening::power_law:
+    return material.exponent == 0.;
+  default:
+    return material.hardening_modulus == 0.;
+  }
+}
+
+/// Where physics may be what ends a static run: forces that a body cannot bear.
+std::string describe_limit_load(const parameters::Scene &parameters) {
+  if (parameters.is_dynamic())
+    return "";
+  const auto is_given = [](const parameters::Tool &tool) {
+    return tool.motion.control == parameters::Motion::Control::force ||
+           tool.motion.control == parameters::Motion::Control::moment;
+  };
+  const auto tool = std::find_if(parameters.tools.begin(), parameters.tools.end(), is_given);
+  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
+                                 [](const parameters::Body &b) { return has_limit(b.material); });
+  if (tool == parameters.tools.end() || body == parameters.bodies.end())
+    return "";
+  return "Body '" + body->name + "' yields without hardening, and tool '" + tool->name +
+         "' presses with a given force: above the limit load nothing is in balance. If that is what ends the "
+         "run, move the tool by its 'Translation', or let the material harden. ";
+}
+
 std::string explain_failure(const parameters::Scene &parameters, const StepReport &report, const double from,
                             const double to) {
   std::ostringstream message;
   message << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
           << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure
           << "; residual " << report.newton.force << " of the forces, allowed is "
-          << parameters.solver.force_tolerance << ". ";
+          << parameters.solver.force_tolerance << ". " << describe_limit_load(parameters);
   if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
   else
