@@ -7,6 +7,7 @@ import os
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import time
 import traceback
@@ -77,7 +78,7 @@ class Runner:
         code, stderr = told
         said = messages.reason(stderr)
         if code is None:
-            return {"outcome": "hung", "reason": f"not finished after {case.limit:g} s"}
+            return {"outcome": "hung", "reason": f"not finished after {case.limit:g} s of the processor"}
         if code in (2, 3):
             lacks = messages.lacks(code, said)
             if lacks:
@@ -118,14 +119,15 @@ class Runner:
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
 
-        def small():
+        def bounded():
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 5))
 
         with open(work / "stdout", "w") as out, open(work / "stderr", "w") as err:
-            process = subprocess.Popen([str(self.program), "scene.prm"], cwd=work, stdout=out, stderr=err, preexec_fn=small,
+            process = subprocess.Popen([str(self.program), "scene.prm"], cwd=work, stdout=out, stderr=err, preexec_fn=bounded,
                                        start_new_session=True, env={**os.environ, **ALONE, "TMPDIR": str(work)})
             try:
-                code = process.wait(limit)
+                code = process.wait(10 * limit)  # the machine may have more to do
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
@@ -134,4 +136,6 @@ class Runner:
                 process.kill()
                 process.wait()
                 raise
+        if code == -signal.SIGXCPU:
+            code = None
         return code, (work / "stderr").read_text(errors="replace")
