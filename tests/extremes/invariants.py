@@ -183,9 +183,9 @@ class Invariants(unittest.TestCase):
         self.about(must.skidding(1.0, 1.0, 1.0), smooth, lambda r: r.history["momentum_x"].__setitem__(4, 0.9999))
 
     def test_pile(self):
-        make = lambda: made_up("pile.explicit", history=force("floor", z=3.0))  # noqa: E731
+        make = lambda: made_up("pile.explicit", {"cycles": 100}, history={**force("floor", z=3.0), "kinetic_energy": 100.0 ** -numpy.arange(10)})  # noqa: E731
         self.about(must.stays_put(3.0), make, lambda r: r.history.update({"floor.force_z": 1.1 * r.history["floor.force_z"]}),
-                   lambda r: r.fields["displacement"].__setitem__((0, 0), 0.01))
+                   lambda r: r.fields["displacement"].__setitem__((0, 0), 0.01), lambda r: r.history["kinetic_energy"].__setitem__(9, 1e-3))
 
     def test_cycles(self):
         def make():

@@ -514,8 +514,10 @@ def stays_put(weight):
         h = r.history
         late = h["time"] > 0.5 * h["time"][-1]
         mean = float(numpy.mean(h["foot.force_z" if "foot.force_z" in h else "floor.force_z"][late]))
-        return [Finding("bears the weight", abs(mean - weight) / weight, 0.05),
-                Finding("stays where it is", float(numpy.max(numpy.abs(r.fields["displacement"][:, :2]))), 1e-3)]
+        long = r.knobs.cycles >= 100  # by then bulk viscosity has taken what the start made
+        return [Finding("bears the weight", abs(mean - weight) / weight, 1e-6 if long else 0.05),
+                Finding("stays where it is", float(numpy.max(numpy.abs(r.fields["displacement"][:, :2]))), 1e-3),
+                Finding("comes to rest", float(numpy.max(h["kinetic_energy"][late])) / float(numpy.max(h["kinetic_energy"])), 1e-6 if long else 1.0)]
     return check
 
 

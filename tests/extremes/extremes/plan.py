@@ -214,8 +214,8 @@ def everything():  # noqa: C901
                 yield Case(base, {"method": method, "mass": mass}, ("method",), (method,))
     yield from single("spectral radius", ("drop.implicit", "bars.implicit", "skid.implicit"), [0.0, 0.2, 0.5, 0.8, 0.95, 1.0])
     yield from single("error tolerance", ("drop.implicit", "bars.implicit"), [0.0, 1e-1, 1e-2, 1e-4, 1e-5], along={})
-    for steps in (10, 100):
-        yield Case("pile.explicit", {"cycles": steps}, ("explicit steps",), (steps * 1000,), limit=300)
+    for steps in (10, 100, 1000):
+        yield Case("pile.explicit", {"cycles": steps, "mu": 0.5}, ("explicit steps",), (steps * 1000,), limit=300)
     # the same in other words
     units = {"m, N": (1e-3, 1e6, 1.0), "m, kN": (1e-3, 1e3, 1.0), "um, N": (1e3, 1e-6, 1.0), "mm, N, ms": (1.0, 1.0, 1e3),
              "miles, years": (6.2e-7, 1e-9, 3.17e-8),
