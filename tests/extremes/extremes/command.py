@@ -38,6 +38,7 @@ def parse(arguments):
     p.add_argument("--list", action="store_true", help="name the scenes, and what became of them, and run none")
     p.add_argument("--keep", action="store_true", help="keep the scene files of what is right, too")
     p.add_argument("--part", metavar="I/N", help="every N-th scene from the I-th on, to share the work: 1/2 and 2/2")
+    p.add_argument("--kept", action="store_true", help="run nothing: report what is kept")
     p.add_argument("--report", metavar="FOLDER", help="write extremes.md to FOLDER/results and pictures to FOLDER/images")
     return p.parse_args(arguments)
 
@@ -81,7 +82,7 @@ def perform(options):
         for case in cases:
             print(f"{(runner.kept(case) or {}).get('outcome', '-'):10} {case.name}")
         return 0
-    todo = [case for case in cases if options.again or runner.kept(case) is None]
+    todo = [] if options.kept else [case for case in cases if options.again or runner.kept(case) is None]
     if len(todo) < len(cases):
         print(f"{len(cases) - len(todo)} of {len(cases)} scenes are kept in {runner.folder}")
     begin = time.monotonic()
@@ -93,11 +94,13 @@ def perform(options):
             print(f"{record['outcome']:10} {case.name}: {' '.join(record['reason'].split())[:300]}", flush=True)
         if done % 20 == 0 or done == len(todo):
             print(f"{done} of {len(todo)}, {passed / 60:.1f} min, {left / 60:.1f} min to go", flush=True)
-    records = [record for record in map(runner.kept, cases) if record]
+    # What is turned in a scene is as the plan says it now.
+    records = [{**record, "parameters": list(case.parameters), "values": list(case.values)}
+               for case, record in ((case, runner.kept(case)) for case in cases) if record]
     counts = Counter(record["outcome"] for record in records)
     print(", ".join(f"{counts[outcome]} {outcome}" for outcome in OUTCOMES if counts[outcome]) + f"; {len(records)} scenes")
     if options.report:
-        report.write(records, Path(options.report))
+        report.write(records, Path(options.report), len(cases))
     if options.fixed:
         return 1 if any(counts[outcome] for outcome in BAD) else 0
     return 0

@@ -98,7 +98,7 @@ def everything():  # noqa: C901
     yield from single("penalty", ("stack", "drag", "clip", "bars.implicit"), PENALTIES[::2], along={"facets": "planed"})
     yield from single("penalty", ("stack", "bars.explicit"), PENALTIES[::2], along={"facets": "bilinear"})
     for base in ("upset", "slide", "ball", "stack", "drag"):
-        yield from single("penalty", (base,), PENALTIES[::2], along={"augmentation": 1e-3, **ROUGH})
+        yield from single("augmented penalty", (base,), PENALTIES[::2], knob="penalty", along={"augmentation": 1e-3, **ROUGH})
         yield from single("augmentation", (base,), decades(-8, -1)[::2] + [0.1], along={"penalty": 1.0})
     for base in ("slide", "twist", "drag", "skid.explicit", "skid.implicit"):
         yield from single("tangential penalty", (base,), PENALTIES[::2], along=ROUGH)

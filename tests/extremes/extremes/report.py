@@ -17,7 +17,7 @@ from .scenes import KINDS, KNOBS  # noqa: E402
 
 COLOURS = {"right": "#4c9f70", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
            "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
-WORDS = {"penalty": "penalty, E/h", "mu": "friction coefficient", "nu": "Poisson's ratio", "step": "fixed step, of the load",
+WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient", "nu": "Poisson's ratio", "step": "fixed step, of the load",
          "strain": "logarithmic strain", "aspect": "height over width of a brick", "yield": "yield stress, E",
          "hardening modulus": "hardening modulus, E", "augmentation": "`Penetration tolerance`", "hourglass": "`Hourglass stiffness`",
          "tangential penalty": "tangential penalty, E/h", "grading": "largest over smallest element", "distortion": "inner node moved, bricks",
@@ -62,7 +62,7 @@ def safe(records, parameter):
     values = sorted(by_value)
     if not good:
         return "-"
-    default = KNOBS.get(parameter)
+    default = KNOBS.get({"augmented penalty": "penalty"}.get(parameter, parameter))
     runs, row = [], []
     for v in values + [None]:
         if v in good:
@@ -99,12 +99,12 @@ def reasons(records, outcome):
     return sorted(found.items(), key=lambda item: -len(item[1]))
 
 
-def write(records, folder, version=""):
+def write(records, folder, planned=0):
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
     outcomes = [o for o in OUTCOMES if any(r["outcome"] == o for r in records)]
     whole = Counter(r["outcome"] for r in records)
-    parts = ["# Scenes at the extremes", f"Written by `scripts/extremes`{version}, on one rank: {len(records)} tiny scenes "
+    parts = ["# Scenes at the extremes", f"Written by `scripts/extremes`, on one rank: {len(records)} {f'of the {planned} ' if planned > len(records) else ''}tiny scenes of the plan "
              "(1 to 64 bricks), each parameter over its range, alone and in pairs, in every kind of run. In each, what must hold is "
              "computed from what the run wrote: equilibrium, closed forms of bars and columns, the yield condition, the friction cone "
              "of nodes and of whole forces, the ledger of energies, momentum, impulse, mirror symmetry, penetration, elements inside "
