@@ -28,10 +28,6 @@ def shear(young, poisson):
     return young / (2 * (1 + poisson))
 
 
-def hardened(yield_stress, modulus, plastic_strain):
-    return yield_stress + modulus * plastic_strain
-
-
 def uniaxial_hencky(young, strain, yield_stress=math.inf, modulus=0.0):
     """(Kirchhoff stress, plastic strain) of a bar stretched monotonically to the logarithmic strain `strain`."""
     trial = young * abs(strain)
@@ -73,10 +69,6 @@ def confined_hencky(young, poisson, strain):
 
 def bar_speed(young, density):
     return math.sqrt(young / density)
-
-
-def confined_speed(young, poisson, density):
-    return math.sqrt(confined_modulus(young, poisson) / density)
 
 
 def impact_stress(young_a, density_a, young_b, density_b, speed):

@@ -77,13 +77,6 @@ def pushes(name):
     return check
 
 
-reaction_below_area = pushes
-
-
-def coefficient(r):
-    return r.setup.facts["friction"]["mu"]
-
-
 def force_cone(name):
     """The whole force of a flat tool along its face is within the limit of its force across."""
     def check(r):

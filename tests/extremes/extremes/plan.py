@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Which scenes there are: each parameter over its range, alone and in pairs, in every kind of run that it concerns."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from .scenes import FEATURES
 
@@ -24,17 +24,6 @@ class Case:
         turned = ",".join(f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in self.changes.items())
         return f"{self.base}/{turned or 'as it is'}" + ("" if self.like is None else " like " + (
             ",".join(f"{k}={v}" for k, v in self.like.items()) or "the base"))
-
-
-@dataclass
-class Parameter:
-    """`values` of `knob` (or of a list of dictionaries of knobs, under names), in the scenes `bases`, each with `along` turned, too."""
-    name: str
-    values: list
-    bases: dict
-    unit: str = ""
-    knob: str = None
-    along: dict = field(default_factory=dict)
 
 
 def decades(low, high, each=1):
@@ -256,6 +245,3 @@ FIXED = (
     "skid.explicit/mu=0.3", "fold.explicit/speed=0.01", "lying.explicit/penalty=1000", "drop.implicit/nu=0.45", "bar.implicit/penalty=1",
     "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
 )
-
-
-__all__ = ["Case", "FIXED", "cases"]
