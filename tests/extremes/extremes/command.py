@@ -83,7 +83,7 @@ def perform(options):
             print(f"{(runner.kept(case) or {}).get('outcome', '-'):10} {case.name}")
         return 0
     todo = [] if options.kept else [case for case in cases if options.again or runner.kept(case) is None]
-    if len(todo) < len(cases):
+    if len(todo) < len(cases) and not options.kept:
         print(f"{len(cases) - len(todo)} of {len(cases)} scenes are kept in {runner.folder}")
     begin = time.monotonic()
     for done, case in enumerate(todo, 1):
