@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/output/capabilities_file.h"
 #include "billet/output/checkpoint.h"
+#include "billet/output/energy_watch.h"
 #include "billet/output/error_report.h"
 #include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
@@ -100,13 +101,45 @@ private:
   double last_ = -1.;
 };
 
+/// Whether its yield stress does not grow without end.
+bool has_limit(const parameters::Material &material) {
+  if (material.law == parameters::Material::Law::elastic)
+    return false;
+  switch (material.hardening) {
+  case parameters::Material::Hardening::table:
+    return true;
+  case parameters::Material::Hardening::power_law:
+    return material.exponent == 0.;
+  default:
+    return material.hardening_modulus == 0.;
+  }
+}
+
+/// Where physics may be what ends a static run: forces that a body cannot bear.
+std::string describe_limit_load(const parameters::Scene &parameters) {
+  if (parameters.is_dynamic())
+    return "";
+  const auto is_given = [](const parameters::Tool &tool) {
+    return tool.motion.control == parameters::Motion::Control::force ||
+           tool.motion.control == parameters::Motion::Control::moment;
+  };
+  const auto tool = std::find_if(parameters.tools.begin(), parameters.tools.end(), is_given);
+  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
+                                 [](const parameters::Body &b) { return has_limit(b.material); });
+  if (tool == parameters.tools.end() || body == parameters.bodies.end())
+    return "";
+  return "Body '" + body->name + "' yields without hardening, and tool '" + tool->name +
+         "' presses with a given force: above the limit load nothing is in balance. If that is what ends the "
+         "run, move the tool by its 'Translation', or let the material harden. ";
+}
+
 std::string explain_failure(const parameters::Scene &parameters, const StepReport &report, const double from,
                             const double to) {
   std::ostringstream message;
   message << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
           << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure
           << "; residual " << report.newton.force << " of the forces, allowed is "
-          << parameters.solver.force_tolerance << ". ";
+          << parameters.solver.force_tolerance << ". " << describe_limit_load(parameters);
   if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
   else
@@ -336,6 +369,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   std::unique_ptr<ErrorWatch> watch;
   if (ErrorWatch::is_wanted(parameters))
     watch = std::make_unique<ErrorWatch>(scene, discretization, problem);
+  EnergyWatch energies(parameters.is_dynamic() ? EnergyWatch::Balance::is_told
+                                               : EnergyWatch::Balance::is_left);
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
@@ -391,6 +426,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
+      outputs.progress.warn(energies.look(control.time(), problem.state().energies));
       outputs.snapshots.after_step(control.n_steps(), problem);
       const Signals::Wish wish = outputs.signals.look();
       const bool is_last = control.is_finished() && outputs.checkpoints.is_regular();
@@ -509,6 +545,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   if (parameters.explicit_dynamics.scaled_step > 0.)
     outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
 
+  EnergyWatch energies(EnergyWatch::Balance::is_left); // where they fail to balance the run ends
   const auto put_out = [&] {
     problem.update_ledger();
     fail_together(discretization.communicator(), [&] {
@@ -516,6 +553,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         outputs.history->write(problem.n_steps(), problem.step_length(), problem.state());
     });
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
+    outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
   };
   constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
   // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in

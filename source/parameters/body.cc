@@ -138,6 +138,23 @@ void Material::declare(ParameterHandler &prm) {
                     "not decreasing; constant beyond the last point. [- : stress]");
 }
 
+namespace {
+
+/// Words for what is allowed where more would be softening.
+std::string no_softening(const std::string &allowed) {
+  return allowed +
+         ": softening would gather in one layer of elements, with an answer that the mesh makes, since "
+         "the law has no length of its own";
+}
+
+double read_hardening(const Reader &reader, const std::string &key) {
+  if (reader.number(key) < 0.)
+    reader.reject(key, no_softening("a number >= 0"));
+  return reader.number(key);
+}
+
+} // namespace
+
 void Material::parse(Reader &reader) {
   law = reader.text("Law") == "elastic" ? Law::elastic : Law::elastoplastic;
   const std::string how = reader.text("Kinematics");
@@ -184,20 +201,20 @@ void Material::parse(Reader &reader) {
   switch (hardening) {
   case Hardening::linear:
     yield_stress = reader.positive("Yield stress");
-    hardening_modulus = reader.not_negative("Hardening modulus");
+    hardening_modulus = read_hardening(reader, "Hardening modulus");
     break;
   case Hardening::voce:
     yield_stress = reader.positive("Yield stress");
-    hardening_modulus = reader.not_negative("Hardening modulus");
+    hardening_modulus = read_hardening(reader, "Hardening modulus");
     saturation_stress = reader.positive("Saturation stress");
     if (saturation_stress < yield_stress)
-      reader.reject("Saturation stress", "a number not below the yield stress");
+      reader.reject("Saturation stress", no_softening("a number not below the yield stress"));
     saturation_rate = reader.positive("Saturation rate");
     break;
   case Hardening::power_law:
     strength = reader.positive("Strength coefficient");
     prestrain = reader.positive("Prestrain");
-    exponent = reader.not_negative("Hardening exponent");
+    exponent = read_hardening(reader, "Hardening exponent");
     if (exponent > 1.)
       reader.reject("Hardening exponent", "a number from 0 to 1");
     break;
@@ -221,7 +238,8 @@ void Material::parse(Reader &reader) {
         reader.reject("Table", "a monotonic curve: plastic strain " + pair[0] +
                                    " does not increase on the one before");
       if (n > 1 && !(table_stresses[n - 1] >= table_stresses[n - 2]))
-        reader.reject("Table", "a monotonic curve: stress " + pair[1] + " falls below the one before");
+        reader.reject("Table",
+                      no_softening("a monotonic curve: stress " + pair[1] + " falls below the one before"));
     }
     if (table_strains.empty())
       reader.reject("Table", "at least one 'strain : stress' pair");

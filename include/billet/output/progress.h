@@ -24,6 +24,11 @@ public:
   void show(unsigned int step, double length, const SolutionState &state);
   /// A line of text, such as where a run goes on.
   void note(const std::string &text);
+  /// A note, unless there is nothing to tell.
+  void warn(const std::string &text) {
+    if (!text.empty())
+      note(text);
+  }
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
   /// Of an explicit scene, at its end: how long its steps took without output, by the clock and of the

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the laws say of one brick, computed here without the program. Stresses are Kirchhoff stresses of logarithmic strains
+(doc/theory.md, 'The law'); all numbers in any consistent unit."""
+
+import math
+
+
+def root(function, low, high):
+    """Of a function with one change of sign between low and high, by bisection."""
+    at_low = function(low)
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        at_middle = function(middle)
+        if (at_middle > 0) == (at_low > 0):
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+def bulk(young, poisson):
+    return young / (3 * (1 - 2 * poisson))
+
+
+def shear(young, poisson):
+    return young / (2 * (1 + poisson))
+
+
+def uniaxial_hencky(young, strain, yield_stress=math.inf, modulus=0.0):
+    """(Kirchhoff stress, plastic strain) of a bar stretched monotonically to the logarithmic strain `strain`."""
+    trial = young * abs(strain)
+    if trial <= yield_stress:
+        return young * strain, 0.0
+    plastic = (trial - yield_stress) / (young + modulus)
+    return math.copysign(young * (abs(strain) - plastic), strain), plastic
+
+
+def lateral_hencky(young, poisson, strain, stress):
+    """Logarithmic strain across: plastic flow keeps the volume, elasticity contracts by Poisson's ratio."""
+    elastic = stress / young
+    return -poisson * elastic - 0.5 * (strain - elastic)
+
+
+def uniaxial_neo_hookean(young, poisson, strain):
+    """(Kirchhoff stress, logarithmic strain across) of energy ½ κ ln²J + ½ G (tr b̄ − 3), elastic."""
+    kappa, g = bulk(young, poisson), shear(young, poisson)
+
+    def stresses(across):
+        volume = strain + 2 * across
+        b_along, b_across = math.exp(2 * (strain - volume / 3)), math.exp(2 * (across - volume / 3))
+        mean = (b_along + 2 * b_across) / 3
+        return kappa * volume + g * (b_along - mean), kappa * volume + g * (b_across - mean)
+
+    bound = 3 * abs(strain) + 1e-12
+    across = root(lambda a: stresses(a)[1], -bound, bound)
+    return stresses(across)[0], across
+
+
+def confined_modulus(young, poisson):
+    return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+
+
+def confined_hencky(young, poisson, strain):
+    """Kirchhoff stress along; nothing moves across."""
+    return confined_modulus(young, poisson) * strain
+
+
+def bar_speed(young, density):
+    return math.sqrt(young / density)
+
+
+def impact_stress(young_a, density_a, young_b, density_b, speed):
+    """Of two bars that meet at this relative speed: z_a z_b/(z_a + z_b) v, z = ρ c."""
+    a, b = math.sqrt(young_a * density_a), math.sqrt(young_b * density_b)
+    return a * b / (a + b) * speed
+
+
+def friction_limit(law, pressure, slip_rate, mu, largest=math.inf, kinetic=0.0, decay=0.0, reference=1.0, exponent=1.0):
+    if law == "shear limited":
+        return min(mu * pressure, largest)
+    if law == "static-kinetic":
+        return (kinetic + (mu - kinetic) * math.exp(-decay * slip_rate)) * pressure
+    if law == "pressure dependent":
+        return mu * (pressure / reference) ** (exponent - 1) * pressure if pressure > 0 else 0.0
+    return mu * pressure

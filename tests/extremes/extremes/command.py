@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command line."""
+
+import argparse
+import hashlib
+import fnmatch
+import os
+import shutil
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+
+from . import ExtremesError, plan, report
+from .runner import OUTCOMES, Runner
+
+BAD = ("wrong", "crashed", "hung", "unhelpful")
+
+
+def program_of(named):
+    wanted = named or os.environ.get("BILLET")
+    found = shutil.which(wanted) if wanted else None
+    if not found:
+        raise ExtremesError(f"the program '{wanted or 'billet'}' was not found, or cannot be run: name it with --program or in BILLET")
+    return Path(found).resolve()
+
+
+def parse(arguments):
+    p = argparse.ArgumentParser(prog="extremes", description="Runs billet on some two thousand tiny scenes at the extremes of every "
+                                "parameter, checks what must hold in each, and writes tables and pictures. What has been run is "
+                                "kept: stopped by Ctrl-C, the same command goes on.")
+    p.add_argument("--program", help="billet; else BILLET in the environment")
+    p.add_argument("--folder", default="results/extremes", help="where runs are kept (%(default)s)")
+    p.add_argument("--only", metavar="PATTERN", action="append", help="scenes whose name matches, such as 'slide/*mu=*'; may be given more than once")
+    p.add_argument("--outcome", choices=OUTCOMES, action="append", help="scenes that have come out so")
+    p.add_argument("--fixed", action="store_true", help="the few that the tests run; exit code 1 if one is neither right, nor refused or failed with a reason")
+    p.add_argument("--again", action="store_true", help="run what is kept once more")
+    p.add_argument("--list", action="store_true", help="name the scenes, and what became of them, and run none")
+    p.add_argument("--keep", action="store_true", help="keep the scene files of what is right, too")
+    p.add_argument("--part", metavar="I/N", help="every N-th scene from the I-th on, to share the work: 1/2 and 2/2")
+    p.add_argument("--kept", action="store_true", help="run nothing: report what is kept")
+    p.add_argument("--report", metavar="FOLDER", help="write extremes.md to FOLDER/results and pictures to FOLDER/images")
+    return p.parse_args(arguments)
+
+
+def chosen(options, runner):
+    cases = plan.cases()
+    if options.fixed:
+        by_name = {case.name: case for case in cases}
+        missing = [name for name in plan.FIXED if name not in by_name]
+        if missing:
+            raise ExtremesError(f"the plan has no scene {missing}")
+        cases = [by_name[name] for name in plan.FIXED]
+    if options.only:
+        cases = [case for case in cases if any(fnmatch.fnmatchcase(case.name, pattern) or case.name == pattern for pattern in options.only)]
+    if options.outcome:
+        cases = [case for case in cases if (runner.kept(case) or {}).get("outcome") in options.outcome]
+    # In an order of no meaning: what is stopped half-way has tried all parameters, and the time to go is right.
+    cases.sort(key=lambda case: hashlib.sha256(case.name.encode()).hexdigest())
+    if options.part:
+        i, n = (int(x) for x in options.part.split("/"))
+        cases = cases[i - 1::n]
+    return cases
+
+
+def run(arguments):
+    options = parse(arguments)
+    try:
+        return perform(options)
+    except ExtremesError as error:
+        print(f"extremes: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("\nextremes: stopped; the same command goes on", file=sys.stderr)
+        return 5
+
+
+def perform(options):
+    runner = Runner(program_of(options.program), Path(options.folder).resolve(), options.keep)
+    cases = chosen(options, runner)
+    if options.list:
+        for case in cases:
+            print(f"{(runner.kept(case) or {}).get('outcome', '-'):10} {case.name}")
+        return 0
+    todo = [] if options.kept else [case for case in cases if options.again or runner.kept(case) is None]
+    if len(todo) < len(cases) and not options.kept:
+        print(f"{len(cases) - len(todo)} of {len(cases)} scenes are kept in {runner.folder}")
+    begin = time.monotonic()
+    for done, case in enumerate(todo, 1):
+        record = runner.run(case)
+        passed = time.monotonic() - begin
+        left = passed / done * (len(todo) - done)
+        if record["outcome"] in BAD:
+            print(f"{record['outcome']:10} {case.name}: {' '.join(record['reason'].split())[:300]}", flush=True)
+        if done % 20 == 0 or done == len(todo):
+            print(f"{done} of {len(todo)}, {passed / 60:.1f} min, {left / 60:.1f} min to go", flush=True)
+    # What is turned in a scene is as the plan says it now.
+    records = [{**record, "parameters": list(case.parameters), "values": list(case.values)}
+               for case, record in ((case, runner.kept(case)) for case in cases) if record]
+    counts = Counter(record["outcome"] for record in records)
+    print(", ".join(f"{counts[outcome]} {outcome}" for outcome in OUTCOMES if counts[outcome]) + f"; {len(records)} scenes")
+    if options.report:
+        report.write(records, Path(options.report), len(cases))
+    if options.fixed:
+        return 1 if any(counts[outcome] for outcome in BAD) else 0
+    return 0

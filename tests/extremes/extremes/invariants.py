@@ -1,0 +1,556 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What must hold in a scene, computed from what the run wrote, not from what it thinks of itself. Each takes a Result and gives
+Findings: an error, and how large it may be. All numbers are in base units and upright."""
+
+import math
+from dataclasses import dataclass
+
+import numpy
+
+from . import closed_forms
+
+ROUNDING = 3e-7  # of fields, which are written with 24 bits
+
+
+@dataclass
+class Finding:
+    name: str
+    error: float
+    allowed: float
+    said: str = ""
+
+    @property
+    def holds(self):
+        return bool(self.error <= self.allowed)  # NaN does not
+
+    def __str__(self):
+        return f"{self.name}: off by {self.error:.3g}, allowed {self.allowed:.3g}{': ' + self.said if self.said else ''}"
+
+
+def part(error, scale):
+    """error/scale, where nothing over nothing is nothing."""
+    error, scale = float(error), float(scale)
+    return 0.0 if error == 0 else (error / scale if scale > 0 else math.inf)
+
+
+def newton(r, times=10.0, least=1e-5):
+    """Of forces: what Newton's method may leave."""
+    return max(least, times * float(r.knobs.tolerance or (1e-3 if r.knobs.profile == "fast" else 0)
+                                    or 0), 1e-3 if r.knobs.target_error else 0)
+
+
+def finite(r):
+    """Nothing that is written is infinite or not a number, and the run came to its end."""
+    bad = sum(int(numpy.sum(~numpy.isfinite(v))) for v in r.history.values())
+    bad += sum(int(numpy.sum(~numpy.isfinite(v))) for v in r.fields.values() if v.dtype.kind == "f")
+    end = float(r.setup.sections["Time stepping"]["End time"]) / r.setup.frame.time
+    time = r.history["time"][-1] if len(r.history.get("time", ())) else 0.0
+    return [Finding("finite", bad, 0), Finding("comes to its end", abs(time - end) / end, 1e-3 if r.is_explicit else 1e-9)]
+
+
+# --- forces ------------------------------------------------------------------------------------------------------------------
+
+def largest_force(r):
+    return max((float(numpy.max(numpy.abs(r.force(name)), initial=0.0)) for name in r.named), default=0.0)
+
+
+def balanced(a, b):
+    """The forces of two tools on a body without supports are opposite."""
+    def check(r):
+        return [Finding("equilibrium", part(numpy.max(numpy.abs((r.force(a) + r.force(b))[:, 2])), largest_force(r)), newton(r))]
+    return check
+
+
+def sideways_free(name):
+    """A frictionless or symmetrically loaded flat tool has no force across its normal."""
+    def check(r):
+        f = r.force(name)
+        return [Finding("no force across", part(numpy.max(numpy.abs(f[:, :2])), largest_force(r)), newton(r))]
+    return check
+
+
+def pushes(name):
+    """A tool below a body never pulls."""
+    def check(r):
+        f = r.force(name)
+        return [Finding("pushes", part(max(0.0, -float(numpy.min(f[:, 2]))), largest_force(r)), 1e-9)]
+    return check
+
+
+def force_cone(name):
+    """The whole force of a flat tool along its face is within the limit of its force across."""
+    def check(r):
+        f, law, area = r.force(name), r.setup.facts["friction"], numpy.abs(r.history.get(f"{name}.contact_area", 0.0))
+        along, across = numpy.hypot(f[:, 0], f[:, 1]), numpy.abs(f[:, 2])
+        limit = law["mu"] * across
+        if law["law"] == "shear limited":
+            limit = numpy.minimum(limit, law["largest"] * area * (1 + 1e-6))
+        if law["law"] == "pressure dependent":  # concave: a uniform pressure has most
+            mean = numpy.where(area > 0, across / numpy.where(area > 0, area, 1), 0)
+            limit = law["mu"] * law["reference"] * area * (mean / law["reference"]) ** law["exponent"]
+        tilted = r.between_bodies  # the faces themselves turn by so much
+        return [Finding("friction cone, whole", part(max(0.0, float(numpy.max(along - limit))), largest_force(r)),
+                        (0.15 * (1 + law["mu"]) if tilted else newton(r) * (1 + law["mu"])))]
+    return check
+
+
+def gross_slip(name):
+    """Where every node slides, Coulomb's law holds of the whole force, and it is dragged where the tool goes."""
+    def check(r):
+        law, status = r.setup.facts["friction"], r.fields.get("contact_status")
+        if law["law"] != "Coulomb" or law["mu"] == 0 or status is None or not numpy.all(status[r.in_contact] == 2):
+            return []
+        f = r.force(name)[-1]
+        return [Finding("Coulomb's limit", part(abs(f[0] - law["mu"] * abs(f[2])), law["mu"] * abs(f[2])), 0.05)]
+    return check
+
+
+def moment_cone(name):
+    def check(r):
+        m, f, law = r.history[f"{name}.moment_z"], numpy.abs(r.force(name)[:, 2]), r.setup.facts["friction"]
+        if law["law"] == "pressure dependent":
+            return []
+        radius = float(numpy.max(numpy.hypot(*(r.fields["places"] + r.fields["displacement"])[:, :2].T)))
+        scale = float(numpy.max(f)) * radius
+        return [Finding("friction cone, moment", part(max(0.0, float(numpy.max(numpy.abs(m) - law["mu"] * f * radius * 1.2))), scale), newton(r))]
+    return check
+
+
+def cone(r):
+    """At each node: no tension, and traction within the law's limit of its pressure."""
+    if "contact_pressure" not in r.fields:
+        return []
+    p, t, law = r.fields["contact_pressure"], r.fields["contact_traction"], r.setup.facts["friction"]
+    scale = float(numpy.max(numpy.abs(t), initial=0.0))
+    found = [Finding("no tension", part(max(0.0, -float(numpy.min(p, initial=0.0))), scale), 1e-6)]
+    along = numpy.sqrt(numpy.maximum(numpy.sum(t * t, axis=1) - p * p, 0.0))
+    limit = numpy.array([closed_forms.friction_limit(pressure=max(float(x), 0.0), slip_rate=0.0, **law) for x in p])
+    if law["law"] == "pressure dependent" and r.between_bodies:
+        return found  # tractions are means over the facets of a node, and the law is not linear
+    over = float(numpy.max(along - limit, initial=0.0))
+    return found + [Finding("friction cone", part(max(0.0, over), scale), 2e-3 if not r.between_bodies else 1e-2)]
+
+
+def penalty_depth(name, facet):
+    """Under a uniform pressure nodes go in by the pressure over the penalty."""
+    def check(r):
+        if r.knobs.augmentation is not None or r.knobs.profile or r.knobs.target_error:
+            return []
+        f, area = abs(r.force(name)[-1][2]), r.history[f"{name}.contact_area"][-1]
+        expected = f / area / (r.knobs.penalty * r.knobs.young / facet) if area > 0 else 0.0
+        return [Finding("penetration", part(abs(r.history[f"{name}.deepest_penetration"][-1] - expected), expected), newton(r, 100, 1e-3))]
+    return check
+
+
+def depth_bound(name, bound):
+    """Nodes go in no deeper than the tool went down."""
+    def check(r):
+        return [Finding("penetration bound", part(float(numpy.max(r.history[f"{name}.deepest_penetration"])), bound), 1 + 1e-6)]
+    return check
+
+
+def touches(name):
+    """Where the ends are led together to the end, and the ring does not grow around them."""
+    def check(r):
+        if r.knobs.step and r.knobs.step < 0.1 or r.knobs.nu < 0:
+            return []
+        return [Finding("touches", 0.0 if float(numpy.max(r.history[f"{name}.deepest_penetration"])) > 0 else 1.0, 0.5)]
+    return check
+
+
+def energies(r):
+    """What is dissipated grows, what is stored is positive, and the columns add up."""
+    h = r.history
+    found = []
+    stored = [h[c] for c in ("elastic_energy", "contact_energy") if c in h]
+    scale = max((float(numpy.max(numpy.abs(h[c]))) for c in h if c.endswith(("_energy", "_work", "_dissipation"))), default=0.0)
+    for column in ("plastic_work", "friction_dissipation"):
+        if column in h and len(h[column]):
+            falls = float(numpy.max(-numpy.diff(numpy.concatenate(([0.0], h[column]))), initial=0.0))
+            found.append(Finding(f"{column} grows", part(falls, scale), 1e-6))
+    found.append(Finding("stored energy", part(max(0.0, -min(float(numpy.min(s, initial=0.0)) for s in stored)), scale), 1e-9))
+    if "external_work" in h and "kinetic_energy" not in h:
+        total = sum(h[c] for c in ("elastic_energy", "plastic_work", "contact_energy", "friction_dissipation", "hourglass_energy") if c in h)
+        found.append(Finding("energy ledger", part(numpy.max(numpy.abs(total - h["external_work"] + h["energy_drift"])), scale), 1e-8))
+    return found
+
+
+# --- stress ------------------------------------------------------------------------------------------------------------------
+
+GAUSS = numpy.array([[(1 + s * g) / 2 for s in (-1, 1)] for g in (-1 / math.sqrt(3), 1 / math.sqrt(3))])
+CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+
+
+def determinants(points):
+    """At the 2 x 2 x 2 points of hexahedra; points: (elements, 8, 3), in VTK's order."""
+    result = []
+    for q in range(8):
+        at = [(1 + (2 * ((q >> d) & 1) - 1) / math.sqrt(3)) / 2 for d in range(3)]
+        gradients = numpy.empty((8, 3))
+        for a, corner in enumerate(CORNERS):
+            values = [at[d] if corner[d] else 1 - at[d] for d in range(3)]
+            for d in range(3):
+                gradients[a, d] = (1 if corner[d] else -1) * values[(d + 1) % 3] * values[(d + 2) % 3]
+        result.append(numpy.linalg.det(numpy.einsum("eai,aj->eij", points, gradients)))
+    return numpy.array(result).T
+
+
+def volume_ratio(r):
+    cells = r.fields["cells"]
+    x = r.fields["places"]
+    return determinants((x + r.fields["displacement"])[cells]).sum(axis=1) / determinants(x[cells]).sum(axis=1)
+
+
+def jacobians(r):
+    """No element is inside out."""
+    d = determinants((r.fields["places"] + r.fields["displacement"])[r.fields["cells"]])
+    lowest = float(numpy.min(d.mean(axis=1) if r.knobs.element == "one point" else d))
+    return [Finding("elements inside out", 1.0 if lowest < -1e-6 * float(numpy.max(d)) else 0.0, 0.5)]
+
+
+def yields(r):
+    """q(τ) <= σ_y(α): von Mises' stress times J."""
+    k = r.knobs
+    if k.law != "elastoplastic" or "equivalent_plastic_strain" not in r.fields:
+        return []
+    from .scenes import yield_stress
+    first = r.fields["cells"][:, 0]
+    stress, plastic = r.fields["von_mises_stress"][first], r.fields["equivalent_plastic_strain"][first]
+    body = r.fields["body"][first]
+    j = volume_ratio(r)
+    limit = numpy.array([yield_stress(k, float(a), k.young * (k.modulus_ratio if b == 1 else 1.0)) for a, b in zip(plastic, body)])
+    loose = 3e-2 if k.element == "full" or k.hardening != "linear" else 3e-3
+    return [Finding("plastic strain >= 0", max(0.0, -float(numpy.min(plastic))), 1e-9),
+            Finding("yield condition", float(numpy.max(stress * j / limit - 1)), loose)]
+
+
+def ends(r):
+    """Mean displacements of the faces z = 0 and z = height."""
+    z, u = r.fields["places"][:, 2], r.fields["displacement"][:, 2]
+    h = r.setup.facts["height"]
+    return u[z < 1e-6 * h].mean(), u[z > (1 - 1e-6) * h].mean()
+
+
+def stretch(r):
+    """Logarithmic strain between the faces, and how well it is known."""
+    low, high = ends(r)
+    h = r.setup.facts["height"]
+    strain = math.log1p((high - low) / h)
+    return strain, 4 * ROUNDING * (abs(low) + abs(high)) / (h + high - low)
+
+
+def expected_stress(r, strain):
+    """(Kirchhoff stress, logarithmic strain across, allowed relative error), None where there is no closed form."""
+    k = r.knobs
+    if k.kinematics == "neo-Hookean":
+        if k.law != "elastic":
+            return None
+        return (*closed_forms.uniaxial_neo_hookean(k.young, k.nu, strain), 0.0)
+    loose = 0.0
+    if k.kinematics == "hypoelastic":
+        # midpoint rule of d ln λ: x²/12 of each step's x; steps are equal parts of a linear motion, the last one the largest
+        lengths = r.history["step_length"]
+        end = r.history["time"][-1]
+        stretches = 1 + (math.exp(r.setup.facts["strain"]) - 1) * numpy.concatenate(([0.0], numpy.cumsum(lengths))) / end
+        x = float(numpy.max(numpy.abs(numpy.diff(numpy.log(stretches)))))
+        if x > 0.5:
+            return None
+        loose = x * x / 6 + (0.02 if k.law == "elastoplastic" else 0.0)
+    if k.law == "elastic":
+        return k.young * strain, -k.nu * strain, loose
+    from .scenes import yield_stress
+    if k.young * abs(strain) <= yield_stress(k, 0.0):
+        return k.young * strain, -k.nu * strain, loose
+    plastic = closed_forms.root(lambda a: k.young * (abs(strain) - a) - yield_stress(k, a), 0.0, abs(strain))
+    stress = math.copysign(k.young * (abs(strain) - plastic), strain)
+    return stress, closed_forms.lateral_hencky(k.young, k.nu, strain, stress), loose
+
+
+def bar(r):
+    """The tool's force is that of a bar with the strain that was reached."""
+    strain, known = stretch(r)
+    expected = expected_stress(r, strain)
+    if expected is None:
+        return []
+    stress, _, loose = expected
+    force = -stress / math.exp(strain)
+    uncertain = part(known, abs(strain)) if r.knobs.law == "elastic" else part(known, abs(strain)) + known
+    found = [Finding("force of the bar", part(abs(abs(r.force("ram")[-1][2]) - abs(force)), abs(force)), newton(r, 10, 1e-4) + uncertain + loose)]
+    if r.knobs.law == "elastic" and r.knobs.kinematics == "Hencky":
+        energy = 0.5 * r.knobs.young * strain**2 * r.setup.facts["height"]
+        found.append(Finding("elastic energy", part(abs(r.history["elastic_energy"][-1] - energy), energy), newton(r, 20, 2e-4) + 2 * uncertain))
+    return found
+
+
+def bar_stress(r):
+    """σ_zz is that of a bar, and its sides move in as they must."""
+    strain, known = stretch(r)
+    expected = expected_stress(r, strain)
+    if expected is None:
+        return []
+    stress, across, loose = expected
+    cauchy = stress / math.exp(strain + 2 * across)
+    known += loose * abs(strain) * 3
+    # Newton's tolerance is of forces, and those on the sides of a flat brick are small.
+    side = max(newton(r, 10, 1e-4), 2e-6 / r.knobs.aspect)
+    got = r.fields["stress_zz"]
+    scale = max(abs(cauchy), 1e-300)
+    return [Finding("stress of the bar", float(numpy.max(numpy.abs(got - cauchy))) / scale, side + loose + part(known, abs(strain)) + 3 * known),
+            Finding("no stress across", float(numpy.max(numpy.abs(r.fields["stress_xx"]))) / scale, side * max(1.0, math.exp(-2 * across)))]
+
+
+def bar_shape(r):
+    """The sides move out as they must."""
+    strain, known = stretch(r)
+    expected = expected_stress(r, strain)
+    if expected is None or r.setup.knobs.law != "elastic":
+        return []
+    across, loose = expected[1], expected[2]
+    moved = r.fields["displacement"][r.fields["places"][:, 0] > 1 - 1e-6, 0]
+    wanted = math.expm1(across)
+    scale = max(abs(wanted), abs(math.expm1(strain)) * 0.1)
+    return [Finding("sides", part(float(numpy.max(numpy.abs(moved - wanted))), scale),
+                    (newton(r, 10, 2e-4) + loose * 3) * max(1.0, 0.3 / max(0.5 - r.knobs.nu, 1e-9) * 1e-2) + part(known, abs(strain)))]
+
+
+def uniform_stress(r):
+    if r.knobs.mu > 0:
+        return []
+    v = r.fields["von_mises_stress"]
+    return [Finding("uniform stress", part(float(numpy.max(v) - numpy.min(v)), float(numpy.max(v))), newton(r, 100, 1e-3))]
+
+
+def uniform_stress_of_bodies(r):
+    """A patch test: in each body the stress is uniform."""
+    found = []
+    for b in (0, 1):
+        v = r.fields["stress_zz"][r.fields["body"] == b]
+        found.append(Finding("patch test", part(float(numpy.max(v) - numpy.min(v)), float(numpy.max(numpy.abs(v)))), newton(r, 100, 1e-3)))
+    return found
+
+
+def stack(young_low, young_high):
+    """Two confined columns: each has the stress of its own stretch, and both are the pair's force over the area."""
+    def check(r):
+        k, x, u = r.knobs, r.fields["places"][:, 2], r.fields["displacement"][:, 2]
+        if k.law != "elastic" or k.press == 0:
+            return []
+        force = abs(r.history["joint.force_z"][-1])
+        found = []
+        for b, young, low, high in ((0, young_low, -1.0, 0.0), (1, young_high, 0.0, 1.0)):
+            here = r.fields["body"] == b
+            top, bottom = u[here & (x > high - 1e-6)].mean(), u[here & (x < low + 1e-6)].mean()
+            strain = math.log1p(top - bottom)
+            tau = closed_forms.confined_hencky(young, k.nu, strain)
+            if k.kinematics == "neo-Hookean":
+                tau = closed_forms.bulk(young, k.nu) * strain + closed_forms.shear(young, k.nu) * (
+                    math.exp(4 * strain / 3) - math.exp(-2 * strain / 3)) * 2 / 3
+            loose = 1e-3 if k.kinematics == "hypoelastic" else 0.0
+            known = 4 * ROUNDING * (abs(top) + abs(bottom))
+            if part(known, abs(strain)) > 0.1:
+                continue  # too stiff for what is written of it
+            found.append(Finding("force of the column", part(abs(abs(tau) / math.exp(strain) - force), force),
+                                 newton(r, 10, 1e-4) + part(known, abs(strain)) * 2 + loose))
+        return found
+    return check
+
+
+# --- symmetry ----------------------------------------------------------------------------------------------------------------
+
+def partners(places, images, bodies):
+    """Index of the place of the same body where each image is; None if the mesh itself is not symmetric."""
+    scale = float(numpy.max(numpy.abs(places))) or 1.0
+    def keys(p):
+        whole = numpy.column_stack((numpy.round(p / scale * 2e4 + 1e-3), bodies))
+        return [tuple(row) for row in whole.astype(int)]
+    index = {}
+    for i, key in enumerate(keys(places)):
+        index.setdefault(key, i)
+    try:
+        return numpy.array([index[key] for key in keys(images)])
+    except KeyError:
+        return None
+
+
+def rattles(r):
+    """Whether nodes rattle on penalties that are much stiffer than what is behind them: a billiard, in which round-off grows with every
+    blow, until with friction nothing is left of a symmetry."""
+    ratio = r.knobs.modulus_ratio  # the stiffer side sets the penalty
+    return "kinetic_energy" in r.history and r.knobs.penalty * max(ratio, 1 / ratio) >= 1e3
+
+
+def symmetry(r, name, map_point, map_vector):
+    if r.knobs.distortion:
+        return []
+    x, u = r.fields["places"], r.fields["displacement"]
+    to = partners(x, map_point(x), r.fields["body"])
+    if to is None:
+        return []
+    scale = float(numpy.max(numpy.abs(u)))
+    allowed = newton(r, 100, 1e-4)
+    if rattles(r):
+        if r.knobs.mu > 0:
+            return []
+        allowed = 0.05
+    return [Finding(name, part(float(numpy.max(numpy.abs(u[to] - map_vector(u)))), scale), allowed)]
+
+
+def mirror(normal, distance):
+    n = numpy.asarray(normal, float)
+    def check(r):
+        def vector(u):
+            return u - 2 * numpy.outer(u @ n, n)
+        return symmetry(r, "mirror symmetry", lambda x: vector(x) + 2 * distance * n, vector)
+    return check
+
+
+def diagonal_symmetry(r):
+    swap = [1, 0, 2]
+    return symmetry(r, "diagonal symmetry", lambda x: x[:, swap], lambda u: u[:, swap])
+
+
+def quarter_turn(r):
+    def turn(v):
+        return numpy.stack((-v[:, 1], v[:, 0], v[:, 2]), axis=1)
+    return symmetry(r, "symmetry of quarter turns", turn, turn)
+
+
+# --- motion ------------------------------------------------------------------------------------------------------------------
+
+def nothing_happens(r):
+    e = r.knobs.young
+    forces = max((float(numpy.max(numpy.abs(r.force(name)), initial=0.0)) for name in r.named), default=0.0)
+    return [Finding("no displacement", float(numpy.max(numpy.abs(r.fields["displacement"]))), 1e-9), Finding("no force", forces / e, 1e-9)]
+
+
+def ledger(h):
+    gains = ("kinetic_energy", "elastic_energy", "plastic_work", "contact_energy", "friction_dissipation", "viscous_dissipation",
+             "hourglass_energy", "numerical_dissipation", "tool_kinetic_energy", "release_dissipation")
+    return sum(h[c] for c in h if c in gains or c.endswith(("_dissipation",)))
+
+
+def drift(r):
+    """Energies balance; the program's own sum is done again here."""
+    h = r.history
+    total = ledger(h) - h["external_work"]
+    scale = max(float(numpy.max(ledger(h))), float(numpy.max(numpy.abs(h["external_work"] + total[0]))))
+    return [Finding("energy balance", part(float(numpy.max(numpy.abs(h["energy_drift"]))), scale), 0.3),
+            Finding("energy balance at the end", part(abs(h["energy_drift"][-1]), scale), 0.055),
+            Finding("energy ledger", part(float(numpy.max(numpy.abs(total - total[0] + h["energy_drift"] - h["energy_drift"][0]))), scale), 1e-6)]
+
+
+def energy_not_made(r):
+    h = r.history
+    begin = 0.5 * r.setup.facts.get("mass", 0.0) * r.setup.facts["speed"] ** 2
+    if not begin or r.knobs.mass_scaling:
+        begin = float(h["kinetic_energy"][0])  # with the mass that is added
+    return [Finding("no energy is made", part(max(0.0, float(h["kinetic_energy"][-1] + h["elastic_energy"][-1]) - begin), begin), 0.055)]
+
+
+def momentum(expected, scale, held=()):
+    """Stays as it is, but for components that supports hold."""
+    def check(r):
+        p = numpy.stack([r.history[f"momentum_{i}"] for i in "xyz"], axis=1)
+        p[:, list(held)] = 0
+        if r.knobs.mass_scaling:
+            return [Finding("momentum", float(numpy.max(numpy.abs(p - p[0]))) / float(numpy.max(numpy.abs(p))), 1e-9)]
+        return [Finding("momentum", float(numpy.max(numpy.abs(p - numpy.asarray(expected)))) / scale, 1e-9 if r.is_explicit else newton(r, 100, 1e-4))]
+    return check
+
+
+def impulse(name, speed):
+    """Momentum changes by the tool's force over time; none across it."""
+    def check(r):
+        h, m = r.history, r.setup.facts["mass"]
+        p, f, t = h["momentum_z"], h[f"{name}.force_z"], h["time"]
+        found = [Finding("momentum across", float(numpy.max(numpy.abs(h["momentum_x"]) + numpy.abs(h["momentum_y"]))) / (m * speed), 1e-6)]
+        steps = float(h["step"][-1])
+        if r.knobs.penalty <= 1e3 and (not r.is_explicit or steps < 3 * len(t)):
+            given = numpy.concatenate(([0.0], numpy.cumsum(0.5 * (f[1:] + f[:-1]) * numpy.diff(t))))
+            missing = float(numpy.max(numpy.abs(p - p[0] - given))) / (m * speed)
+            found.append(Finding("impulse", missing, 0.15))
+        return found
+    return check
+
+
+def impact_force(name, force, begin, end):
+    """ρ c v A, in the mean, until the wave is back."""
+    def check(r):
+        k = r.knobs
+        if k.mass_scaling or k.speed > 0.03 or k.law != "elastic" or k.penalty < 3 or k.penalty > 1e3 or k.nu != 0.3 or (k.bricks or 8) < 8:
+            return []
+        t, f = r.history["time"], numpy.abs(r.force(name)[:, 2])
+        window = (t > begin) & (t < end)
+        if numpy.count_nonzero(window) < 5:
+            return []
+        mean = float(numpy.trapz(f[window], t[window]) / (t[window][-1] - t[window][0]))
+        return [Finding("stress of the impact", abs(mean - force) / force, 0.12)]
+    return check
+
+
+def skidding(mass, speed, gravity):
+    """Friction takes, since the start, no more than µ times what the floor gave upwards."""
+    def check(r):
+        h, law = r.history, r.setup.facts["friction"]
+        t, along, up = h["time"], h["momentum_x"], h["momentum_z"] + mass * gravity * h["time"]
+        scale = mass * max(speed, gravity * float(t[-1]))
+        found = [] if rattles(r) else [Finding("momentum across", float(numpy.max(numpy.abs(h["momentum_y"]))) / scale, 1e-4)]
+        found += [
+                 Finding("not pushed", max(0.0, float(numpy.max(along - mass * speed))) / scale, 1e-3),
+                 Finding("borne", max(0.0, -float(numpy.min(up))) / scale, 1e-6)]
+        if law["law"] != "pressure dependent":
+            found.append(Finding("friction's impulse", max(0.0, float(numpy.max(mass * speed - along - law["mu"] * up))) / scale, 0.02))
+        if law["law"] == "Coulomb" and law["mu"] == 0:
+            found.append(Finding("no friction", float(numpy.max(numpy.abs(along - mass * speed))) / scale, 1e-9 if r.is_explicit else 1e-5))
+        return found
+    return check
+
+
+def stays_put(weight):
+    """The floor bears the weight, and nothing wanders off sideways."""
+    def check(r):
+        h = r.history
+        late = h["time"] > 0.5 * h["time"][-1]
+        mean = float(numpy.mean(h["foot.force_z" if "foot.force_z" in h else "floor.force_z"][late]))
+        long = r.knobs.cycles >= 100  # by then bulk viscosity has taken what the start made
+        return [Finding("bears the weight", abs(mean - weight) / weight, 1e-6 if long else 0.05),
+                Finding("stays where it is", float(numpy.max(numpy.abs(r.fields["displacement"][:, :2]))), 1e-3),
+                Finding("comes to rest", float(numpy.max(h["kinetic_energy"][late])) / float(numpy.max(h["kinetic_energy"])), 1e-6 if long else 1.0)]
+    return check
+
+
+def closed_cycles(name):
+    """After the first ones, a cycle ends where the one before did."""
+    def check(r):
+        t, f = r.history["time"], r.force(name)
+        at = [int(numpy.argmin(numpy.abs(t - (1 + i)))) for i in range(r.knobs.cycles + 1)]
+        if r.knobs.cycles < 3 or abs(t[at[-1]] - t[at[-2]] - 1) > 1e-6:
+            return []
+        return [Finding("cycles close", part(float(numpy.max(numpy.abs(f[at[-1]] - f[at[-2]]))), largest_force(r)), 1e-5)]
+    return check
+
+
+# --- two runs ----------------------------------------------------------------------------------------------------------------
+
+def same(r, other, loose=1e-6, count="exact"):
+    """The same scene in other units, or turned: as many iterations and steps, and the same history. Where units are no powers of
+    two round-off differs, and a node that is just at the limit of friction may slip in the one and stick in the other: a
+    correction or a cut more ('nearly')."""
+    found = []
+    if count:
+        for column in ("step", "total_iterations", "total_cuts"):
+            if column in r.history and column in other.history:
+                a, b = float(r.history[column][-1]), float(other.history[column][-1])
+                found.append(Finding(f"as many: {column}", abs(a - b), 0.5 if count == "exact" else 1.5 + 0.1 * b, f"{a:g} for {b:g}"))
+    for name in r.named:
+        if name not in other.named:
+            continue
+        a, b = r.force(name), other.force(name)
+        n = min(len(a), len(b))
+        if count != "exact":
+            a, b, n = a[-1:], b[-1:], 1
+        found.append(Finding(f"same force: {name}", part(float(numpy.max(numpy.abs(a[:n] - b[:n]))), max(largest_force(r), largest_force(other))), loose))
+    u, v = r.fields["displacement"], other.fields["displacement"]
+    if u.shape == v.shape:
+        found.append(Finding("same displacements", part(float(numpy.max(numpy.abs(u - v))), float(numpy.max(numpy.abs(v)))), max(loose, 3e-6)))
+    return found

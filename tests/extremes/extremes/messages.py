@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whether what billet says of a refusal or a failure helps: where, what and why, and what to do."""
+
+import re
+
+WHERE = re.compile(r"scene\.prm(:\d+)?:|command line:")
+WHEN = re.compile(r"\b(time|step)\b")
+TODO = re.compile(r"\b(allowed|try|choose|take|place|name|give|say|make|makes|move|hold|use|add|set|need|needs|draw|raise|lower|leave|wants?)\b")
+WORTHLESS = re.compile(r"(?<![\w'])-?(nan|inf)\b", re.IGNORECASE)
+
+
+def reason(stderr):
+    said = re.sub(r"-{40,}.*?-{40,}", "", stderr, flags=re.DOTALL)
+    return re.sub(r"^billet: ", "", re.sub(r"\s+", " ", said).strip())
+
+
+def lacks(code, said):
+    """What a message has not that it should have; nothing, where it is a help."""
+    missing = []
+    if not said:
+        return ["any message"]
+    if not WHERE.search(said):
+        missing.append("where")
+    if code == 3 and not WHEN.search(said):
+        missing.append("when")
+    if not TODO.search(said):
+        missing.append("what to do")
+    if WORTHLESS.search(said) and "' is" not in said:
+        missing.append("a number")
+    return missing

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Which scenes there are: each parameter over its range, alone and in pairs, in every kind of run that it concerns."""
+
+from dataclasses import dataclass
+
+from .scenes import FEATURES
+
+
+@dataclass
+class Case:
+    """A base scene with some knobs turned. `parameters` are those whose range it is part of; `like` turns knobs so that the
+    result must be the same but for `loose`; `count`: in exactly or nearly as many iterations, or '' for any."""
+    base: str
+    changes: dict
+    parameters: tuple
+    values: tuple
+    like: dict = None
+    count: str = "exact"
+    loose: float = 1e-6
+    limit: float = 30.0
+
+    @property
+    def name(self):
+        turned = ",".join(f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in self.changes.items())
+        return f"{self.base}/{turned or 'as it is'}" + ("" if self.like is None else " like " + (
+            ",".join(f"{k}={v}" for k, v in self.like.items()) or "the base"))
+
+
+def decades(low, high, each=1):
+    return [10.0 ** (e / each) for e in range(low * each, high * each + 1)]
+
+
+PLASTIC = {"law": "elastoplastic"}
+ROUGH = {"mu": 0.2}
+IMPLICIT_TOOLS = ("upset", "slide", "ball", "twist", "place")
+BODIES = ("stack", "drag", "clip")
+EXPLICIT = tuple(f"{b}.explicit" for b in ("drop", "bar", "bars", "skid", "fold"))
+DYNAMIC = tuple(f"{b}.implicit" for b in ("drop", "bar", "bars", "skid", "fold"))
+STATICS = IMPLICIT_TOOLS + BODIES
+CONTACT = STATICS + EXPLICIT + DYNAMIC
+ALL = ("upset", "pull") + STATICS[1:] + EXPLICIT + DYNAMIC
+FRICTIONAL = ("upset", "slide", "ball", "twist", "place", "drag", "clip", "drop.explicit", "skid.explicit", "drop.implicit", "skid.implicit")
+ELEMENTS = ("mean dilatation", "full", "one point")
+LAWS = ("Hencky", "neo-Hookean", "hypoelastic")
+FRICTION_LAWS = ("Coulomb", "shear limited", "static-kinetic", "pressure dependent")
+NU = [-0.9, -0.5, 0.0, 0.3, 0.45, 0.49, 0.499, 0.4999]
+MU = [0.0, 1e-6, 1e-3, 0.01, 0.1, 0.3, 0.6, 1.0, 2.0, 5.0, 10.0]
+STRAINS = [-2.995732273553991, -2.0, -1.0, -0.5, -0.1, -1e-2, -1e-4, -1e-6]
+STRETCHES = [1e-6, 1e-4, 1e-2, 0.1, 0.5, 0.99, 2.0, 2.995732273553991]
+STEPS = [1e-6, 1e-4, 1e-2, 0.05, 0.1, 0.25, 0.5, 1.0]
+PENALTIES = decades(-3, 8)
+
+
+def single(parameter, bases, values, knob=None, along=None):
+    """One parameter alone."""
+    for base in bases:
+        for value in values:
+            yield Case(base, {**(along or {}), (knob or parameter): value}, (parameter,), (value,))
+
+
+def product(names, bases, firsts, seconds, along=None, limit=30.0):
+    for base in bases:
+        for a in firsts:
+            for b in seconds:
+                yield Case(base, {**(along or {}), names[0]: a, names[1]: b}, tuple(names), (a, b), limit=limit)
+
+
+def works(base, element, law):
+    """What billet has: `full` is for implicit scenes."""
+    return not (element == "full" and base.endswith("explicit"))
+
+
+def cases():
+    """All of them, each once."""
+    seen, result = set(), []
+    for case in everything():
+        if case.name not in seen:
+            seen.add(case.name)
+            result.append(case)
+    return result
+
+
+def everything():  # noqa: C901
+    # contact
+    yield from single("penalty", ("upset", "slide", "stack", "drag", "clip", "drop.explicit", "bars.explicit", "drop.implicit", "bars.implicit"), PENALTIES)
+    yield from single("penalty", CONTACT, PENALTIES[1::2])
+    yield from single("penalty", ("stack", "drag", "clip", "bars.implicit"), PENALTIES[::2], along={"facets": "planed"})
+    yield from single("penalty", ("stack", "bars.explicit"), PENALTIES[::2], along={"facets": "bilinear"})
+    for base in ("upset", "slide", "ball", "stack", "drag"):
+        yield from single("augmented penalty", (base,), PENALTIES[::2], knob="penalty", along={"augmentation": 1e-3, **ROUGH})
+        yield from single("augmentation", (base,), decades(-8, -1)[::2] + [0.1], along={"penalty": 1.0})
+    for base in ("slide", "twist", "drag", "skid.explicit", "skid.implicit"):
+        yield from single("tangential penalty", (base,), PENALTIES[::2], along=ROUGH)
+    yield from single("mu", FRICTIONAL, MU)
+    for law in FRICTION_LAWS[1:]:
+        yield from single("mu", ("slide", "twist", "drag", "skid.explicit", "skid.implicit"), MU[2::2], along={"friction law": law})
+    yield from product(("penalty", "mu"), ("slide", "drag"), PENALTIES, [0.0, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0])
+    yield from product(("penalty", "mu"), ("ball", "upset", "skid.explicit", "skid.implicit"), PENALTIES[::2], [0.01, 0.3, 1.0, 10.0])
+    for facets in ("planed", "mean gap", "bilinear", "overlap"):
+        for passes in ("one", "two"):
+            for base in ("stack", "drag", "clip", "bars.explicit", "fold.explicit", "bars.implicit", "fold.implicit", "touching", "lying.explicit"):
+                if base.startswith(("clip", "fold")) != (passes == "two") and (facets == "overlap" or passes == "one"):
+                    continue  # a body with itself: two; overlaps between bodies: one
+                if facets == "overlap" and base.endswith("explicit"):
+                    continue
+                yield Case(base, {"facets": facets, "passes": passes}, ("facets",), (f"{facets}, {passes}",))
+    # material
+    yield from single("nu", ALL, NU[::2] + NU[-1:])
+    yield from product(("nu", "element"), ("upset", "pull", "stack"), NU, ELEMENTS)
+    yield from product(("nu", "element"), ("drop.explicit", "bar.explicit"), NU[::2], ("mean dilatation", "one point"))
+    yield from product(("nu", "step"), ("upset",), NU, STEPS, along={"strain": -0.5})
+    yield from product(("nu", "step"), ("pull",), NU, STEPS[::2], along={"strain": 0.5, **PLASTIC})
+    hardenings = [-0.1, -1e-3, 0.0, 1e-6, 1e-3, 0.1, 1.0, 10.0]
+    yields = [10.0 ** e for e in range(-8, 1)]
+    plastic = ("upset", "pull", "slide", "stack", "clip", "drop.explicit", "bars.explicit", "drop.implicit", "bars.implicit")
+    yield from single("hardening modulus", plastic, hardenings, along=PLASTIC)
+    yield from single("yield", plastic, yields, along=PLASTIC)
+    yield from product(("yield", "hardening modulus"), ("upset", "pull"), yields[::2], hardenings[2:], along=PLASTIC)
+    for hardening in ("Voce", "power law", "table"):
+        yield from single("yield", ("upset", "pull", "drop.explicit", "drop.implicit"), yields[::2], along={**PLASTIC, "hardening": hardening})
+    for base in ALL:
+        for element in ELEMENTS:
+            for law in LAWS:
+                if works(base, element, law):
+                    for more in ({}, PLASTIC) if base not in ("clip", "twist", "fold.implicit", "skid.implicit") else (PLASTIC,):
+                        yield Case(base, {"element": element, "kinematics": law, **more}, ("element", "law"),
+                                   (element, law + (", plastic" if more else "")))
+    yield from single("hourglass", ("upset", "slide", "stack", "drop.explicit", "bars.implicit"), decades(-4, 2), along={"element": "one point"})
+    # shape and loading
+    for law in LAWS:
+        for more in ({}, PLASTIC):
+            yield from single("strain", ("upset",), STRAINS, along={"kinematics": law, **more})
+            yield from single("strain", ("pull",), STRETCHES, along={"kinematics": law, **more})
+    aspects = decades(-3, 3)
+    yield from single("aspect", ("upset", "pull"), aspects)
+    yield from product(("aspect", "strain"), ("upset",), decades(-3, 3), STRAINS[:6])
+    yield from product(("aspect", "strain"), ("pull",), decades(-3, 3), STRETCHES[2:])
+    for element in ELEMENTS:
+        yield from single("grading", ("upset",), decades(0, 4, 2), along={"element": element, "bricks": 4})
+        yield from single("distortion", ("upset",), [0.0, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 1.0, 1.5, 3.0], along={"element": element})
+    yield from single("length", ALL, decades(-9, 6, 1)[::3], knob="length")
+    yield from single("radius", ("ball",), decades(-3, 6), along={})
+    yield from single("radius", ("ball",), decades(-3, 6), along=ROUGH)
+    yield from product(("radius", "penalty"), ("ball",), decades(-2, 4, 1)[::2], PENALTIES[::3])
+    for more in ({}, {"mu": 0.3}, {**PLASTIC}):
+        for feature in FEATURES:
+            yield Case("place", {"feature": feature, **more}, ("feature",), (feature,))
+    yield from single("feature", ("place",), FEATURES, along={"penalty": 1e4})
+    for turns in (1e-6, 1e-3, 0.1, 1.0, 10.0, 100.0):
+        yield Case("twist", {"turns": turns, **ROUGH}, ("turns",), (turns,))
+        yield Case("twist", {"turns": turns, "mu": 1.0}, ("turns",), (turns,))
+        yield Case("twist", {"turns": 0.02, "oscillations": turns * 10, "mu": 0.3}, ("oscillations",), (turns * 10,))
+    for base in ("rest", "touching", "lying.explicit", "lying.implicit"):
+        yield from single("penalty", (base,), PENALTIES[::3])
+        yield from single("mu", (base,), MU[::4])
+        yield from single("length", (base,), decades(-9, 6)[::5], knob="length")
+    for base in ("slide",):
+        for cycles in (3, 10, 30):
+            yield Case(base, {"cycles": cycles, "step": 0.05, "mu": 0.3, "slide": 0.01}, ("cycles",), (cycles,), limit=120)
+    # steps and solver
+    yield from single("step", STATICS + ("pull",), STEPS)
+    yield from single("step", ("slide", "twist", "drag", "ball"), STEPS[1:], along={"mu": 0.3})
+    yield from single("step", ("upset", "pull"), STEPS[3:], along={**PLASTIC, "strain": -0.5})
+    for base in ("upset", "slide", "ball", "stack", "drag", "clip"):
+        yield Case(base, {"first step": 1.0, "largest step": 10.0, "mu": 0.2}, ("whole load",), ("at once",), like={"mu": 0.2}, count="", loose=0.1)
+    for tangent in ("exact", "numerical", "consistent", "continuum", "symmetrised upper", "symmetrised lower", "symmetrised mean"):
+        for base in ("upset", "slide", "ball", "twist"):
+            for mu in (0.0, 0.3):
+                yield Case(base, {"tangent": tangent, "mu": mu}, ("tangent",), (tangent,))
+        yield Case("drag", {"tangent": tangent, "mu": 0.3}, ("tangent",), (tangent,))
+    yield from single("tolerance", ("upset", "slide", "ball", "stack", "drag", "drop.implicit"), [10.0 ** -e for e in range(1, 16, 2)], along=ROUGH)
+    for solver in ("MUMPS", "MUMPS symmetric", "KLU", "CG", "GMRES"):
+        for base in ("upset", "slide", "stack", "drag", "drop.implicit", "bars.implicit"):
+            for penalty in (1.0, 1e5):
+                yield Case(base, {"solver": solver, "penalty": penalty}, ("solver", "penalty"), (solver, penalty))
+    for profile in ("fast", "accurate"):
+        for base in ("upset", "slide", "ball", "stack", "drag", "clip") + DYNAMIC + EXPLICIT:
+            yield Case(base, {"profile": profile, **ROUGH}, ("profile",), (profile,), limit=180)
+    # several bodies
+    ratios = decades(-6, 6)
+    yield from single("modulus ratio", ("stack", "drag", "bars.explicit", "bars.implicit"), ratios)
+    yield from single("modulus ratio", ("stack", "drag"), ratios[::2], along={"facets": "planed"})
+    yield from single("density ratio", ("bars.explicit", "bars.implicit"), ratios)
+    yield from product(("density ratio", "modulus ratio"), ("bars.explicit", "bars.implicit"), ratios[::3], ratios[::3])
+    # motion
+    speeds = [1e-6, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.3, 1.0]
+    yield from single("speed", ("drop.explicit", "bar.explicit", "bars.explicit", "skid.explicit", "fold.explicit"), speeds[2:])
+    yield from single("speed", ("drop.implicit", "bar.implicit", "bars.implicit", "skid.implicit"), speeds[2:])
+    yield from single("speed", ("drop.explicit", "bar.explicit", "drop.implicit"), speeds[2:], along={**PLASTIC, "yield": 1e-3})
+    for resolution in (1.0, 2.0, 4.0):
+        yield from single("speed", ("drop.explicit", "bars.explicit"), speeds[3:], along={"resolution": resolution, "penalty": 1.0})
+    yield from product(("speed", "bricks"), ("bar.explicit", "drop.explicit"), speeds[3:], [1, 2, 4, 8])
+    yield from single("safety", EXPLICIT, [0.01, 0.1, 0.5, 0.9, 0.99, 1.0])
+    yield from single("safety", EXPLICIT[:1], [0.0, 1.01, 2.0])
+    yield from product(("safety", "resolution"), ("drop.explicit", "bars.explicit"), [0.5, 0.9, 0.99, 1.0], [1.0, 2.0, 4.0])
+    yield from single("mass scaling", ("drop.explicit", "bars.explicit"), [1e-6, 1e-4, 1e-3])
+    yield from single("linear viscosity", ("drop.explicit", "bar.explicit", "bars.explicit"), [0.0, 0.06, 0.5, 1.0, 3.0])
+    yield from single("instructions", ("drop.explicit", "bars.explicit"), ("scalar", "SSE2", "AVX2", "AVX-512"))
+    yield from single("step", DYNAMIC, [1e-3, 0.01, 0.05, 0.2, 1.0])
+    for method in ("Newmark", "HHT-alpha", "generalised-alpha"):
+        for base in DYNAMIC:
+            for mass in ("consistent", "lumped"):
+                yield Case(base, {"method": method, "mass": mass}, ("method",), (method,))
+    yield from single("spectral radius", ("drop.implicit", "bars.implicit", "skid.implicit"), [0.0, 0.2, 0.5, 0.8, 0.95, 1.0])
+    yield from single("error tolerance", ("drop.implicit", "bars.implicit"), [0.0, 1e-1, 1e-2, 1e-4, 1e-5], along={})
+    for steps in (10, 100, 1000):
+        yield Case("pile.explicit", {"cycles": steps, "mu": 0.5}, ("explicit steps",), (steps * 1000,), limit=300)
+    # the same in other words
+    units = {"m, N": (1e-3, 1e6, 1.0), "m, kN": (1e-3, 1e3, 1.0), "um, N": (1e3, 1e-6, 1.0), "mm, N, ms": (1.0, 1.0, 1e3),
+             "miles, years": (6.2e-7, 1e-9, 3.17e-8),
+             # Of these nothing is rounded: all must be the same to the last digit.
+             "2^-10 lengths": (2.0**-10, 1.0, 1.0), "2^20 stresses": (1.0, 2.0**20, 1.0), "all by powers of 2": (2.0**20, 2.0**-30, 2.0**10)}
+    for base in ALL:
+        for name, (length, stress, time) in units.items():
+            more = ROUGH if base in FRICTIONAL else {}
+            if base.startswith("skid"):
+                more = {**more, "duration": 0.1}  # a block that hops on its penalties doubles round-off with each hop
+            yield Case(base, {**more, "length": length, "stress": stress, "time": time}, ("units",), (name,), like=dict(more),
+                       count="exact" if "2^" in name or "powers" in name else "nearly",
+                       loose=1e-9 if "2^" in name or "powers" in name else 1e-6 if not base.endswith("implicit") else 1e-5)
+        if base not in ("pull", "clip", "fold.explicit", "fold.implicit"):
+            for degrees in (1e-6, 90.0, 137.0):
+                more = ROUGH if base in FRICTIONAL else {}
+                if base.startswith("skid"):
+                    more = {**more, "duration": 0.1}
+                yield Case(base, {**more, "turned": degrees}, ("turned",), (degrees,), like=dict(more), count="",
+                           loose=1e-3 if base.endswith(("implicit", "explicit")) else 2e-5)
+    for base in ("upset", "slide", "stack", "drop.explicit"):
+        for law in LAWS:
+            for element in ELEMENTS:
+                if works(base, element, law):
+                    more = {"kinematics": law, "element": element, **PLASTIC}
+                    yield Case(base, {**more, "turned": 50.0}, ("turned",), (50.0,), like=more, count="", loose=1e-3)
+
+
+# Some of each kind, seconds altogether: what ctest runs.
+FIXED = (
+    "upset/penalty=0.001", "upset/penalty=1e+06", "upset/nu=0.4999,element=mean dilatation", "upset/kinematics=neo-Hookean,strain=-1",
+    "upset/law=elastoplastic,hardening modulus=0", "upset/law=elastoplastic,hardening modulus=-0.1", "upset/element=one point,distortion=3",
+    "upset/aspect=1000,strain=-0.5", "upset/mu=0.2,length=0.000976562,stress=1,time=1 like mu=0.2",
+    "pull/kinematics=Hencky,strain=2", "slide/penalty=10000,mu=0.3", "slide/mu=10", "slide/friction law=shear limited,mu=0.6",
+    "slide/mu=0.2,turned=137 like mu=0.2", "ball/radius=0.001", "twist/turns=10,mu=0.2", "place/feature=seams", "rest/penalty=1000",
+    "stack/modulus ratio=1e+06", "stack/facets=planed,penalty=10", "drag/mu=0.3", "touching/mu=0.1", "clip/penalty=100",
+    "drop.explicit/speed=0.3", "bar.explicit/safety=0.99", "bars.explicit/density ratio=100", "bars.explicit/turned=90 like the base",
+    "skid.explicit/mu=0.3", "fold.explicit/speed=0.01", "lying.explicit/penalty=1000", "drop.implicit/nu=0.45", "bar.implicit/penalty=1",
+    "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
+)

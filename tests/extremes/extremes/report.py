@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What became of all scenes: extremes.md with its tables, and pictures over pairs of parameters."""
+
+import math
+import re
+from collections import Counter, defaultdict
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
+from matplotlib.patches import Patch  # noqa: E402
+
+from .runner import OUTCOMES  # noqa: E402
+from .scenes import KINDS, KNOBS  # noqa: E402
+
+COLOURS = {"right": "#4c9f70", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
+           "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
+WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient", "nu": "Poisson's ratio", "step": "fixed step, of the load",
+         "strain": "logarithmic strain", "aspect": "height over width of a brick", "yield": "yield stress, E",
+         "hardening modulus": "hardening modulus, E", "augmentation": "`Penetration tolerance`", "hourglass": "`Hourglass stiffness`",
+         "tangential penalty": "tangential penalty, E/h", "grading": "largest over smallest element", "distortion": "inner node moved, bricks",
+         "length": "length of the scene", "radius": "radius of the tool, block sizes", "turns": "turns of a tool", "oscillations": "oscillations of a tool",
+         "cycles": "cycles of friction", "tolerance": "`Force tolerance`", "modulus ratio": "ratio of moduli", "density ratio": "ratio of densities",
+         "speed": "speed, wave speeds", "safety": "`Safety factor`", "resolution": "`Contact resolution`", "mass scaling": "`Mass scaling step`",
+         "linear viscosity": "`Linear bulk viscosity`", "spectral radius": "`Spectral radius`", "error tolerance": "`Error tolerance`",
+         "bricks": "bricks along an edge", "feature": "feature of a tool on nodes", "turned": "scene turned, degrees", "units": "units",
+         "facets": "`Facets`, `Passes`", "element": "`Element`", "law": "`Kinematics`", "tangent": "`Contact tangent`", "solver": "`Linear solver`",
+         "method": "`Method`", "profile": "`Profile`", "instructions": "`Instructions`", "whole load": "whole load in the first step",
+         "explicit steps": "explicit steps of a resting pile"}
+COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda base: base.endswith(".implicit"),
+           "explicit": lambda base: base.endswith(".explicit")}
+
+
+def shown(value):
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def table(header, rows):
+    return "\n".join(["| " + " | ".join(header) + " |", "| " + " | ".join("---" for _ in header) + " |"]
+                     + ["| " + " | ".join(str(c) for c in row) + " |" for row in rows])
+
+
+def alone(records, parameter):
+    return [r for r in records if parameter in r["parameters"]]
+
+
+def safe(records, parameter):
+    """Of the scenes in which this parameter alone is turned: the values, in a row around the default, at which all are right;
+    words: those at which all are."""
+    own = [r for r in records if r["parameters"] == [parameter]] or alone(records, parameter)
+    if not own:
+        return ""
+    by_value = defaultdict(set)
+    for r in own:
+        by_value[r["values"][r["parameters"].index(parameter)]].add(r["outcome"])
+    good = {v for v, outcomes in by_value.items() if outcomes == {"right"}}
+    if any(isinstance(v, str) for v in by_value):
+        bad = [v for v in by_value if v not in good]
+        return "all" if not bad else f"all but {', '.join(map(str, bad))}" if len(bad) <= 3 else f"{len(good)} of {len(by_value)}"
+    values = sorted(by_value)
+    if not good:
+        return "-"
+    default = KNOBS.get({"augmented penalty": "penalty"}.get(parameter, parameter))
+    runs, row = [], []
+    for v in values + [None]:
+        if v in good:
+            row.append(v)
+        elif row:
+            runs.append(row)
+            row = []
+    def worth(run):
+        holds = default is not None and isinstance(default, (int, float)) and run[0] <= default <= run[-1]
+        return holds, len(run)
+    best = max(runs, key=worth)
+    return shown(best[0]) if len(best) == 1 else f"{shown(best[0])} to {shown(best[-1])}"
+
+
+def tried(records, parameter):
+    values = {r["values"][r["parameters"].index(parameter)] for r in alone(records, parameter)}
+    if any(isinstance(v, str) for v in values):
+        return f"{len(values)} of them"
+    return f"{shown(min(values))} to {shown(max(values))}"
+
+
+def reasons(records, outcome):
+    """Messages without their numbers and names, most frequent first."""
+    found = defaultdict(list)
+    for r in records:
+        if r["outcome"] == outcome:
+            words = re.sub(r"^scene\.prm(:\d+)?: ", "", r["reason"])
+            words = re.sub(r"^.*? (?=after \d+ accepted)", "the step failed ", words)
+            words = re.sub(r"\([^()]*\d[^()]*\)", "(...)", words)
+            words = re.sub(r"-?\d[\d.]*(e[-+]?\d+)?", "#", words)
+            words = re.sub(r"'(Bodies|Tools|Contact pairs) / [^']*'|pair '[^']*'", "...", words)
+            words = re.sub(r"; residual # of the forces.*", "", words)
+            found[words[:220]].append(r["name"])
+    return sorted(found.items(), key=lambda item: -len(item[1]))
+
+
+def write(records, folder, planned=0):
+    (folder / "results").mkdir(parents=True, exist_ok=True)
+    (folder / "images").mkdir(parents=True, exist_ok=True)
+    outcomes = [o for o in OUTCOMES if any(r["outcome"] == o for r in records)]
+    whole = Counter(r["outcome"] for r in records)
+    parts = ["# Scenes at the extremes", f"Written by `scripts/extremes`, on one rank: {len(records)} {f'of the {planned} ' if planned > len(records) else ''}tiny scenes of the plan "
+             "(1 to 64 bricks), each parameter over its range, alone and in pairs, in every kind of run. In each, what must hold is "
+             "computed from what the run wrote: equilibrium, closed forms of bars and columns, the yield condition, the friction cone "
+             "of nodes and of whole forces, the ledger of energies, momentum, impulse, mirror symmetry, penetration, elements inside "
+             "out, and that the same scene in other units takes as many steps and iterations, and turned in space gives the same.",
+             "*right*: all of that holds. *doubtful*: it does not, and the log says that the energies fail to balance, and what to do. "
+             "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
+             "*wrong*, *crashed*, *hung* (30 s and more): what must not be.",
+             table(["", *outcomes, "scenes"], [["all", *[whole[o] for o in outcomes], len(records)]]
+                   + [[kind, *[sum(r["base"] in bases and r["outcome"] == o for r in records) for o in outcomes],
+                       sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),
+             "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
+             "alone is right, by the kind of run; outside of it at least one of them is not, which may be one of many. Counts are of all "
+             "scenes, those in pairs with it included."]
+    names = []
+    for r in records:
+        names += [p for p in r["parameters"] if p not in names]
+    rows = []
+    for name in names:
+        mine = alone(records, name)
+        count = Counter(r["outcome"] for r in mine)
+        rows.append([WORDS.get(name, name), tried(records, name), len(mine), *[count[o] or "" for o in outcomes],
+                     *[safe([r for r in mine if of(r["base"])], name) for of in COLUMNS.values()]])
+    rows.sort(key=lambda row: -row[2])
+    parts.append(table(["parameter", "tried", "scenes", *outcomes, *(f"safe: {c}" for c in COLUMNS)], rows))
+    parts += draw_all(records, folder / "images")
+    for outcome, title in (("failed", "What failed, and what was said"), ("refused", "What was refused"),
+                           ("unhelpful", "Messages that do not help"), ("doubtful", "Doubtful")):
+        found = reasons(records, outcome)
+        if found:
+            parts += [f"## {title}", table(["scenes", "said (numbers left out)", "one of them"],
+                                           [[len(n), words.replace("|", "\\|"), f"`{n[0]}`"] for words, n in found[:20]])]
+    bad = [r for r in records if r["outcome"] in ("wrong", "crashed", "hung")]
+    if bad:
+        parts += ["## What must not be", table(["", "scene", "why"], [
+            [r["outcome"], f"`{r['name']}`", " ".join(r["reason"].split())[:240].replace("|", "\\|")] for r in sorted(bad, key=lambda r: (r["outcome"], r["name"]))])]
+    (folder / "results/extremes.md").write_text("\n\n".join(parts) + "\n")
+
+
+# --- pictures ----------------------------------------------------------------------------------------------------------------
+
+PICTURES = {
+    "penalty_friction": (("penalty", "mu"), "normal penalty, E/h", "friction coefficient", (
+        ("slide", "a block dragged on a tool"), ("drag", "a block dragged on a block"), ("skid.explicit", "explicit: skidding"),
+        ("skid.implicit", "implicit dynamics: skidding"))),
+    "nu_step": (("step", "nu"), "fixed step, part of the load", "Poisson's ratio", (
+        ("upset", "elastic, pressed to ln -0.5"), ("pull", "plastic, pulled to ln 0.5"))),
+    "aspect_strain": (("aspect", "strain"), "height over width", "logarithmic strain", (
+        ("upset", "pressed between tools"), ("pull", "pulled"))),
+}
+
+
+def draw_all(records, folder):
+    said = []
+    for name, (pair, x, y, bases) in PICTURES.items():
+        if draw(records, folder / f"extremes_{name}.png", pair, x, y, bases):
+            said.append(f"![Outcome over {x} and {y}](../images/extremes_{name}.png)")
+    return said
+
+
+def draw(records, file, pair, x_label, y_label, bases):
+    cells = {base: {} for base, _ in bases}
+    for r in records:
+        if r["base"] in cells and set(r["parameters"]) == set(pair):
+            v = dict(zip(r["parameters"], r["values"]))
+            cells[r["base"]][v[pair[0]], v[pair[1]]] = r
+    panels = [(base, title) for base, title in bases if cells[base]]
+    if not panels:
+        return False
+    order = list(COLOURS)
+    figure, axes = pyplot.subplots(1, len(panels), figsize=(1.2 + 3.9 * len(panels), 4.4), squeeze=False)
+    colours, norm = ListedColormap([COLOURS[o] for o in order]), BoundaryNorm([i - 0.5 for i in range(len(order) + 1)], len(order))
+    used = set()
+    for ax, (base, title) in zip(axes[0], panels):
+        found = cells[base]
+        xs, ys = sorted({k[0] for k in found}), sorted({k[1] for k in found})
+        outcome = [[found[a, b]["outcome"] if (a, b) in found else None for a in xs] for b in ys]
+        used |= {o for row in outcome for o in row if o}
+        ax.imshow([[order.index(o) for o in row] for row in outcome], cmap=colours, norm=norm, origin="lower", aspect="auto")
+        for i, b in enumerate(ys):
+            for j, a in enumerate(xs):
+                r = found.get((a, b))
+                if r and r.get("iterations"):
+                    ax.text(j, i, f"{r['iterations'] / max(r['steps'], 1):.1f}", ha="center", va="center", fontsize=6.5, color="#10301c")
+        ax.set_xticks(range(len(xs)), [power(v) for v in xs], fontsize=8)
+        ax.set_yticks(range(len(ys)), [f"{v:.4g}" for v in ys], fontsize=8)
+        ax.set_title(title, fontsize=10)
+        ax.set_xlabel(x_label)
+        for spine in ax.spines.values():
+            spine.set_visible(False)
+        ax.set_xticks([i - 0.5 for i in range(len(xs) + 1)], minor=True)
+        ax.set_yticks([i - 0.5 for i in range(len(ys) + 1)], minor=True)
+        ax.grid(which="minor", color="white", lw=1.2)
+        ax.tick_params(which="both", length=0)
+    axes[0][0].set_ylabel(y_label)
+    figure.legend(handles=[Patch(color=COLOURS[o], label=o) for o in order if o in used], loc="lower center", ncol=8, frameon=False)
+    figure.tight_layout(rect=(0, 0.07, 1, 1))
+    figure.savefig(file, dpi=110)
+    pyplot.close(figure)
+    return True
+
+
+def power(value):
+    if value > 0 and abs(math.log10(value) - round(math.log10(value))) < 1e-9 and not 0.05 < value < 50:
+        return f"$10^{{{round(math.log10(value))}}}$"
+    return f"{value:.4g}"

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a run wrote, read back into base units and the upright frame."""
+
+import csv
+from functools import cached_property
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
+
+def read_history(file):
+    """{column: array}; a line that was cut off is left out."""
+    try:
+        with open(file, newline="") as stream:
+            rows = list(csv.reader(stream))
+    except OSError:
+        return {}
+    if not rows:
+        return {}
+    values = numpy.array([[float(v) for v in row] for row in rows[1:] if len(row) == len(rows[0])])
+    return dict(zip(rows[0], values.reshape(-1, len(rows[0])).T))
+
+
+def read_fields(file):
+    reader = vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    grid = reader.GetOutput()
+    data = grid.GetPointData()
+    fields = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float) for i in range(data.GetNumberOfArrays())}
+    fields["points"] = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    fields["cells"] = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
+    return fields
+
+
+VECTORS = ("displacement", "contact_traction", "velocity")
+
+
+def upright(fields, frame):
+    """From the numbers in the file. Stress components are not turned back: their scalars do."""
+    f = dict(fields)
+    unit = {"displacement": frame.length, "contact_traction": frame.stress, "contact_pressure": frame.stress,
+            "contact_gap": frame.length, "contact_slip": frame.length, "contact_area": frame.length**2,
+            "von_mises_stress": frame.stress, "pressure": frame.stress, "velocity": frame.speed}
+    for name, values in f.items():
+        if name.startswith("stress_"):
+            f[name] = values / frame.stress
+        elif name in unit:
+            f[name] = values / unit[name]
+    f["points"] = f["points"] / frame.length
+    if frame.degrees:
+        for name in VECTORS:
+            if name in f:
+                f[name] = f[name] @ frame.turn
+        f["points"] = f["points"] @ frame.turn
+    f["places"] = f["points"] - f["displacement"]
+    if "body" in f:
+        f["body"] = f["body"] - f["body"].min()
+    return f
+
+
+def in_base_units(history, frame):
+    h = dict(history)
+    turned = {}
+    for name, values in h.items():
+        last = name.rsplit(".", 1)[-1]
+        if last.startswith("force_"):
+            unit = frame.force
+        elif last.startswith("moment_of_momentum"):
+            unit = frame.momentum * frame.length
+        elif last.startswith("momentum"):
+            unit = frame.momentum
+        elif last.startswith("moment_"):
+            unit = frame.force * frame.length
+        elif last == "contact_area":
+            unit = frame.length**2
+        elif last.startswith(("deepest_penetration", "travel")):
+            unit = frame.length
+        elif last in ("time", "step_length"):
+            unit = frame.time
+        elif last.endswith(("_energy", "_work", "_dissipation", "_drift")):
+            unit = frame.energy
+        else:
+            unit = 1.0
+        turned[name] = values / unit
+    if frame.degrees:
+        for name in list(turned):
+            if name.endswith("_x") and name[:-1] + "z" in turned:
+                three = numpy.stack([turned[name[:-1] + i] for i in "xyz"], axis=1) @ frame.turn
+                for i, axis in enumerate("xyz"):
+                    turned[name[:-1] + axis] = three[:, i]
+    return turned
+
+
+class Result:
+    """Of one run; `setup` says what it was."""
+
+    def __init__(self, setup, history, fields):
+        self.setup, self.knobs = setup, setup.knobs
+        self.history, self.fields = in_base_units(history, setup.frame), upright(fields, setup.frame) if fields else {}
+
+    @classmethod
+    def read(cls, setup, folder):
+        pictures = sorted(folder.glob("fields_*.pvtu"))
+        return cls(setup, read_history(folder / "history.csv"), read_fields(pictures[-1]) if pictures else {})
+
+    @cached_property
+    def named(self):
+        """Tools and pairs with forces."""
+        return [name[:-len(".force_x")] for name in self.history if name.endswith(".force_x")]
+
+    def force(self, name):
+        return numpy.stack([self.history[f"{name}.force_{i}"] for i in "xyz"], axis=1)
+
+    @property
+    def is_explicit(self):
+        return self.setup.sections["Time stepping"].get("Scheme") == "explicit"
+
+    @property
+    def between_bodies(self):
+        return any("Second body" in pair for pair in self.setup.sections.get("Contact pairs", {}).values())
+
+    @property
+    def in_contact(self):
+        return self.fields["contact_status"] > 0

@@ -1,0 +1,640 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Base scenes: tiny, each with what must hold in it. A scene is made of knobs {name: value}; those that are not set have the
+defaults below. Base units: block sizes about 1, E = 1000; dynamic ones with a density of 1e-3, so that bars carry waves at 1000."""
+
+import math
+
+from . import invariants as must
+from .closed_forms import bar_speed
+from .prm import Frame, number
+
+KNOBS = {
+    # frame
+    "length": 1.0, "stress": 1.0, "time": 1.0, "turned": 0.0,
+    # body
+    "law": "elastic", "element": "mean dilatation", "kinematics": "Hencky", "nu": 0.3, "young": 1000.0,
+    "hardening": "linear", "yield": 0.01, "hardening modulus": 0.1, "hourglass": None, "density": 1e-3,
+    "bricks": None, "aspect": 1.0, "grading": 1.0, "distortion": 0.0,
+    "density ratio": 1.0, "modulus ratio": 1.0,
+    # loading
+    "strain": -0.1, "press": 0.02, "slide": 0.2, "speed": 0.01, "turns": 0.1, "oscillations": 0.0, "cycles": 0,
+    # contact
+    "penalty": 10.0, "mu": 0.0, "friction law": "Coulomb", "facets": None, "passes": None, "augmentation": None,
+    "tangential penalty": None, "radius": 1.0, "feature": "pole",
+    # time and solver
+    "step": None, "first step": 0.1, "largest step": 0.25, "tangent": None, "tolerance": None, "solver": None,
+    "predictor": None, "line search": None, "safety": None, "resolution": None, "mass scaling": None, "instructions": None,
+    "linear viscosity": None, "method": None, "spectral radius": None, "error tolerance": None, "profile": None,
+    "target error": None, "mass": None, "duration": 1.0, "material tangent": None,
+}
+
+UPRIGHT = (1.0, 1.0, 1.0)
+
+
+class Knobs:
+    """As attributes, blanks as underscores."""
+
+    def __init__(self, changes):
+        unknown = set(changes) - set(KNOBS)
+        if unknown:
+            raise KeyError(f"unknown knobs {unknown}")
+        self.all = {**KNOBS, **changes}
+
+    def __getattr__(self, name):
+        return self.all[name.replace("_", " ")]
+
+
+class Setup:
+    """`sections` of the scene file, the `frame` they are written in, what `must` hold (functions of a Result), and `facts`
+    that these functions need, in base units."""
+
+    def __init__(self, knobs, frame, sections, checks, **facts):
+        self.knobs, self.frame, self.sections, self.checks, self.facts = knobs, frame, sections, checks, facts
+
+
+def frame_of(k):
+    return Frame(k.length, k.stress, k.time, UPRIGHT, k.turned)
+
+
+def material(k, f, young=None, density=None):
+    e = young or k.young
+    m = {"Law": k.law, "Young modulus": number(e * f.stress), "Poisson ratio": number(k.nu)}
+    if k.kinematics != "Hencky":
+        m["Kinematics"] = k.kinematics
+    if density:
+        m["Density"] = number(density * f.density)
+    if k.law == "elastoplastic":
+        y, h = k.all["yield"] * e * f.stress, k.hardening_modulus * e * f.stress
+        m["Hardening"] = k.hardening
+        if k.hardening == "linear":
+            m.update({"Yield stress": number(y), "Hardening modulus": number(h)})
+        elif k.hardening == "Voce":
+            m.update({"Yield stress": number(y), "Hardening modulus": number(h), "Saturation stress": number(2 * y),
+                      "Saturation rate": 10})
+        elif k.hardening == "power law":
+            m.update({"Strength coefficient": number(3 * y), "Prestrain": number(1e-3), "Hardening exponent": 0.2})
+        elif k.hardening == "table":
+            m["Table"] = ", ".join(f"{number(s)} : {number(y + h * s)}" for s in (0, 0.1, 0.5, 5))
+    return m
+
+
+def yield_stress(k, plastic, young=None):
+    e = young or k.young
+    y, h = k.all["yield"] * e, k.hardening_modulus * e
+    if k.hardening == "linear":
+        return y + h * plastic
+    if k.hardening == "Voce":
+        return 2 * y - y * math.exp(-10 * plastic) + h * plastic
+    if k.hardening == "power law":
+        return 3 * y * (1e-3 + plastic) ** 0.2
+    return y + h * min(plastic, 5)
+
+
+def body(k, f, mesh, planes=None, young=None, density=None, **more):
+    b = {"Mesh": f.mesh(**mesh), "Material": material(k, f, young, density)}
+    if k.element != "mean dilatation":
+        b["Element"] = k.element
+    if k.hourglass is not None:
+        b["Hourglass stiffness"] = number(k.hourglass)
+    if planes:
+        b["Symmetry planes"] = f.planes(planes)
+    b.update(more)
+    return b
+
+
+def box(n, low, high, **more):
+    # deal.II's box, at base units; written as a product, since deal.II takes corners of any order.
+    return {"Primitive": "subdivided_hyper_rectangle",
+            "Arguments": f"{n[0]}, {n[1]}, {n[2]} : {', '.join(map(number, low))} : {', '.join(map(number, high))} : true", **more}
+
+
+def plane(f, point, normal):
+    return {"plane": {"Shape": "plane", "Point": f.vector(point, f.length), "Normal": f.vector(normal)}}
+
+
+def pair(k, f, **more):
+    p = {"Normal penalty": number(k.penalty)}
+    if k.tangential_penalty is not None:
+        p["Tangential penalty"] = number(k.tangential_penalty)
+    if k.augmentation is not None:
+        p["Penetration tolerance"] = number(k.augmentation)
+    if k.mu > 0:
+        p["Friction coefficient"] = number(k.mu)
+        p["Friction law"] = k.friction_law
+        law = friction(k)
+        if k.friction_law == "shear limited":
+            p["Largest shear stress"] = number(law["largest"] * f.stress)
+        elif k.friction_law == "static-kinetic":
+            p.update({"Kinetic friction coefficient": number(law["kinetic"]), "Decay": number(law["decay"] / f.speed)})
+        elif k.friction_law == "pressure dependent":
+            p.update({"Reference pressure": number(law["reference"] * f.stress), "Pressure exponent": number(law["exponent"])})
+    p.update(more)
+    return p
+
+
+def friction(k):
+    """Parameters of the law, base units."""
+    return {"law": k.friction_law, "mu": k.mu, "largest": 0.005 * k.young, "kinetic": 0.5 * k.mu, "decay": 1.0,
+            "reference": 0.02 * k.young, "exponent": 0.7}
+
+
+def statics(k, f, end=1.0, first=None, stops=()):
+    t = {"End time": number(end * f.time), "Initial step": number((first or k.first_step) * f.time),
+         "Largest step": number(k.largest_step * f.time), "Smallest step": number(1e-5 * f.time)}
+    if k.step is not None:
+        t = {"End time": t["End time"], "Step control": "fixed", "Initial step": number(k.step * f.time)}
+    if stops:
+        t["Stops"] = ", ".join(number(s * f.time) for s in stops)
+    s = {name: value for name, value in {
+        "Contact tangent": k.tangent, "Force tolerance": k.tolerance, "Linear solver": k.solver, "Predictor": k.predictor,
+        "Line search": k.line_search, "Material tangent": k.material_tangent}.items() if value is not None}
+    if k.tolerance is not None:
+        s["Energy tolerance"] = number(max(k.tolerance, 1e-15))
+    whole = {"Time stepping": t, "Solver": s, "Output": output()}
+    return {**top(k), **whole}
+
+
+def output(**more):
+    return {"Folder": "results", "Every steps": 1000000, "Verbosity": "steps", **more}
+
+
+def top(k):
+    return {name: value for name, value in {"Profile": k.profile, "Target error": k.target_error}.items() if value is not None}
+
+
+def dynamics(k, f, scheme, end, rows=400):
+    """`end` in base units of time."""
+    whole = {**top(k), "Time stepping": {"Scheme": scheme, "End time": number(end * f.time)}}
+    if scheme == "explicit":
+        x = {"Safety factor": k.safety, "Contact resolution": k.resolution, "Instructions": k.instructions,
+             "Linear bulk viscosity": k.linear_viscosity,
+             "Mass scaling step": None if k.mass_scaling is None else number(k.mass_scaling * f.time)}
+        whole["Explicit dynamics"] = {a: b for a, b in x.items() if b is not None}
+        whole["Output"] = output(**{"Every steps": 0, "History interval": number(end * f.time / rows)})
+    else:
+        whole["Time stepping"].update({"Initial step": number(end / 200 * f.time), "Largest step": number(end / 50 * f.time),
+                                       "Smallest step": number(end * 1e-7 * f.time)})
+        if k.step is not None:
+            whole["Time stepping"].update({"Initial step": number(k.step * end * f.time), "Largest step": number(k.step * end * f.time)})
+        x = {"Method": k.method, "Spectral radius": k.spectral_radius, "Error tolerance": k.error_tolerance, "Mass": k.mass}
+        whole["Implicit dynamics"] = {a: b for a, b in x.items() if b is not None}
+        whole["Solver"] = {a: b for a, b in {"Contact tangent": k.tangent, "Force tolerance": k.tolerance,
+                                             "Linear solver": k.solver, "Material tangent": k.material_tangent}.items() if b is not None}
+        whole["Output"] = output()
+    return whole
+
+
+# --- statics with tools ------------------------------------------------------------------------------------------------------
+
+def shaped(k, n):
+    """Vertices of a unit block moved: graded along z so that the thickest layer is `grading` times the thinnest, its inner node
+    and the middles of its edges moved by `distortion` halves of a brick."""
+    x, y, z = "x", "y", "z"
+    if k.grading != 1.0:
+        ratio = k.grading ** (1 / max(n - 1, 1))
+        # layers 1, r, r², ...: the vertex at z = i/n goes to (r^i − 1)/(r^n − 1)
+        z = f"({number(ratio)}^({n}*z) - 1)/{number(ratio**n - 1)}"
+    if k.distortion:
+        d = number(k.distortion / n)
+        bubble = "(x*(1-x) > 1e-6)*(y*(1-y) > 1e-6)*(z*(1-z) > 1e-6)"
+        x, y, z = f"{x} + {d}*{bubble}", f"{y} + {d}*0.7*{bubble}", f"{z} - {d}*0.8*{bubble}"
+    return " ; ".join((x, y, z))
+
+
+def upset(k):
+    """A block between two plane tools, held in two planes of symmetry: a bar in compression."""
+    f, n, h = frame_of(k), k.bricks or 2, k.aspect
+    travel = h * (1 - math.exp(k.strain))
+    mesh = box((n, n, n), (0, 0, 0), (1, 1, 1 if k.grading != 1 or k.distortion else h))
+    if k.grading != 1 or k.distortion:
+        mesh["Positions"] = shaped(k, n)
+        travel, h = 1 - math.exp(k.strain), 1.0
+    sections = {
+        "Bodies": {"block": body(k, f, mesh, [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+                  "ram": {"Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
+                          "Motion": {"Translation": f.expressions(("0", "0", f"{number(-travel)}*{{t}}"), f.length)}}},
+        "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+    }
+    checks = [must.finite, must.balanced("die", "ram"), must.yields, must.diagonal_symmetry, must.jacobians]
+    if k.mu == 0:
+        checks += [must.bar, must.uniform_stress, must.sideways_free("die"), must.sideways_free("ram")]
+        if not k.distortion:
+            checks += [must.penalty_depth("ram", 1 / n), must.bar_shape]
+    else:
+        checks += [must.cone]
+    if k.law == "elastic" or k.mu > 0:
+        checks += [must.energies]
+    return Setup(k, f, sections, checks, height=h, strain=k.strain, friction=friction(k), travel=travel, layers=n)
+
+
+def pull(k):
+    """One brick stretched by supports, free across: no contact."""
+    f, n, h = frame_of(k), k.bricks or 1, k.aspect
+    top_moves = h * (math.exp(k.strain) - 1)
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, h)), [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
+                                 Supports={"grip": {"Boundary ids": 5, "Components": "z",
+                                                    "Displacement": f"0 ; 0 ; {f.expression(number(top_moves) + '*{t}', number(f.length) + '*')}"}})},
+        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.uniform_stress, must.bar_stress, must.jacobians],
+                 height=h, strain=k.strain, layers=n)
+
+
+def slide(k):
+    """A block pressed on a plane that is drawn away under it; or to and fro, `cycles` times."""
+    f, n = frame_of(k), k.bricks or 2
+    press, way = k.press, k.slide
+    if k.cycles:
+        end = 1.0 + k.cycles
+        along = f"{number(way)}*sin(2*pi*({{t}} - 1))*({{t}} > 1)"
+    else:
+        end = 2.0
+        along = f"{number(way)}*({{t}} - 1)*({{t}} > 1)"
+    down = f"{number(-press)}*(if({{t}} < 1, {{t}}, 1))"
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)),
+                                 Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
+        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1)),
+                          "Motion": {"Translation": f.expressions((along, "0", "0"), f.length)}}},
+        "Contact pairs": {"foot": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4})},
+        **statics(k, f, end=end if k.step is None or k.cycles else min(end, 20 * k.step), stops=(1.0,) if k.step is None else ()),
+    }
+    checks = [must.finite, must.yields, must.cone, must.force_cone("die"), must.mirror((0, 1, 0), 0.5), must.energies,
+              must.pushes("die"), must.jacobians]
+    if not k.cycles:
+        checks.append(must.gross_slip("die"))
+    if k.kinematics == "Hencky" and k.cycles:
+        checks.append(must.closed_cycles("die"))
+    return Setup(k, f, sections, checks, friction=friction(k), slip_rate=way)
+
+
+def ball(k):
+    """A quarter of a block between a rigid sphere, whose pole is on a node, and a bed."""
+    f, n = frame_of(k), k.bricks or 3
+    r = k.radius
+    depth = k.press * 5 * min(r, 1.0)
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, 2), (0, 0, 0), (1, 1, 0.7)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+                  "ball": {"Surfaces": {"sphere": {"Shape": "sphere", "Centre": f.vector((0, 0, 0.7 + r), f.length),
+                                                   "Radius": number(r * f.length), "Axis": f.vector((0, 0, 1))}},
+                           "Motion": {"Translation": f.expressions(("0", "0", f"{number(-depth)}*{{t}}"), f.length)}}},
+        "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ball", **{"Boundary ids": 5})},
+        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+    }
+    return Setup(k, f, sections, [must.finite, must.balanced("bed", "ball"), must.yields, must.diagonal_symmetry, must.cone,
+                                  must.energies, must.depth_bound("ball", depth), must.jacobians],
+                 friction=friction(k))
+
+
+def twist(k):
+    """A plane tool pressed on a block and turned, or swung, about an axis through the middle node."""
+    f, n = frame_of(k), k.bricks or 2
+    angle = (f"{number(2 * math.pi * k.turns)}*sin(2*pi*{number(k.oscillations)}*({{t}} - 1))*({{t}} > 1)" if k.oscillations
+             else f"{number(2 * math.pi * k.turns)}*({{t}} - 1)*({{t}} > 1)")
+    down = f"{number(-k.press)}*(if({{t}} < 1, {{t}}, 1))"
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)),
+                                 Supports={"foot": {"Boundary ids": 4}})},
+        "Tools": {"ram": {"Surfaces": plane(f, (0, 0, 0.5), (0, 0, -1)),
+                          "Motion": {"Translation": f.expressions(("0", "0", down), f.length),
+                                     "Rotation angle": f.expression(angle), "Rotation axis": f.vector((0, 0, 1)),
+                                     "Centre": f.vector((0, 0, 0.5), f.length)}}},
+        "Contact pairs": {"head": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f, end=2.0 if k.step is None else min(2.0, 20 * k.step), stops=(1.0,) if k.step is None else ()),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.sideways_free("ram"), must.quarter_turn,
+                                  must.energies, must.moment_cone("ram"), must.jacobians], friction=friction(k), slip_rate=k.turns * 5)
+
+
+def features(f, k):
+    """Tools with edges, poles, axes, apices and seams exactly where nodes of the block are; faces at z = 0.5, looking down."""
+    v, w = (lambda p: f.vector(p, f.length)), f.vector
+
+    def rectangle(x, y, a, b):
+        return {"Shape": "rectangle", "Centre": v((x, y, 0.5)), "Normal": w((0, 0, -1)), "Direction": w((1, 0, 0)),
+                "Length": number(a * f.length), "Width": number(b * f.length)}
+
+    down = w((0, 0, -1))
+    return {
+        "rectangle": {"a": rectangle(0, 0, 1, 1)},
+        "rectangle of its size": {"a": rectangle(0, 0, 2, 2)},
+        "coplanar": {"a": rectangle(-0.5, 0, 1, 4), "b": rectangle(1, 0, 2, 4)},
+        "coincident": {"a": rectangle(0, 0, 4, 4), "b": rectangle(0, 0, 4, 4)},
+        "disc": {"a": {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Radius": number(0.5 * f.length)}},
+        "ring": {"a": {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Inner radius": number(0.5 * f.length),
+                       "Radius": number(3 * f.length)}},
+        "sectors": {str(i): {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Radius": number(3 * f.length), "Sector": 90,
+                             "Start": w(d)} for i, d in enumerate(((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)))},
+        "pole": {"a": {"Shape": "sphere", "Centre": v((0, 0, 2.5)), "Radius": number(2 * f.length), "Axis": w((0, 0, 1))}},
+        "pole aside": {"a": {"Shape": "sphere", "Centre": v((0, 0, 2.5)), "Radius": number(2 * f.length), "Axis": w((1, 1, 0))}},
+        "apex": {"a": {"Shape": "cone", "Apex": v((0, 0, 0.5)), "Axis": w((0, 0, 1)), "Half angle": 80, "To height": number(f.length)}},
+        "torus": {"a": {"Shape": "torus", "Centre": v((0, 0, 1)), "Axis": w((0, 0, 1)), "Ring radius": number(0.5 * f.length),
+                        "Tube radius": number(0.5 * f.length)}},
+        "profile": {"a": {"Shape": "revolved profile", "Corners": f"0, 0 ; {number(0.5 * f.length)}, 0 ; {number(2 * f.length)}, {number(0.5 * f.length)}",
+                          "Origin": v((0, 0, 0.5)), "Axis": w((0, 0, 1)), "Outside": "right"}},
+        "seams": {str(i): {"Shape": "coons patch", "Curves": " ; ".join(
+            f"line: {v(a)} to {v(b)}" for a, b in zip(c, c[1:] + c[:1]))} for i, c in enumerate(
+                [[(0, 0, 0.5), (0, 2, 0.5), (2, 2, 0.5), (2, 0, 0.5)], [(0, 0, 0.5), (2, 0, 0.5), (2, -2, 0.5), (0, -2, 0.5)],
+                 [(0, 0, 0.5), (0, -2, 0.5), (-2, -2, 0.5), (-2, 0, 0.5)], [(0, 0, 0.5), (-2, 0, 0.5), (-2, 2, 0.5), (0, 2, 0.5)]])},
+    }
+
+
+FEATURES = tuple(features(Frame(), None))
+
+
+def place(k):
+    """A quarter of a block pressed on a bed by a tool whose features are exactly on nodes."""
+    f, n = frame_of(k), k.bricks or 2
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, 1), (0, 0, 0), (1, 1, 0.5)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+                  "ram": {"Surfaces": features(f, k)[k.feature],
+                          "Motion": {"Translation": f.expressions(("0", "0", f"{number(-k.press)}*{{t}}"), f.length)}}},
+        "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+    }
+    checks = [must.finite, must.balanced("bed", "ram"), must.yields, must.cone, must.energies, must.depth_bound("ram", k.press), must.jacobians]
+    if k.feature not in ("coplanar",) or k.mu == 0:
+        checks.append(must.diagonal_symmetry)
+    return Setup(k, f, sections, checks, friction=friction(k))
+
+
+def rest(k):
+    """A block that just touches two tools, and nothing moves."""
+    f, n = frame_of(k), k.bricks or 2
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}, "ram": {"Surfaces": plane(f, (0, 0, 1), (0, 0, -1))}},
+        "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f),
+    }
+    return Setup(k, f, sections, [must.finite, must.nothing_happens])
+
+
+# --- statics between bodies --------------------------------------------------------------------------------------------------
+
+def contact_of_bodies(k):
+    return {name: value for name, value in {"Facets": k.facets, "Passes": k.passes}.items() if value is not None}
+
+
+def stack(k):
+    """Two confined blocks pressed on each other: the stress is uniform. Their meshes do not fit where facets overlap."""
+    f = frame_of(k)
+    over = k.facets in (None, "overlap")
+    n = (3, 2) if over else (2, 2)
+    sides = [((1, 0, 0), 0), ((1, 0, 0), 1), ((0, 1, 0), 0), ((0, 1, 0), 1)]
+    down = f"{number(-k.press)}*{{t}}"
+    lower, upper = k.young, k.young * k.modulus_ratio
+    sections = {
+        "Bodies": {
+            "lower": body(k, f, box((n[0], n[0], 1), (0, 0, -1), (1, 1, 0)), sides, young=lower,
+                          Supports={"foot": {"Boundary ids": 4}}),
+            "upper": body(k, f, box((n[1], n[1], 1), (0, 0, 0), (1, 1, 1)), sides, young=upper,
+                          Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
+        "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                                        **contact_of_bodies(k))},
+        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.stack(lower, upper), must.uniform_stress_of_bodies,
+                                  must.energies, must.jacobians], friction=friction(k))
+
+
+def touching(k):
+    """The same two blocks, just touching, and nothing moves."""
+    setup = stack(Knobs({**k.all, "press": 0.0}))
+    setup.checks = [must.finite, must.nothing_happens]
+    return setup
+
+
+def drag(k):
+    """A block pressed on a wider one and drawn over it."""
+    f = frame_of(k)
+    along = f"{number(k.slide)}*({{t}} - 1)*({{t}} > 1)"
+    down = f"{number(-k.press)}*(if({{t}} < 1, {{t}}, 1))"
+    lower, upper = k.young, k.young * k.modulus_ratio
+    sections = {
+        "Bodies": {
+            "lower": body(k, f, box((3, 2, 1), (-0.25, -0.25, -0.5), (1.5, 1.25, 0)), young=lower, Supports={"foot": {"Boundary ids": 4}}),
+            "upper": body(k, f, box((2, 2, 1), (0, 0, 0), (1, 1, 0.5)), young=upper,
+                          Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions((along, "0", down), f.length)}})},
+        "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                                        **contact_of_bodies(k))},
+        **statics(k, f, end=2.0 if k.step is None else min(2.0, 20 * k.step), stops=(1.0,) if k.step is None else ()),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.force_cone("joint"), must.mirror((0, 1, 0), 0.5),
+                                  must.energies, must.jacobians], friction=friction(k), slip_rate=k.slide)
+
+
+def clip(k):
+    """An open ring is pinched until its ends touch: a body with itself."""
+    f, n = frame_of(k), k.bricks or 12
+    gap = 0.1
+    half = math.pi - 0.5 * gap
+    mesh = box((1, n, 1), (1, 0, 0), (1.25, 1, 0.25), Positions=f"x*cos({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; "
+               f"x*sin({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; z")
+    # the outer faces next to the ends, and the one opposite
+    sin_first = 1.25 * math.sin(0.5 * gap + half / n)
+    mesh["Boundary ids"] = (f"7 : (x < -1.1)*(x*x + y*y > {number(1.2**2)}) ; 8 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y > 0)*(y < {number(1.2 * sin_first)}) ; "
+                            f"9 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y < 0)*(y > {number(-1.2 * sin_first)})")
+    if f.length != 1.0:
+        s = number(f.length)
+        mesh["Boundary ids"] = mesh["Boundary ids"].replace("x*x", f"(x*x/{s}^2)").replace("y*y", f"(y*y/{s}^2)").replace(
+            "(x <", f"(x/{s} <").replace("(x >", f"(x/{s} >").replace("(y <", f"(y/{s} <").replace("(y >", f"(y/{s} >")
+    close = 0.5 * gap * 1.1 * 4 * k.press / 0.08 * 1.0
+    move = f"{number(close)}*{{t}}"
+
+    def pinch(sign):
+        return f"0 ; {f.expression(sign + move, number(f.length) + '*')} ; 0"
+
+    sections = {
+        "Bodies": {"ring": body(k, f, mesh, [((0, 0, 1), 0)], Supports={
+            "back": {"Boundary ids": 7},
+            "above": {"Boundary ids": 8, "Components": "y", "Displacement": pinch("-")},
+            "below": {"Boundary ids": 9, "Components": "y", "Displacement": pinch("")}})},
+        "Contact pairs": {"ends": pair(k, f, Body="ring", **{"Boundary ids": "2, 3", "Second body": "ring"}, **contact_of_bodies(k))},
+        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.energies, must.jacobians,
+                                  must.touches("ends")], friction=friction(k))
+
+
+# --- dynamics ----------------------------------------------------------------------------------------------------------------
+
+def velocity(f, v):
+    return " ; ".join(number(x) for x in f.turned(v) * f.speed)
+
+
+def drop(k, scheme):
+    """A block flies onto a plane and back; speed as part of the bar's wave speed."""
+    f, n = frame_of(k), k.bricks or 2
+    c = bar_speed(k.young, k.density)
+    v = k.speed * c
+    gap = min(0.02, 0.5 * k.speed)
+    end = k.duration * (gap / v + 5.0 / c)
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, gap), (0.5, 0.5, 1 + gap)), density=k.density,
+                                 **{"Initial velocity": velocity(f, (0, 0, -v))})},
+        "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
+        "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
+        **dynamics(k, f, scheme, end),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((1, 0, 0), 0.0), must.mirror((0, 1, 0), 0.0),
+                                  must.diagonal_symmetry, must.drift, must.impulse("floor", v), must.energy_not_made, must.jacobians],
+                 friction=friction(k), mass=k.density, speed=v)
+
+
+def bar(k, scheme):
+    """A slender bar hits a plane: the force is ρ c v A until the wave is back."""
+    f, n = frame_of(k), k.bricks or 16
+    k = Knobs({**k.all, "nu": 0.0} if k.nu == KNOBS["nu"] else k.all)
+    c = bar_speed(k.young, k.density)
+    v = k.speed * c
+    width = 1.0 / n
+    end = 1.6 / c
+    sections = {
+        "Bodies": {"bar": body(k, f, box((1, 1, n), (0, 0, 0), (width, width, 1)), density=k.density,
+                               **{"Initial velocity": velocity(f, (0, 0, -v))})},
+        "Tools": {"wall": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
+        "Contact pairs": {"end": pair(k, f, Body="bar", Tool="wall", **{"Boundary ids": 4})},
+        **dynamics(k, f, scheme, end),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.drift, must.energy_not_made,
+                                  must.impact_force("wall", k.density * c * v * width**2, 0.5 / c, 1.5 / c), must.impulse("wall", v),
+                                  must.jacobians], mass=k.density * width**2, speed=v, friction=friction(k))
+
+
+def bars(k, scheme):
+    """A bar hits another one at rest, both free: momentum stays, and the force is that of the two impedances."""
+    f, n = frame_of(k), k.bricks or 8
+    k = Knobs({**k.all, "nu": 0.0} if k.nu == KNOBS["nu"] else k.all)
+    young, density = (k.young, k.young * k.modulus_ratio), (k.density, k.density * k.density_ratio)
+    speeds = [bar_speed(e, r) for e, r in zip(young, density)]
+    v = k.speed * min(speeds)
+    width = 1.0 / n
+    end = 1.6 / max(speeds)
+    def made(low, high, i, initial):
+        return body(k, f, box((1, 1, n), (0, 0, low), (width, width, high)), young=young[i], density=density[i],
+                    **({"Initial velocity": velocity(f, (0, 0, initial))} if initial else {}))
+    sections = {
+        "Bodies": {"low": made(-1, 0, 0, 0), "high": made(0, 1, 1, -v)},
+        "Contact pairs": {"joint": pair(k, f, Body="high", **{"Boundary ids": 4, "Second body": "low", "Second boundary ids": 5},
+                                        **contact_of_bodies(k))},
+        **dynamics(k, f, scheme, end),
+    }
+    z = [math.sqrt(e * r) for e, r in zip(young, density)]
+    force = z[0] * z[1] / (z[0] + z[1]) * v * width**2
+    mass = density[1] * width**2
+    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.drift, must.energy_not_made,
+                                  must.momentum((0, 0, -mass * v), mass * v),
+                                  *([must.impact_force("joint", force, 0.5 / max(speeds), 1.4 / max(speeds))]
+                                    if 1e-2 <= speeds[1] / speeds[0] <= 1e2 else []), must.jacobians],
+                 mass=mass, speed=v, friction=friction(k))
+
+
+def skid(k, scheme):
+    """A block with a speed along a plane, under gravity: friction takes no more momentum than its limit allows."""
+    f, n = frame_of(k), k.bricks or 2
+    c = bar_speed(k.young, k.density)
+    v, g = k.speed * c, 0.002 * c * c
+    end = 40.0 / c * k.duration
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)), density=k.density,
+                                 **{"Initial velocity": velocity(f, (v, 0, 0)),
+                                    "Loads": {"gravity": {"Type": "acceleration",
+                                                          "Acceleration": f.expressions(("0", "0", number(-g)), f.acceleration)}}})},
+        "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
+        "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
+        **dynamics(k, f, scheme, end),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.drift,
+                                  must.skidding(k.density * 0.5, v, g), must.jacobians], friction=friction(k), mass=0.5 * k.density, speed=v,
+                 slip_rate=v)
+
+
+def fold(k, scheme):
+    """The open ring of `clip` in motion: its ends fly at each other, and touch."""
+    setup = clip(Knobs({**k.all, "density": 0.0}))
+    f = setup.frame
+    c = bar_speed(k.young, k.density)
+    v = k.speed * c
+    ring = setup.sections["Bodies"]["ring"]
+    ring["Material"]["Density"] = number(k.density * f.density)
+    ring.pop("Supports")
+    y = "y" if f.length == 1.0 else f"(y/{number(f.length)})"
+    x = "x" if f.length == 1.0 else f"(x/{number(f.length)})"
+    ring["Initial velocity"] = f"0 ; {number(-v * f.speed)}*{y}*({x} > 0)*{x} ; 0"
+    sections = {**{n: s for n, s in setup.sections.items() if n in ("Bodies", "Contact pairs")},
+                **dynamics(k, f, scheme, k.duration * 0.25 / v)}
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.drift, must.energy_not_made,
+                                  must.momentum((0, 0, 0), k.density * 0.5 * v, held=(2,)), must.jacobians], friction=friction(k), speed=v)
+
+
+def lying(k, scheme):
+    """Two blocks that just touch each other and a plane, at rest, without loads: nothing may happen."""
+    f, n = frame_of(k), k.bricks or 2
+    c = bar_speed(k.young, k.density)
+    sections = {
+        "Bodies": {"lower": body(k, f, box((n, n, 1), (0, 0, 0), (1, 1, 0.5)), density=k.density),
+                   "upper": body(k, f, box((n, n, 1), (0, 0, 0.5), (1, 1, 1)), density=k.density)},
+        "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
+        "Contact pairs": {"foot": pair(k, f, Body="lower", Tool="floor", **{"Boundary ids": 4}),
+                          "joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                                        **contact_of_bodies(k))},
+        **dynamics(k, f, scheme, 5.0 / c),
+    }
+    return Setup(k, f, sections, [must.finite, must.nothing_happens])
+
+
+def pile(k, scheme):
+    """Three blocks on a plane under gravity, pressed by no more than their weight; `cycles` stands for steps, in thousands."""
+    f = frame_of(k)
+    c = bar_speed(k.young, k.density)
+    g = 1e-4 * c * c
+    bodies, pairs = {}, {"foot": pair(k, f, Body="block0", Tool="floor", **{"Boundary ids": 4})}
+    for i in range(3):
+        bodies[f"block{i}"] = body(k, f, box((1, 1, 1), (0, 0, i), (1, 1, i + 1)), density=k.density,
+                                   Loads={"gravity": {"Type": "acceleration", "Acceleration": f.expressions(("0", "0", number(-g)), f.acceleration)}})
+        if i:
+            pairs[f"joint{i}"] = pair(k, f, Body=f"block{i}", **{"Boundary ids": 4, "Second body": f"block{i - 1}", "Second boundary ids": 5},
+                                      **contact_of_bodies(k))
+    sections = {"Bodies": bodies, "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}}, "Contact pairs": pairs,
+                **dynamics(k, f, scheme, max(k.cycles, 1) * 1000 * 0.2 / c)}
+    return Setup(k, f, sections, [must.finite, must.drift, must.stays_put(3 * k.density * g), must.jacobians], friction=friction(k),
+                 mass=3 * k.density, speed=1e-9)
+
+
+def with_scheme(scene, scheme):
+    made = lambda k: scene(k, scheme)  # noqa: E731
+    made.__doc__ = scene.__doc__
+    return made
+
+
+BASES = {
+    "upset": upset, "pull": pull, "slide": slide, "ball": ball, "twist": twist, "place": place, "rest": rest,
+    "stack": stack, "touching": touching, "drag": drag, "clip": clip,
+    **{f"{name}.explicit": with_scheme(scene, "explicit")
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying), ("pile", pile))},
+    **{f"{name}.implicit": with_scheme(scene, "implicit dynamics")
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying))},
+}
+
+KINDS = {  # what kind of run a base scene is
+    "statics, tools": ("upset", "slide", "ball", "twist", "place", "rest"), "statics, no contact": ("pull",),
+    "statics, bodies": ("stack", "touching", "drag"), "statics, self-contact": ("clip",),
+    "explicit, tools": ("drop.explicit", "bar.explicit", "skid.explicit"),
+    "explicit, bodies": ("bars.explicit", "lying.explicit", "pile.explicit"), "explicit, self-contact": ("fold.explicit",),
+    "implicit dynamics, tools": ("drop.implicit", "bar.implicit", "skid.implicit"),
+    "implicit dynamics, bodies": ("bars.implicit", "lying.implicit"), "implicit dynamics, self-contact": ("fold.implicit",),
+}
+
+
+def make(base, changes):
+    return BASES[base](Knobs(changes))

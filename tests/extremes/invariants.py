@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Each invariant holds of a result that is made up to be sound, and breaks when that is doctored in the one thing that it is about;
+closed forms against their limits; frames there and back; messages; the plan."""
+
+import math
+import unittest
+
+import numpy
+
+import modules  # noqa: F401
+from extremes import closed_forms, invariants as must, messages, plan, prm, scenes
+from extremes.results import Result, in_base_units, upright
+
+
+def grid(n, low, high):
+    """Corners of each brick, not shared, as the program writes them, and the bricks."""
+    points, cells = [], []
+    steps = (numpy.asarray(high, float) - low) / n
+    for k in range(n[2]):
+        for j in range(n[1]):
+            for i in range(n[0]):
+                cells.append(range(len(points), len(points) + 8))
+                points += [numpy.asarray(low) + steps * ((i, j, k) + c) for c in must.CORNERS]
+    return numpy.array(points), numpy.array([list(c) for c in cells])
+
+
+def made_up(base, changes=None, n=(2, 2, 2), low=(0, 0, 0), high=(1, 1, 1), move=lambda x: 0 * x, history=None, **fields):
+    """A result of this scene; `move` gives displacements of places."""
+    r = Result.__new__(Result)
+    r.setup = scenes.make(base, changes or {})
+    r.knobs = r.setup.knobs
+    places, cells = grid(n, low, high)
+    u = numpy.array([move(x) for x in places], float)
+    size = len(places)
+    r.fields = {"places": places, "cells": cells, "displacement": u, "points": places + u, "body": numpy.zeros(size),
+                "von_mises_stress": numpy.ones(size), **{name: numpy.broadcast_to(numpy.asarray(v, float), (size, *numpy.shape(v)[1:])).copy()
+                                                         for name, v in fields.items()}}
+    times = numpy.linspace(0.1, 1.0, 10)
+    r.history = {"time": times, "step": numpy.arange(1.0, 11), "step_length": numpy.full(10, 0.1), **{
+        name: numpy.broadcast_to(numpy.asarray(v, float), (10,)).copy() for name, v in (history or {}).items()}}
+    return r
+
+
+def force(name, x=0.0, y=0.0, z=0.0, **more):
+    return {f"{name}.force_x": x, f"{name}.force_y": y, f"{name}.force_z": z, **{f"{name}.{k}": v for k, v in more.items()}}
+
+
+def stretched(strain, across):
+    return lambda x: numpy.array([math.expm1(across) * x[0], math.expm1(across) * x[1], math.expm1(strain) * x[2]])
+
+
+class Invariants(unittest.TestCase):
+    def about(self, check, make, *doctors):
+        """Holds; and breaks after each of the doctors."""
+        found = check(make())
+        self.assertTrue(found, "nothing is found")
+        self.assertEqual([str(f) for f in found if not f.holds], [])
+        for number, doctor in enumerate(doctors):
+            r = make()
+            doctor(r)
+            self.assertTrue(any(not f.holds for f in check(r)), f"doctor {number} is not noticed: {[str(f) for f in check(r)]}")
+
+    def test_finite(self):
+        self.about(must.finite, lambda: made_up("upset"), lambda r: r.history["step"].__setitem__(3, math.nan),
+                   lambda r: r.fields["displacement"].__setitem__((2, 1), math.inf),
+                   lambda r: r.history.update(time=r.history["time"] * 0.9))
+
+    def test_forces(self):
+        both = {**force("die", z=2.0), **force("ram", z=-2.0)}
+        self.about(must.balanced("die", "ram"), lambda: made_up("upset", history=both),
+                   lambda r: r.history["ram.force_z"].__setitem__(4, -2.001))
+        self.about(must.sideways_free("die"), lambda: made_up("upset", history=both), lambda r: r.history.update({"die.force_x": r.history["die.force_z"] * 1e-3}))
+        self.about(must.pushes("die"), lambda: made_up("upset", history=both), lambda r: r.history["die.force_z"].__setitem__(0, -0.1))
+
+    def test_friction(self):
+        history = force("die", x=0.3, z=1.0, contact_area=1.0)
+        contact = {"contact_pressure": 1.0, "contact_traction": numpy.array([[0.3, 0.0, 1.0]]), "contact_status": 2.0}
+        make = lambda: made_up("slide", {"mu": 0.3}, history=history, **contact)  # noqa: E731
+        self.about(must.force_cone("die"), make, lambda r: r.history.update({"die.force_y": r.history["die.force_x"]}))
+        self.about(must.gross_slip("die"), make, lambda r: r.history.update({"die.force_x": -r.history["die.force_x"]}),
+                   lambda r: r.history.update({"die.force_x": 0.8 * r.history["die.force_x"]}))
+        self.about(must.cone, make, lambda r: r.fields["contact_traction"].__setitem__((5, 1), 0.1),
+                   lambda r: r.fields["contact_pressure"].__setitem__(5, -0.1))
+        limited = lambda: made_up("slide", {"mu": 1.0, "friction law": "shear limited"},  # noqa: E731
+                                  history=force("die", x=5.0, z=100.0, contact_area=1.0))
+        self.about(must.force_cone("die"), limited, lambda r: r.history.update({"die.force_x": 1.1 * r.history["die.force_x"]}))
+        moment = lambda: made_up("twist", {"mu": 0.3}, low=(-0.5, -0.5, 0), high=(0.5, 0.5, 0.5),  # noqa: E731
+                                 history=force("ram", z=-1.0, moment_z=0.1))
+        self.about(must.moment_cone("ram"), moment, lambda r: r.history.update({"ram.moment_z": r.history["ram.moment_z"] * 3}))
+
+    def test_penetration(self):
+        # 10 E/h on facets of 1/2: 20000, under a pressure of 100
+        make = lambda: made_up("upset", history=force("ram", z=-200.0, contact_area=2.0, deepest_penetration=0.005))  # noqa: E731
+        self.about(must.penalty_depth("ram", 0.5), make, lambda r: r.history.update({"ram.deepest_penetration": r.history["time"] * 0.006}))
+        self.about(must.depth_bound("ram", 0.01), make, lambda r: r.history["ram.deepest_penetration"].__setitem__(3, 0.02))
+        self.about(must.touches("ram"), make, lambda r: r.history.update({"ram.deepest_penetration": 0 * r.history["time"]}))
+
+    def test_energies(self):
+        t = numpy.linspace(0.1, 1, 10)
+        make = lambda: made_up("upset", history={"elastic_energy": t, "plastic_work": 2 * t, "contact_energy": 0.1 * t,  # noqa: E731
+                                                 "friction_dissipation": t, "external_work": 4.1 * t, "energy_drift": 0.0})
+        self.about(must.energies, make, lambda r: r.history["plastic_work"].__setitem__(5, 0.0), lambda r: r.history["elastic_energy"].__setitem__(0, -1.0),
+                   lambda r: r.history["external_work"].__setitem__(9, 5.0))
+
+    def test_jacobians(self):
+        self.about(must.jacobians, lambda: made_up("upset"), lambda r: r.fields["displacement"].__setitem__((7, slice(None)), (-0.9, -0.9, -0.9)))
+
+    def test_yields(self):
+        # J = 1; 1 % of E and 10 % hardening: 10 + 100 * 0.1
+        make = lambda: made_up("upset", {"law": "elastoplastic"}, von_mises_stress=20.0, equivalent_plastic_strain=0.1)  # noqa: E731
+        self.about(must.yields, make, lambda r: r.fields.update(von_mises_stress=r.fields["von_mises_stress"] * 1.01),
+                   lambda r: r.fields.update(equivalent_plastic_strain=r.fields["equivalent_plastic_strain"] - 0.2))
+        # the stress that counts is Kirchhoff's
+        small = made_up("upset", {"law": "elastoplastic"}, move=lambda x: -0.01 * x, von_mises_stress=20.3, equivalent_plastic_strain=0.1)
+        self.assertTrue(all(f.holds for f in must.yields(small)))
+
+    def test_bar(self):
+        strain, across = -0.1, 0.03
+        f = 1000 * strain / math.exp(strain)
+        history = {**force("ram", z=f), "elastic_energy": 500 * strain**2}
+        make = lambda: made_up("upset", move=stretched(strain, across), history=history, stress_zz=1000 * strain / math.exp(strain + 2 * across),  # noqa: E731
+                               stress_xx=0.0)
+        self.about(must.bar, make, lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]}),
+                   lambda r: r.history.update(elastic_energy=1.01 * r.history["elastic_energy"]))
+        self.about(must.bar_stress, make, lambda r: r.fields["stress_zz"].__setitem__(3, -90.0), lambda r: r.fields["stress_xx"].__setitem__(3, 1.0))
+        self.about(must.bar_shape, make, lambda r: r.fields["displacement"].__setitem__((slice(None), 0), 0.0))
+        self.about(must.uniform_stress, make, lambda r: r.fields["von_mises_stress"].__setitem__(0, 1.1))
+
+    def test_plastic_bar(self):
+        stress, plastic = closed_forms.uniaxial_hencky(1000, -0.1, 10, 100)
+        self.assertAlmostEqual(-stress, 10 + 100 * plastic)
+        across = closed_forms.lateral_hencky(1000, 0.3, -0.1, stress)
+        make = lambda: made_up("upset", {"law": "elastoplastic"}, move=stretched(-0.1, across), history=force("ram", z=stress / math.exp(-0.1)))  # noqa: E731
+        self.about(must.bar, make, lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]}))
+
+    def test_stack(self):
+        strain = -0.01
+        pressure = closed_forms.confined_hencky(1000, 0.3, strain) / math.exp(strain)
+        make = lambda: made_up("stack", n=(2, 2, 2), low=(0, 0, -1), high=(1, 1, 1), move=lambda x: numpy.array([0, 0, math.expm1(strain) * (x[2] + 1)]),  # noqa: E731
+                               history=force("joint", z=-pressure), stress_zz=pressure)
+        def sound():
+            r = make()
+            r.fields["body"] = (r.fields["places"][r.fields["cells"]].mean(axis=1)[:, 2] > 0).repeat(8).astype(float)
+            return r
+        self.about(must.stack(1000, 1000), sound, lambda r: r.history.update({"joint.force_z": 1.01 * r.history["joint.force_z"]}))
+        self.about(must.uniform_stress_of_bodies, sound, lambda r: r.fields["stress_zz"].__setitem__(0, 0.9 * pressure))
+
+    def test_symmetry(self):
+        mirrored = lambda: made_up("slide", move=lambda x: numpy.array([x[0], (x[1] - 0.5) * x[2], x[0]]))  # noqa: E731
+        self.about(must.mirror((0, 1, 0), 0.5), mirrored, lambda r: r.fields["displacement"].__setitem__((0, 1), 0.3))
+        diagonal = lambda: made_up("upset", move=stretched(-0.1, 0.03))  # noqa: E731
+        self.about(must.diagonal_symmetry, diagonal, lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
+        turned = lambda: made_up("twist", low=(-1, -1, 0), move=lambda x: numpy.array([-x[1], x[0], 1]))  # noqa: E731
+        self.about(must.quarter_turn, turned, lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
+
+    def test_rest(self):
+        make = lambda: made_up("rest", history=force("die"))  # noqa: E731
+        self.about(must.nothing_happens, make, lambda r: r.fields["displacement"].__setitem__((0, 0), 1e-6), lambda r: r.history["die.force_z"].__setitem__(0, 1e-3))
+
+    def test_motion(self):
+        t = numpy.linspace(0.1, 1, 10)
+        mass, speed = 1e-3, 10.0
+        energy = 0.5 * mass * speed**2
+        history = {**force("floor", z=2 * mass * speed / 0.9), "momentum_x": 0.0, "momentum_y": 0.0,
+                   "momentum_z": mass * speed * (2 * (t - 0.1) / 0.9 - 1), "kinetic_energy": energy, "elastic_energy": 0.0, "plastic_work": 0.0,
+                   "contact_energy": 0.0, "external_work": 0.0, "energy_drift": 0.0}
+        make = lambda: made_up("drop.explicit", history=history)  # noqa: E731
+        self.about(must.impulse("floor", speed), make, lambda r: r.history.update({"floor.force_z": 0.7 * r.history["floor.force_z"]}),
+                   lambda r: r.history["momentum_y"].__setitem__(3, 1e-5))
+        self.about(must.drift, make, lambda r: r.history["energy_drift"].__setitem__(9, 0.1 * energy), lambda r: r.history["kinetic_energy"].__setitem__(5, 1.01 * energy))
+        self.about(must.energy_not_made, make, lambda r: r.history.update(kinetic_energy=1.1 * r.history["kinetic_energy"]))
+        free = lambda: made_up("bars.explicit", history={**history, "momentum_z": -3.0})  # noqa: E731
+        self.about(must.momentum((0, 0, -3.0), 3.0), free, lambda r: r.history["momentum_z"].__setitem__(7, -3.0 + 1e-6), lambda r: r.history["momentum_x"].__setitem__(7, 1e-6))
+        self.about(must.impact_force("floor", 2 * mass * speed / 0.9, 0.1, 1.0), make, lambda r: r.history.update({"floor.force_z": 1.3 * r.history["floor.force_z"]}))
+
+    def test_skidding(self):
+        t = numpy.linspace(0.1, 1, 10)
+        history = {"momentum_x": 1 - 0.2 * t * 0.5, "momentum_y": 0.0, "momentum_z": 0.0}
+        make = lambda: made_up("skid.explicit", {"mu": 0.1}, history=history)  # noqa: E731
+        self.about(must.skidding(1.0, 1.0, 1.0), make, lambda r: r.history.update(momentum_x=1 - 0.2 * t), lambda r: r.history.update(momentum_x=1 + 0.1 * t),
+                   lambda r: r.history["momentum_y"].__setitem__(0, 0.01), lambda r: r.history.update(momentum_z=-2 * t))
+        smooth = lambda: made_up("skid.explicit", history={**history, "momentum_x": 1.0})  # noqa: E731
+        self.about(must.skidding(1.0, 1.0, 1.0), smooth, lambda r: r.history["momentum_x"].__setitem__(4, 0.9999))
+
+    def test_pile(self):
+        make = lambda: made_up("pile.explicit", {"cycles": 100}, history={**force("floor", z=3.0), "kinetic_energy": 100.0 ** -numpy.arange(10)})  # noqa: E731
+        self.about(must.stays_put(3.0), make, lambda r: r.history.update({"floor.force_z": 1.1 * r.history["floor.force_z"]}),
+                   lambda r: r.fields["displacement"].__setitem__((0, 0), 0.01), lambda r: r.history["kinetic_energy"].__setitem__(9, 1e-3))
+
+    def test_cycles(self):
+        def make():
+            r = made_up("slide", {"cycles": 3, "step": 0.5, "mu": 0.3})
+            r.history = {"time": numpy.arange(0.5, 4.25, 0.5), **{k: numpy.full(8, v) for k, v in force("die", 1.0, 0.0, 3.0).items()}}
+            return r
+        self.about(must.closed_cycles("die"), make, lambda r: r.history["die.force_x"].__setitem__(7, 1.001))
+
+    def test_same(self):
+        make = lambda: made_up("upset", move=stretched(-0.1, 0.03), history={**force("ram", z=1.0), "total_iterations": 14.0, "total_cuts": 0.0})  # noqa: E731
+        self.about(lambda r: must.same(r, make()), make, lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 1),
+                   lambda r: r.history["ram.force_z"].__setitem__(2, 1.001), lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
+
+    def test_nothing_is_not_right(self):
+        self.assertFalse(must.Finding("", math.nan, 1.0).holds)
+        self.assertEqual(must.part(0.0, 0.0), 0.0)
+        self.assertEqual(must.part(1.0, 0.0), math.inf)
+
+
+class ClosedForms(unittest.TestCase):
+    def test_small_strains(self):
+        for nu in (-0.5, 0.0, 0.3, 0.499):
+            stress, across = closed_forms.uniaxial_neo_hookean(1000, nu, 1e-5)
+            self.assertAlmostEqual(stress / 1e-2, 1, places=3)
+            self.assertAlmostEqual(across / 1e-5, -nu, places=3)
+        self.assertAlmostEqual(closed_forms.confined_modulus(1000, 0.3), closed_forms.bulk(1000, 0.3) + 4 / 3 * closed_forms.shear(1000, 0.3))
+
+    def test_impact(self):
+        self.assertAlmostEqual(closed_forms.impact_stress(1000, 1e-3, 1000, 1e-3, 2.0), 1e-3 * closed_forms.bar_speed(1000, 1e-3))
+        rigid = closed_forms.impact_stress(1000, 1e-3, 1e30, 1e3, 2.0)
+        self.assertAlmostEqual(rigid, 2e-3 * closed_forms.bar_speed(1000, 1e-3))
+
+    def test_friction(self):
+        limit = closed_forms.friction_limit
+        self.assertEqual(limit("Coulomb", 2.0, 0.0, 0.3), 0.6)
+        self.assertEqual(limit("shear limited", 2.0, 0.0, 0.3, largest=0.5), 0.5)
+        self.assertAlmostEqual(limit("static-kinetic", 2.0, 1e3, 0.3, kinetic=0.1, decay=1.0), 0.2)
+        self.assertAlmostEqual(limit("pressure dependent", 4.0, 0.0, 0.3, reference=1.0, exponent=0.5), 0.6)
+
+
+class Frames(unittest.TestCase):
+    def test_there_and_back(self):
+        frame = prm.Frame(1e3, 1e-6, 2.0, (1, 2, 3), 40)
+        v = numpy.array([[1.0, 2.0, 3.0]])
+        written = {f"a.force_{i}": numpy.array([x]) for i, x in zip("xyz", frame.turned(v[0]) * frame.force)}
+        back = in_base_units({**written, "time": numpy.array([2.0])}, frame)
+        self.assertTrue(numpy.allclose([back[f"a.force_{i}"][0] for i in "xyz"], v[0]))
+        self.assertEqual(back["time"][0], 1.0)
+        fields = upright({"displacement": numpy.array([frame.turned(v[0]) * frame.length]), "points": numpy.array([frame.turned(v[0]) * frame.length])}, frame)
+        self.assertTrue(numpy.allclose(fields["displacement"], v) and numpy.allclose(fields["places"], 0, atol=1e-9))
+
+    def test_text(self):
+        self.assertEqual(prm.text({"a": {"b": 1, "c": None}}), "subsection a\n  set b = 1\nend\n")
+        self.assertEqual(prm.Frame(2.0).expressions(("0", "{t}", "1"), 2.0), "0 ; 2*(t) ; 2*(1)")
+        self.assertEqual(prm.Frame(time=10.0).expression("{t}"), "(t/10)")
+
+
+class Words(unittest.TestCase):
+    def test_messages(self):
+        self.assertEqual(messages.lacks(2, "scene.prm:3: 'a' in 'b': found '1', allowed is a number > 2"), [])
+        self.assertEqual(messages.lacks(2, "found '1'"), ["where", "what to do"])
+        self.assertEqual(messages.lacks(3, "scene.prm: it failed: try another"), ["when"])
+        self.assertEqual(messages.lacks(3, "scene.prm: the step to 1 failed; residual nan: try another"), ["a number"])
+        self.assertEqual(messages.lacks(2, ""), ["any message"])
+
+    def test_plan(self):
+        cases = plan.cases()
+        names = {case.name for case in cases}
+        self.assertGreaterEqual(len(cases), 2000)
+        self.assertEqual(len(names), len(cases))
+        self.assertEqual({name for name in plan.FIXED if name not in names}, set())
+        self.assertEqual({case.base for case in cases}, set(scenes.BASES))
+        covered = {kind for kind, bases in scenes.KINDS.items() if any(name.split("/")[0] in bases for name in plan.FIXED)}
+        self.assertEqual(covered, set(scenes.KINDS))
+        for case in cases:
+            self.assertLessEqual(set(case.changes), set(scenes.KNOBS), case.name)
+            if case.like is not None:
+                self.assertLessEqual(set(case.like), set(scenes.KNOBS), case.name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Energies that fail to balance, and hourglass energy, are told once each, and not where they do not matter.
+#include "billet/output/energy_watch.h"
+#include "../testing.h"
+
+using billet::EnergyLedger;
+using billet::EnergyWatch;
+using billet::testing::check;
+
+namespace {
+
+bool tells(const std::string &text, const std::string &what) { return text.find(what) != std::string::npos; }
+
+EnergyLedger flight(const double kinetic, const double elastic) {
+  EnergyLedger energies;
+  energies.initial = 1.;
+  energies.kinetic = kinetic;
+  energies.elastic = elastic;
+  return energies;
+}
+
+} // namespace
+
+int main() {
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_told);
+    check("what balances is no matter", watch.look(0.1, flight(0.6, 0.4)).empty());
+    check("nor is what is missing by 4 %", watch.look(0.2, flight(0.56, 0.4)).empty());
+    const std::string text = watch.look(0.3, flight(0.8, 0.4));
+    check("energy that is made is told", tells(text, "At time 0.3") && tells(text, "20 %"));
+    check("with what to do", tells(text, "Try a smaller 'Error tolerance'"));
+    check("once", watch.look(0.4, flight(3., 1.)).empty());
+  }
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_told);
+    check("energy from nowhere does not hide itself", tells(watch.look(1., flight(100., 0.)), "balance"));
+  }
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_left);
+    check("where the run ends by itself, nothing is told", watch.look(1., flight(2., 0.)).empty());
+  }
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_told);
+    EnergyLedger energies = flight(0.999, 0.0004);
+    energies.hourglass = 0.0006;
+    check("hourglass energy of a flight is no matter", watch.look(1., energies).empty());
+    energies = flight(0.5, 0.4);
+    energies.hourglass = 0.1;
+    const std::string text = watch.look(2., energies);
+    check("of a blow it is", tells(text, "hourglass control has 20 %") && tells(text, "Try a finer mesh"));
+    check("once, too", watch.look(3., energies).empty());
+  }
+  return billet::testing::exit_code();
+}
