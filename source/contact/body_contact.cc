@@ -442,9 +442,14 @@ void BodyContact::check_overlap() const {
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
   const double size = std::sqrt(sums[0] / sums[1]);
   Overlap deepest;
-  if (pair_.is_self_contact)
-    deepest = find_self_overlap(discretization, pair_.bodies[0], pair_.boundary_ids[0]);
-  for (unsigned int side = 0; side < 2 && !pair_.is_self_contact; ++side) {
+  const bool is_one_body = pair_.bodies[0] == pair_.bodies[1];
+  if (is_one_body) {
+    std::vector<unsigned int> ids = pair_.boundary_ids[0];
+    if (!pair_.is_self_contact)
+      ids.insert(ids.end(), pair_.boundary_ids[1].begin(), pair_.boundary_ids[1].end());
+    deepest = find_self_overlap(discretization, pair_.bodies[0], ids);
+  }
+  for (unsigned int side = 0; side < 2 && !is_one_body; ++side) {
     const Overlap overlap = find_overlap(discretization, pair_.bodies[side], pair_.boundary_ids[side],
                                          pair_.bodies[1 - side], pair_.boundary_ids[1 - side]);
     if (overlap.depth > deepest.depth)
@@ -458,10 +463,10 @@ void BodyContact::check_overlap() const {
   if (deepest.depth <= allowed)
     return;
   std::ostringstream message;
-  message << pair_.input->origin << ": the " << (pair_.is_self_contact ? "body starts " : "bodies start ")
+  message << pair_.input->origin << ": the " << (is_one_body ? "body starts " : "bodies start ")
           << deepest.depth << " deep (" << deepest.depth / size << " facet sizes) in "
-          << (pair_.is_self_contact ? "itself" : "each other") << ", deepest at (" << deepest.position[0]
-          << ", " << deepest.position[1] << ", " << deepest.position[2] << "); ";
+          << (is_one_body ? "itself" : "each other") << ", deepest at (" << deepest.position[0] << ", "
+          << deepest.position[1] << ", " << deepest.position[2] << "); ";
   if (pair_.overlap.is_allowed)
     message << "contact is found until a depth of " << found << ", "
             << (contact_->method() == FacetMethod::overlap ? "half of the smallest facet or two walls"

@@ -86,6 +86,18 @@ void test_with_friction(const std::string &name, const std::string &scene, const
   check(name + ": no force is left", end.tool_loads[0].force.norm() / largest_force, 1e-9);
 }
 
+/// Each end of a ring is a side of a pair of the ring with itself.
+void test_two_sides() {
+  SceneRun run(parameters::Scene::read(std::string(SOURCE_DIR) + "/open_ring.prm"));
+  double time_of_touch = 0.;
+  run.finish([&](const NewtonReport &) {
+    const SolutionState &state = run.problem.state();
+    if (time_of_touch == 0. && state.body_pair_loads[0].area > 0.)
+      time_of_touch = state.time;
+  });
+  check("open ring: its ends come to touch", time_of_touch > 0.3 && time_of_touch <= 1.);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -96,5 +108,6 @@ int main(int argc, char *argv[]) {
   test("block, overlap", "hollow_block.prm", 20, Facets::overlap);
   test_with_friction("ring, friction", "ring_crush.prm", 100);
   test_with_friction("block, friction", "hollow_block.prm", 20);
+  test_two_sides();
   return testing::exit_code();
 }
