@@ -54,7 +54,8 @@ def twist():
             full = 3 * math.pi / 16 * 0.3 * load * radius
             touching = (fields["contact_pressure"] > 0) & (fields["body"] == 1)
             stuck = touching & (fields["contact_status"] == 1)
-            reference = numpy.hypot(points[:, 0], points[:, 1])
+            start = points - fields["displacement"]
+            reference = numpy.hypot(start[:, 0], start[:, 1])
             angle = 0.16 * (row["time"] - 1) if row["time"] <= 2 else 0.16 - 0.016 * (row["time"] - 2)
             rows.append([f"{row['time']:.2f}", f"{angle:.4f}", number(load, 4), f"{abs(row['face.moment_z']) / full:.3f}",
                          f"{reference[stuck].max() / radius:.2f}" if stuck.any() else "none sticks"])
