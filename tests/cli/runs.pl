@@ -299,7 +299,7 @@ for (['Output: Interval = 0.25', '0 0.25 0.5 0.75 1'], ["$fixed & Output: Interv
 }
 check 'no fields', sub {
   my $folder = billet('Output: Format = none');
-  return is('files', join(' ', map { basename $_ } glob "$folder/*"), 'history.csv scene.prm');
+  return is('files', join(' ', map { basename $_ } glob "$folder/*"), 'capabilities.csv history.csv scene.prm');
 };
 check "HDF5 on $_ ranks", sub {
   my $folder = billet('Output: Format = hdf5 & Output: Every steps = 0', ranks => $_);
