@@ -5,8 +5,7 @@
 
 #include <Epetra_Vector.h>
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <sstream>
 
 namespace billet {
@@ -36,8 +35,7 @@ std::string QuasiStatic::watch_penalties() {
     note << "Round-off leaves " << round_off_force() / force_scale_
          << " of the forces, more than 'Force tolerance' = " << tolerance
          << " asks for, and is accepted: try a softer penalty, with a 'Penetration tolerance' where that is "
-            "too "
-            "soft, or bodies nearer to the origin\n";
+            "too soft, or bodies nearer to the origin\n";
     has_told_stiff_ = true;
   }
   return note.str();

@@ -59,16 +59,23 @@ def largest_drift(history):
     return float(numpy.max(numpy.abs(history["energy_drift"]))) / largest if largest > 0 else math.nan
 
 
-def read_fields(file):
+def read_grid(file):
+    """All fields of a written picture by name, its `points` and its `cells`."""
     reader = vtkXMLPUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
     grid = reader.GetOutput()
     data = grid.GetPointData()
-    arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float) for i in range(data.GetNumberOfArrays())}
-    places = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    kept = {"places": places - arrays["displacement"], "displacement": arrays["displacement"], "body": arrays["body"],
-            "cells": vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)}
+    fields = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float) for i in range(data.GetNumberOfArrays())}
+    fields["points"] = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    fields["cells"] = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
+    return fields
+
+
+def read_fields(file):
+    arrays = read_grid(file)
+    kept = {"places": arrays["points"] - arrays["displacement"], "displacement": arrays["displacement"], "body": arrays["body"],
+            "cells": arrays["cells"]}
     for name in ("velocity", "equivalent_plastic_strain", "contact_pair"):
         if name in arrays:
             kept[name] = arrays[name]

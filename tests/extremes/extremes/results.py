@@ -1,38 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run wrote, read back into base units and the upright frame."""
 
-import csv
 from functools import cached_property
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
-
-
-def read_history(file):
-    """{column: array}; a line that was cut off is left out."""
-    try:
-        with open(file, newline="") as stream:
-            rows = list(csv.reader(stream))
-    except OSError:
-        return {}
-    if not rows:
-        return {}
-    values = numpy.array([[float(v) for v in row] for row in rows[1:] if len(row) == len(rows[0])])
-    return dict(zip(rows[0], values.reshape(-1, len(rows[0])).T))
-
-
-def read_fields(file):
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    grid = reader.GetOutput()
-    data = grid.GetPointData()
-    fields = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float) for i in range(data.GetNumberOfArrays())}
-    fields["points"] = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    fields["cells"] = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
-    return fields
-
+from billet_trade.results import read_grid, read_history
 
 VECTORS = ("displacement", "contact_traction", "velocity")
 
@@ -103,7 +75,7 @@ class Result:
     @classmethod
     def read(cls, setup, folder):
         pictures = sorted(folder.glob("fields_*.pvtu"))
-        return cls(setup, read_history(folder / "history.csv"), read_fields(pictures[-1]) if pictures else {})
+        return cls(setup, read_history(folder / "history.csv"), read_grid(pictures[-1]) if pictures else {})
 
     @cached_property
     def named(self):
