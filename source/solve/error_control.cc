@@ -15,6 +15,13 @@ double sum_of_norms(const ErrorControl::Forces &forces) {
   return sum;
 }
 
+double product(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
+  double sum = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
 double distance(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
   double sum = 0.;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -45,7 +52,8 @@ void ErrorControl::add_step_errors(const double h_squared) {
     errors_[i] += growth_of_errors * h_squared * slopes_[i];
 }
 
-void ErrorControl::accept(const double h, const Forces &forces, const double residual) {
+void ErrorControl::accept(const double h, const Forces &forces, const double residual,
+                          const double penetration) {
   const double force = sum_of_norms(forces);
   work_ += 0.5 * (last_force_ + force) * h;
   time_ += h;
@@ -59,12 +67,12 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
   const double error = sum_of_norms(errors_);
   steps_ += 0.5 * (last_error_ + error) * h;
   last_error_ = error;
-  if (has_penetration_)
-    penetration_ += penetration_part_ * force * h;
-  else
-    unmeasured_time_ += h;
+  penetration_ += penetration_slope_ * penetration * force * h;
+  unmeasured_penetration_ += penetration * force * h;
   if (until_measurement_ > 0)
     --until_measurement_;
+  if (until_penetration_ > 0)
+    --until_penetration_;
 }
 
 double ErrorControl::allowed_rate() const {
@@ -73,21 +81,30 @@ double ErrorControl::allowed_rate() const {
   const double left = std::max(end_time_ - time_, 1e-3 * (end_time_ - start_)), scale = force_scale();
   const double rate =
       2. * (tolerances_.steps * (work_ + scale * left) - steps_ - last_error_ * left) / (left * left);
-  // Forces may be others by then: nothing is saved at any price, nor spent at once.
-  constexpr double least = 0.3, most = 3.;
-  const double even = 2. * tolerances_.steps * scale / (end_time_ - start_);
-  return std::max(least * even, std::min(most * even, rate));
+  // Forces may be others by then: nothing is saved at any price, nor spent at once. What is spent late adds
+  // little, which is true of what is saved, too.
+  constexpr double least = 0.2, most = 6.;
+  const double span = end_time_ - start_, even = 2. * tolerances_.steps * scale / span;
+  return std::min(most * even, std::max(least * even * span * span / (left * left), rate));
 }
 
 void ErrorControl::measure_steps(const double h, const Forces &forces, const Forces &of_one_step,
                                  const double residuals) {
-  const Forces before = slopes_.size() == forces.size() ? slopes_ : Forces();
-  const double difference = distance(of_one_step, forces), noise = residuals * sum_of_norms(forces),
-               part = difference > noise ? 1. - noise / difference : 0.;
-  Forces now(forces.size());
-  for (std::size_t i = 0; i < forces.size(); ++i)
-    now[i] = part / (2. * h * h) * (of_one_step[i] - forces[i]);
-  const double slope = sum_of_norms(now), last_slope = before.empty() ? slope : last_slope_;
+  const bool is_first = slopes_.size() != forces.size();
+  const double difference = distance(of_one_step, forces), noise = residuals * sum_of_norms(forces);
+  // Between what the difference is with and without the noise: as it was last time, if that is in between.
+  const double least_slope = std::max(0., difference - noise) / (2. * h * h),
+               most_slope = (difference + noise) / (2. * h * h);
+  const double slope = is_first ? least_slope : std::max(least_slope, std::min(last_slope_, most_slope)),
+               last_slope = is_first ? slope : last_slope_;
+  // Of differences within the noise not even the direction is known.
+  Forces now = difference > noise || is_first ? forces : slopes_;
+  if (difference > noise || is_first)
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      now[i] = difference > 0. ? slope / difference * (of_one_step[i] - forces[i]) : Force();
+  else if (last_slope_ > 0.)
+    for (auto &part : now)
+      part *= slope / last_slope_;
   // So far steps since the last measurement count with c from there. Those that were measured now are known,
   // and those between have something in between: the geometric mean, so that what happens once, such as a
   // node that begins to slip, does not count for all.
@@ -101,62 +118,86 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   const double error = sum_of_norms(errors_);
   steps_ += 0.5 * (error - last_error_) * unmeasured_span_;
   last_error_ = error;
-  // From here on the smaller of the last two, for the same reason.
+  // From here on this, unless it is much more than last time, for the same reason. Errors that turn around do
+  // not add up.
+  constexpr double most_sudden = 3.;
+  const double sudden = slope > most_sudden * last_slope ? most_sudden * last_slope / slope : 1.;
+  const bool has_turned = product(now, slopes_) < 0.;
   for (std::size_t i = 0; i < forces.size(); ++i)
-    slopes_[i] = slope > 0. ? std::min(1., last_slope / slope) * now[i] : now[i];
-  last_slope_ = slope;
+    slopes_[i] = has_turned ? 0.5 * (slopes_[i] + sudden * now[i]) : sudden * now[i];
+  last_slope_ = sum_of_norms(slopes_);
   unmeasured_ = unmeasured_span_ = 0.;
+  const double last_step = measured_step_, last_part = part_;
   measured_step_ = h;
+  part_ = difference / (h * sum_of_norms(forces));
   ++n_measurements_;
-  const bool is_steady = slope <= 2. * last_slope && slope >= 0.5 * last_slope && !before.empty();
-  interval_ = is_steady ? std::min(2 * interval_, longest_interval) : shortest_interval;
+  const bool is_steady = slope <= 2. * last_slope && slope >= 0.5 * last_slope && !is_first;
+  constexpr double little = 0.1;
+  is_little_ = growth_of_errors * most_slope * h * (end_time_ - start_) <=
+               2. * little * tolerances_.steps * force_scale();
+  interval_ = is_steady || is_little_ ? std::min(2 * interval_, longest_interval) : shortest_interval;
   until_measurement_ = interval_;
-  if (until_penetration_ > 0)
-    --until_penetration_;
   if (tolerances_.steps == 0.)
     return;
-  const double rate = growth_of_errors * std::min(slope, last_slope) * h;
-  constexpr double least = 0.2, most = 2.; // of the change at once
+  const double rate = growth_of_errors * last_slope_ * h;
+  constexpr double least = 0.5, most = 4.; // of the change at once
   const double factor = rate > 0. ? allowed_rate() / rate : most;
   longest_step_ = h * std::max(least, std::min(most, factor));
   // Where steps matter at all: not so long that c could change beyond recognition between two measurements,
   // nor so short that what happens once in a while, whatever the step, would decide.
-  constexpr double matters = 0.01, longest = 0.75, shortest = 3.;
+  constexpr double matters = 0.05, longest = 0.75, shortest = 3.;
   const double span = end_time_ - start_;
-  if (rate * span > 2. * matters * tolerances_.steps * force_scale()) {
+  if (growth_of_errors * most_slope * h * span > 2. * matters * tolerances_.steps * force_scale()) {
     const double most_span = longest * std::sqrt(tolerances_.steps) * span;
-    longest_step_ = std::min(longest_step_, most_span);
+    longest_step_ = std::min(longest_step_, difference > noise ? most_span : std::max(most_span, h));
     if (longest_step_ < h)
       longest_step_ = std::max(longest_step_,
                                std::min(h, std::min(0.5 * most_span, shortest * tolerances_.steps * span)));
   }
+  // Shorter steps that err as much in the same time, or more, are of no use: where nodes touch, or begin to
+  // slip, one by one.
+  constexpr double shorter = 0.75, as_much = 0.8;
+  if (h < shorter * last_step && part_ > as_much * last_part)
+    longest_step_ = std::max(longest_step_, last_step);
 }
 
-void ErrorControl::measure_penetration(const double penetration, const Forces &forces,
-                                       const Forces &without) {
+void ErrorControl::measure_penetration(const double penetration, const Forces &forces, const Forces &without,
+                                       const double residuals) {
+  until_penetration_ = shortest_interval;
+  const double force = sum_of_norms(forces), noise = residuals * force,
+               error = std::max(0., distance(forces, without) - noise);
+  if (!(force > 0. && penetration > 0.))
+    return;
   const bool is_first = !has_penetration_;
   has_penetration_ = true;
-  const double error = distance(forces, without), force = sum_of_norms(forces);
-  const double last_part = penetration_part_;
-  penetration_part_ = force > 0. ? error / force : 0.;
-  if (is_first)
-    penetration_ += error * unmeasured_time_;
+  const double last_slope = penetration_slope_;
+  penetration_slope_ = error / (force * penetration);
+  // Steps since the last measurement have something in between.
+  penetration_ +=
+      ((is_first ? penetration_slope_ : std::sqrt(last_slope * penetration_slope_)) - last_slope) *
+      unmeasured_penetration_;
+  unmeasured_penetration_ = 0.;
   constexpr double little = 0.1;
   const bool is_steady =
-      !is_first && penetration_part_ <= 1.5 * last_part && penetration_part_ >= last_part / 1.5;
-  const bool is_little = penetration_part_ <= little * tolerances_.penetration;
+      !is_first && penetration_slope_ <= 2. * last_slope && penetration_slope_ >= 0.5 * last_slope;
+  const bool is_little = error <= little * tolerances_.penetration * force;
   penetration_interval_ =
       is_steady || is_little ? std::min(2 * penetration_interval_, longest_interval) : shortest_interval;
   until_penetration_ = penetration_interval_;
   if (tolerances_.penetration == 0. || !(error > 0.))
     return;
-  // In proportion; tighter than what is the tightest is not to be had.
-  const double allowed = tolerances_.penetration * std::max(force_scale(), force);
+  // In proportion; tighter than what is the tightest is not to be had. Augmentations leave less than what is
+  // allowed, about half of it in the mean.
+  constexpr double most_over_mean = 2.;
+  const double allowed = most_over_mean * tolerances_.penetration * std::max(force_scale(), force);
   penetration_allowed_ = std::max(1., penetration * allowed / error);
-  penetration_part_ *= std::min(1., penetration_allowed_ / penetration);
 }
 
 void ErrorControl::miss_measurement(const double h, const bool failed) {
+  if (failed && is_little_) { // nothing is gained by shorter ones
+    until_measurement_ = interval_;
+    return;
+  }
   until_measurement_ = failed ? 0 : shortest_interval;
   if (failed && tolerances_.steps > 0.)
     longest_step_ = std::min(longest_step_, 0.5 * h);
@@ -185,10 +226,10 @@ void ErrorControl::save(StateWriter &writer) const {
                           steps_,
                           penetration_,
                           iterations_,
-                          penetration_part_,
+                          penetration_slope_,
                           unmeasured_,
                           unmeasured_span_,
-                          unmeasured_time_,
+                          unmeasured_penetration_,
                           measured_step_,
                           has_penetration_ ? 1. : 0.,
                           static_cast<double>(until_measurement_),
@@ -197,7 +238,9 @@ void ErrorControl::save(StateWriter &writer) const {
                           longest_step_,
                           penetration_allowed_,
                           static_cast<double>(until_penetration_),
-                          static_cast<double>(penetration_interval_)});
+                          static_cast<double>(penetration_interval_),
+                          is_little_ ? 1. : 0.,
+                          part_});
   pack("errors by steps", slopes_);
   pack("errors of forces", errors_);
 }
@@ -221,10 +264,10 @@ void ErrorControl::load(const StateReader &reader) {
   steps_ = state.at(7);
   penetration_ = state.at(8);
   iterations_ = state.at(9);
-  penetration_part_ = state.at(10);
+  penetration_slope_ = state.at(10);
   unmeasured_ = state.at(11);
   unmeasured_span_ = state.at(12);
-  unmeasured_time_ = state.at(13);
+  unmeasured_penetration_ = state.at(13);
   measured_step_ = state.at(14);
   has_penetration_ = state.at(15) > 0.;
   until_measurement_ = static_cast<unsigned int>(state.at(16));
@@ -234,6 +277,8 @@ void ErrorControl::load(const StateReader &reader) {
   penetration_allowed_ = state.at(20);
   until_penetration_ = static_cast<unsigned int>(state.at(21));
   penetration_interval_ = static_cast<unsigned int>(state.at(22));
+  is_little_ = state.at(23) > 0.;
+  part_ = state.at(24);
   slopes_ = unpack("errors by steps");
   errors_ = unpack("errors of forces");
 }

@@ -10,7 +10,14 @@ namespace billet {
 namespace {
 
 // Of the target error, what steps and penetrations may make; the rest is for what is estimated badly.
-constexpr double part_of_steps = 0.5, part_of_penetration = 0.15;
+constexpr double part_of_steps = 0.5, part_of_penetration = 0.3;
+
+// Where steps make no error.
+constexpr double part_of_penetration_alone = 0.5;
+
+// Residuals of steps that are compared with one another, as part of the target error: the difference has to
+// stand out.
+constexpr double residual_of_measurements = 0.03;
 
 /// Whether the penetration tolerances of all pairs are left to the target error.
 bool may_choose_penetration(const parameters::Scene &parameters) {
@@ -21,10 +28,24 @@ bool may_choose_penetration(const parameters::Scene &parameters) {
                                                 })) == parameters.pairs.size();
 }
 
-ErrorControl::Tolerances tolerances_of(const parameters::Scene &parameters) {
+/// Whether a step's length is part of its answer: stresses that return to a yield surface, rates of stress
+/// that are integrated, tractions that return to a friction cone, motions in time.
+bool depends_on_steps(const Scene &scene) {
+  const std::vector<parameters::Body> &bodies = scene.parameters().bodies;
+  return scene.parameters().is_dynamic() || scene.capabilities().friction ||
+         scene.capabilities().plasticity ||
+         std::any_of(bodies.begin(), bodies.end(), [](const parameters::Body &body) {
+           return body.material.kinematics.value == parameters::Material::Kinematics::hypoelastic;
+         });
+}
+
+ErrorControl::Tolerances tolerances_of(const Scene &scene) {
+  const parameters::Scene &parameters = scene.parameters();
   const double target = parameters.target_error;
   return {parameters.is_dynamic() ? part_of_steps * target : parameters.time_stepping.error_tolerance,
-          may_choose_penetration(parameters) ? part_of_penetration * target : 0.};
+          !may_choose_penetration(parameters) ? 0.
+          : depends_on_steps(scene)           ? part_of_penetration * target
+                                              : part_of_penetration_alone * target};
 }
 
 } // namespace
@@ -34,13 +55,19 @@ bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
 }
 
 ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem)
-    : problem_(problem),
-      errors_(tolerances_of(scene.parameters()), scene.parameters().time_stepping.end_time),
+    : problem_(problem), errors_(tolerances_of(scene), scene.parameters().time_stepping.end_time),
       // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
       // surface about the square root of their number times theirs.
       residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
-      measures_penetration_(scene.parameters().target_error > 0.),
-      controls_penetration_(may_choose_penetration(scene.parameters())) {
+      measures_steps_(depends_on_steps(scene)),
+      measures_penetration_(scene.parameters().target_error > 0. &&
+                            !(scene.pairs().empty() && scene.body_pairs().empty())),
+      controls_penetration_(may_choose_penetration(scene.parameters())),
+      accuracy_of_measurements_(
+          scene.parameters().target_error > 0.
+              ? std::min(1., residual_of_measurements * scene.parameters().target_error /
+                                 scene.parameters().solver.force_tolerance)
+              : 1.) {
   allow_penetration();
 }
 
@@ -49,8 +76,16 @@ void ErrorWatch::allow_penetration() {
     problem_.set_penetration_allowed(errors_.penetration_allowed());
 }
 
+void ErrorWatch::demand_accuracy(const bool is_measured) {
+  problem_.set_accuracy(is_measured ? accuracy_of_measurements_ : 1.);
+}
+
 unsigned int ErrorWatch::before_step(StepControl &control, const double previous_step) {
   Usage::count(Capability::error_control, 1);
+  if (!measures_steps_)
+    return measures_penetration_ && errors_.wants_penetration() && previous_step > 0.
+               ? measure_penetration(control.next_time(), previous_step)
+               : 0;
   if (probe_length_ > 0. || !errors_.wants_measurement(control.next_step()))
     return 0;
   const double first = control.next_step(), end = control.time_after_next(),
@@ -60,6 +95,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
     errors_.miss_measurement(first, false);
     return 0;
   }
+  demand_accuracy(true);
   probe_ = problem_.probe(end, previous_step, measures_penetration_ && errors_.wants_penetration());
   const auto n_iterations = static_cast<unsigned int>(probe_.newton.iterations.size());
   n_iterations_ += n_iterations;
@@ -67,15 +103,32 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
     probe_length_ = first;
     probe_end_ = end;
   } else {
+    demand_accuracy(false);
     errors_.miss_measurement(first, true);
     control.limit(errors_.longest_step());
   }
   return n_iterations;
 }
 
+unsigned int ErrorWatch::measure_penetration(const double t, const double previous_step) {
+  demand_accuracy(true);
+  const QuasiStatic::Probe probe = problem_.probe(t, previous_step, true);
+  demand_accuracy(false);
+  if (!probe.without_penetration.empty()) {
+    errors_.measure_penetration(probe.penetration, probe.forces, probe.without_penetration,
+                                residual_factor_ * probe.newton.force);
+    allow_penetration();
+  }
+  const auto n_iterations = static_cast<unsigned int>(probe.newton.iterations.size());
+  n_iterations_ += n_iterations;
+  return n_iterations;
+}
+
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
   const ErrorControl::Forces forces = problem_.forces();
-  errors_.accept(length, forces, residual_factor_ * report.force);
+  errors_.accept(length, forces, residual_factor_ * report.force, problem_.penetration());
+  if (!measures_steps_)
+    return;
   if (probe_length_ > 0. && control.time() < probe_end_) {
     control.plan(probe_length_);
     last_residual_ = report.force;
@@ -86,10 +139,12 @@ void ErrorWatch::after_step(StepControl &control, const double length, const New
                           residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
     // Not before: the three steps have to go equally deep.
     if (!probe_.without_penetration.empty())
-      errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration);
+      errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration,
+                                  residual_factor_ * probe_.newton.force);
     allow_penetration();
   }
   probe_length_ = 0.;
+  demand_accuracy(false);
   last_residual_ = report.force;
   control.limit(errors_.longest_step());
 }
@@ -98,6 +153,7 @@ void ErrorWatch::after_failure() {
   if (probe_length_ > 0.)
     errors_.miss_measurement(probe_length_, true);
   probe_length_ = 0.;
+  demand_accuracy(false);
 }
 
 void ErrorWatch::save(StateWriter &writer) const {

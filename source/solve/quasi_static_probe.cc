@@ -66,7 +66,14 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
         const Epetra_Vector accepted = pack(displacements, offsets);
         Epetra_Vector residual(accepted);
         compute_residual(accepted, residual);
+        // What is left of the penetrations goes on like this: a geometric series.
+        constexpr double most_left = 0.8;
+        const double left =
+            probe.penetration > 0. ? std::min(most_left, augmentation_error() / probe.penetration) : 0.;
         probe.without_penetration = trial_forces();
+        for (std::size_t i = 0; i < probe.forces.size(); ++i)
+          probe.without_penetration[i] +=
+              left / (1. - left) * (probe.without_penetration[i] - probe.forces[i]);
       }
     }
   }

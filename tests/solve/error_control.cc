@@ -40,7 +40,7 @@ Result run(const ErrorControl::Tolerances &tolerances, const double slope, const
     error_integral += 0.5 * (before + error) * h;
     work += 0.5 * (force_before + 3. + 2. * t) * h;
     force_before = 3. + 2. * t;
-    control.accept(h, force(t, error), 0.);
+    control.accept(h, force(t, error), 0., 0.);
   };
   while (t < 1. - 1e-12) {
     h = std::min(h, 1. - t);
@@ -85,32 +85,64 @@ int main() {
   check("without an error steps grow", exact.n_steps < 30 && exact.estimate.steps == 0.);
   {
     ErrorControl noisy({1e-6, 0.}, 1.);
-    noisy.accept(0.01, force(0.01, 0.), 0.);
-    noisy.accept(0.01, force(0.02, 0.), 0.);
+    noisy.accept(0.01, force(0.01, 0.), 0., 0.);
+    noisy.accept(0.01, force(0.02, 0.), 0., 0.);
     noisy.measure_steps(0.01, force(0.02, 0.), force(0.02, 3e-6), 1e-6);
-    check("what residuals make of a difference shortens no steps", noisy.longest_step() > 0.01);
+    check("what residuals make of a difference shortens no steps", noisy.longest_step() >= 0.01);
   }
+  // One measurement after another of pairs of steps of these lengths and differences from one of twice the
+  // length, 1 ppm of the forces in noise: the next step.
+  struct Pair {
+    double h, difference;
+  };
+  const auto next_step = [](const std::vector<Pair> &measured) {
+    ErrorControl control({1e-3, 0.}, 1.);
+    double t = 0.;
+    for (const auto &[h, difference] : measured) {
+      control.accept(h, force(t += h, 0.), 0., 0.);
+      control.accept(h, force(t += h, 0.), 0., 0.);
+      control.measure_steps(h, force(t, 0.), force(t, difference), 1e-6);
+    }
+    return control.longest_step();
+  };
+  const double steady = next_step({{0.01, 2e-4}, {0.01, 2e-4}});
+  check("a difference within the noise is taken to be as before",
+        near(next_step({{0.01, 2e-4}, {1e-4, 0.}}), 1e-4 * 4., 1e-9) && steady < 0.04);
+  check("errors that turn around do not add up", next_step({{0.01, 2e-4}, {0.01, -2e-4}}) > steady);
+  check("steps grow again where shorter ones err as much in the same time",
+        next_step({{0.01, 2e-3}, {0.005, 2e-3}}) >= 0.01 && next_step({{0.01, 2e-3}, {0.005, 5e-4}}) < 0.01);
 
   ErrorControl deep({0., 1e-3}, 1.);
-  deep.accept(0.1, force(0.1, 0.), 1e-5);
-  deep.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032));
-  // Of 1 % of the force a thousandth may stay.
-  check("what penetration is allowed", near(deep.penetration_allowed(), 10., 1e-9));
+  deep.accept(0.1, force(0.1, 0.), 1e-5, 100.);
+  deep.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032), 0.);
+  // Of 1 % of the force a thousandth may stay, and twice as much at most.
+  check("what penetration is allowed", near(deep.penetration_allowed(), 20., 1e-9));
   ErrorControl left({0., 0.}, 1.);
-  left.accept(0.1, force(0.1, 0.), 0.);
-  left.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032));
+  left.accept(0.1, force(0.1, 0.), 0., 100.);
+  left.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032), 0.);
   check("what residuals make", near(deep.estimate().iterations, 2e-5, 1e-9)); // from the force 0 at time 0
   check("what penetrations make", near(left.estimate().penetration, 2. * 0.032 / 3.2, 1e-9));
   // A measurement of penetrations costs another solution: the first, and others as long as they change.
   ErrorControl seldom({0., 0.1}, 1.);
   unsigned int n_wanted = 0;
   for (unsigned int i = 0; i < 30; ++i) {
-    seldom.accept(0.01, force(0.1, 0.), 0.);
+    seldom.accept(0.01, force(0.1, 0.), 0., 100.);
     n_wanted += seldom.wants_penetration() ? 1 : 0;
     if (seldom.wants_penetration())
-      seldom.measure_penetration(100., force(0.1, 0.), force(0.1, 1e-4));
+      seldom.measure_penetration(100., force(0.1, 0.), force(0.1, 1e-4), 0.);
     seldom.measure_steps(0.01, force(0.1, 0.), force(0.1, 1e-6), 0.);
   }
+  // Twice as deep, with half of what a depth makes.
+  const double before = left.estimate().penetration;
+  left.accept(0.1, force(0.1, 0.), 0., 200.);
+  left.measure_penetration(200., force(0.1, 0.), force(0.1, 0.032), 0.);
+  const double work = 0.16 + 0.32;
+  check("between measurements something in between",
+        near(left.estimate().penetration, (before * 0.16 + std::sqrt(0.5) * 0.01 * 2. * 0.32) / work, 1e-9));
+  ErrorControl rough({0., 1e-3}, 1.);
+  rough.accept(0.1, force(0.1, 0.), 0., 100.);
+  rough.measure_penetration(100., force(0.1, 0.), force(0.1, 1e-3), 1e-3);
+  check("what residuals make of penetrations does not count", rough.estimate().penetration == 0.);
   check("penetrations that make little are measured seldom", n_wanted > 2 && n_wanted < 8);
   return billet::testing::exit_code();
 }

@@ -20,7 +20,8 @@ namespace billet {
 /// step of 2 h differs from two of h by 4 c h² − 2 c h²: by what the two are off.
 class ErrorControl {
 public:
-  using Forces = std::vector<dealii::Tensor<1, 3>>;
+  using Force = dealii::Tensor<1, 3>;
+  using Forces = std::vector<Force>;
 
   struct Tolerances {
     double steps = 0.;       ///< part of the forces; 0: steps are left alone
@@ -35,8 +36,9 @@ public:
   /// Whether the next two steps should be compared with one of twice the length.
   bool wants_measurement() const { return until_measurement_ == 0; }
 
-  /// An accepted step of length `h`. `residual`: of the forces, at its end, as part of them.
-  void accept(double h, const Forces &forces, double residual);
+  /// An accepted step of length `h`. `residual`: of the forces, at its end, as part of them; `penetration`:
+  /// the deepest, see measure_penetration().
+  void accept(double h, const Forces &forces, double residual, double penetration);
   /// Whether they should before a step of this length: where the last ones were much shorter.
   bool wants_measurement(const double h) const { return wants_measurement() || h > 1.5 * measured_step_; }
   /// After the second of two steps of length `h`: what one of twice the length gave. What `residuals` make of
@@ -46,8 +48,8 @@ public:
   /// seldom the less it is, or changes.
   bool wants_penetration() const { return until_penetration_ == 0; }
   /// What a step gave whose deepest penetration was `penetration`, as part of the tightest that may be asked
-  /// for; and what without penetrations.
-  void measure_penetration(double penetration, const Forces &forces, const Forces &without);
+  /// for; and what without penetrations. What `residuals` make of the difference does not count.
+  void measure_penetration(double penetration, const Forces &forces, const Forces &without, double residuals);
   /// Two steps of this length cannot be compared with one: another measurement is due soon. If that one
   /// `failed`, of shorter ones.
   void miss_measurement(double h, bool failed);
@@ -80,14 +82,17 @@ private:
   double work_ = 0.;                                       ///< ∫Σ|F| dt
   double steps_ = 0., penetration_ = 0., iterations_ = 0.; ///< integrals of errors
   double force_rate_ = 0.;                                 ///< d Σ|F| / dt in the last step
-  Forces slopes_;                ///< c of each force from the last measurement on; empty before the first
-  double last_slope_ = 0.;       ///< Σ|c|, as the last measurement was
-  Forces errors_;                ///< of each force, by all steps so far
-  double penetration_part_ = 0.; ///< of the forces, by penetrations, as of the last measurement
+  Forces slopes_;          ///< c of each force from the last measurement on; empty before the first
+  double last_slope_ = 0.; ///< Σ|c|, as the last measurement was
+  Forces errors_;          ///< of each force, by all steps so far
+  double penetration_slope_ =
+      0.; ///< part of the forces by the deepest penetration, as of the last measurement
   double unmeasured_ = 0., unmeasured_span_ = 0.; ///< Σ h², Σ h of the steps since the last measurement
-  double unmeasured_time_ = 0.;                   ///< Σ h of the steps before the first one
-  double measured_step_ = 0.;                     ///< h of the last one
+  double unmeasured_penetration_ = 0.; ///< ∫ penetration Σ|F| dt of the steps since its last one
+  double measured_step_ = 0.;          ///< h of the last one
+  double part_ = 0.;                   ///< difference of the last one, over h and the forces
   bool has_penetration_ = false;
+  bool is_little_ = false; ///< what steps make, as of the last measurement
   unsigned int until_measurement_ = 0, interval_ = 1, n_measurements_ = 0;
   unsigned int until_penetration_ = 0, penetration_interval_ = 1;
   double longest_step_ = std::numeric_limits<double>::infinity();

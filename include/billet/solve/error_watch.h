@@ -36,11 +36,15 @@ public:
 
 private:
   void allow_penetration();
+  void demand_accuracy(bool is_measured);
+  /// Where steps make no errors: tries the step to `t` for what penetrations make. Iterations that it took.
+  unsigned int measure_penetration(double t, double previous_step);
 
   QuasiStatic &problem_;
   ErrorControl errors_;
   double residual_factor_; ///< of a force, over that of the residual
-  bool measures_penetration_, controls_penetration_;
+  bool measures_steps_, measures_penetration_, controls_penetration_;
+  double accuracy_of_measurements_; ///< residuals of steps that are compared, over those of others
   QuasiStatic::Probe probe_;
   double probe_length_ = 0.; ///< of each of the two steps that are compared with it; 0: none
   double probe_end_ = 0.;

@@ -40,7 +40,7 @@ public:
     /// Largest, before augmentation, as part of the 'Penetration tolerance'.
     double penetration = 0.;
     std::vector<dealii::Tensor<1, 3>>
-        without_penetration; ///< the same, augmented once; empty if that is not measured
+        without_penetration; ///< the same without; empty if that is not measured
   };
   /// Tries the step to `t`, and leaves the state as it is. The next steps up to `t` begin their iterations
   /// from what it found.
@@ -48,8 +48,12 @@ public:
   /// Of the tools and of pairs of bodies at the last accepted step; without either, the norm of the forces of
   /// supports.
   std::vector<dealii::Tensor<1, 3>> forces() const;
+  /// Of the last accepted step: the deepest, as part of the 'Penetration tolerance', or 0 if there is none.
+  double penetration() const { return penetration_; }
   /// Tractions are augmented where penetrations are above so many times what pairs ask for.
   void set_penetration_allowed(const double factor) { penetration_allowed_ = factor; }
+  /// Residuals, and their work, have to be this part of what the solver's tolerances allow; in (0, 1].
+  void set_accuracy(const double factor) { accuracy_ = factor; }
 
   /// Of the last step that was tried, in dynamic scenes: see ImplicitMotion::step_error().
   double time_error() const { return time_error_; }
@@ -207,7 +211,8 @@ private:
   };
   std::unique_ptr<ProbedState> probe_; ///< of the last probe, while steps may start from it
   bool is_probing_ = false;
-  double penetration_allowed_ = 1.;
+  double penetration_allowed_ = 1., accuracy_ = 1.;
+  double penetration_ = 0.;
   bool has_told_soft_ = false, has_told_stiff_ = false; ///< what watch_penalties() says
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
