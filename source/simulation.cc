@@ -10,9 +10,9 @@
 #include "billet/output/history_file.h"
 #include "billet/output/progress.h"
 #include "billet/output/stress_jumps.h"
+#include "billet/solve/energy_errors.h"
 #include "billet/solve/error_watch.h"
 #include "billet/solve/explicit_dynamics.h"
-#include "billet/solve/explicit_errors.h"
 #include "billet/solve/quasi_static.h"
 #include "billet/solve/step_control.h"
 
@@ -356,6 +356,15 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
   return result;
 }
 
+/// What it cost is left to the caller.
+ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_steps) {
+  ErrorReport result;
+  result.of_what = "energies";
+  result.sources = {{"steps", errors.steps(), shorter_steps},
+                    {"penetrations", errors.penetration(), "try a larger 'Normal penalty'"}};
+  return result;
+}
+
 ExitCode run_quasi_static(const Scene &scene, const Discretization &discretization, Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
   QuasiStatic problem(scene, discretization);
@@ -367,7 +376,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   }
   StepControl control(parameters.time_stepping, parameters.output.interval, stops);
   std::unique_ptr<ErrorWatch> watch;
-  if (ErrorWatch::is_wanted(parameters))
+  std::unique_ptr<EnergyErrors> errors; // steps of dynamics follow their own estimate
+  if (parameters.is_dynamic() && parameters.target_error > 0.)
+    errors = std::make_unique<EnergyErrors>(parameters.target_error);
+  else if (ErrorWatch::is_wanted(parameters))
     watch = std::make_unique<ErrorWatch>(scene, discretization, problem);
   EnergyWatch energies(parameters.is_dynamic() ? EnergyWatch::Balance::is_told
                                                : EnergyWatch::Balance::is_left);
@@ -386,6 +398,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         report.total_cuts = control.n_cuts();
         if (watch && resumption->reader.has("errors"))
           watch->load(resumption->reader);
+        if (errors && resumption->reader.has("errors"))
+          errors->load(resumption->reader);
       });
   }
   Outputs outputs(scene, discretization, resumption);
@@ -401,6 +415,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       writer.write("totals", {continued, static_cast<double>(report.total_iterations)});
       if (watch)
         watch->save(writer);
+      if (errors)
+        errors->save(writer);
     });
   };
   while (!control.is_finished()) {
@@ -419,6 +435,12 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       control.accept(static_cast<unsigned int>(report.newton.hardest), problem.time_error());
       if (watch)
         watch->after_step(control, report.length, report.newton);
+      if (errors) {
+        const double factor = errors->step_factor();
+        errors->add(control.time(), problem.state().energies);
+        if (errors->step_factor() < factor)
+          control.limit(errors->step_factor() * report.length);
+      }
       continued = report.length;
       report.step = control.n_steps();
       fail_together(discretization.communicator(), [&] {
@@ -449,6 +471,11 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   }
   if (watch)
     tell_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
+  if (errors) {
+    ErrorReport believed = make_report(*errors, "try a smaller 'Largest step'");
+    believed.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
+    tell_errors(std::move(believed), problem, discretization, parameters, outputs);
+  }
   outputs.progress.finish(outputs.writer.file_to_open());
   return ExitCode::success;
 }
@@ -509,9 +536,9 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   ExplicitDynamics problem(scene, discretization);
   const Events events(scene);
   HistoryTimes history_times(parameters);
-  std::unique_ptr<ExplicitErrors> errors;
+  std::unique_ptr<EnergyErrors> errors;
   if (parameters.target_error > 0.)
-    errors = std::make_unique<ExplicitErrors>(parameters.target_error);
+    errors = std::make_unique<EnergyErrors>(parameters.target_error);
   unsigned int balanced_step = 0; // the last at which the energies were seen to balance
   if (resumption != nullptr) {
     resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
@@ -638,10 +665,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);
   }
   if (errors) {
-    ErrorReport report;
-    report.of_what = "energies";
-    report.sources = {{"steps", errors->steps(), "try a smaller 'Safety factor'"},
-                      {"penetrations", errors->penetration(), "try a larger 'Normal penalty'"}};
+    ErrorReport report = make_report(*errors, "try a smaller 'Safety factor'");
     report.costs = {{"steps taken", problem.n_steps()},
                     {"element updates", static_cast<double>(problem.n_steps()) *
                                             static_cast<double>(discretization.n_global_elements())}};

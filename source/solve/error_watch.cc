@@ -9,8 +9,9 @@ namespace billet {
 
 namespace {
 
-// Of the target error, what steps and penetrations may make; the rest is for what is estimated badly.
-constexpr double part_of_steps = 0.5, part_of_penetration = 0.3;
+// Of the target error, what penetrations may make; half is for the steps, the rest for what is estimated
+// badly.
+constexpr double part_of_penetration = 0.3;
 
 // Where steps make no error.
 constexpr double part_of_penetration_alone = 0.5;
@@ -29,11 +30,10 @@ bool may_choose_penetration(const parameters::Scene &parameters) {
 }
 
 /// Whether a step's length is part of its answer: stresses that return to a yield surface, rates of stress
-/// that are integrated, tractions that return to a friction cone, motions in time.
+/// that are integrated, tractions that return to a friction cone.
 bool depends_on_steps(const Scene &scene) {
   const std::vector<parameters::Body> &bodies = scene.parameters().bodies;
-  return scene.parameters().is_dynamic() || scene.capabilities().friction ||
-         scene.capabilities().plasticity ||
+  return scene.capabilities().friction || scene.capabilities().plasticity ||
          std::any_of(bodies.begin(), bodies.end(), [](const parameters::Body &body) {
            return body.material.kinematics.value == parameters::Material::Kinematics::hypoelastic;
          });
@@ -42,10 +42,10 @@ bool depends_on_steps(const Scene &scene) {
 ErrorControl::Tolerances tolerances_of(const Scene &scene) {
   const parameters::Scene &parameters = scene.parameters();
   const double target = parameters.target_error;
-  return {parameters.is_dynamic() ? part_of_steps * target : parameters.time_stepping.error_tolerance,
-          !may_choose_penetration(parameters) ? 0.
-          : depends_on_steps(scene)           ? part_of_penetration * target
-                                              : part_of_penetration_alone * target};
+  return {parameters.time_stepping.error_tolerance, !may_choose_penetration(parameters) ? 0.
+                                                    : depends_on_steps(scene)
+                                                        ? part_of_penetration * target
+                                                        : part_of_penetration_alone * target};
 }
 
 } // namespace

@@ -8,7 +8,7 @@
 
 namespace billet {
 
-/// Lets an ErrorControl choose the steps of an implicit scene, and how deep contacts may go in: makes the
+/// Lets an ErrorControl choose the steps of a static scene, and how deep contacts may go in: makes the
 /// measurements that it wants.
 class ErrorWatch {
 public:

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_SOLVE_EXPLICIT_ERRORS_H
-#define BILLET_SOLVE_EXPLICIT_ERRORS_H
+#ifndef BILLET_SOLVE_ENERGY_ERRORS_H
+#define BILLET_SOLVE_ENERGY_ERRORS_H
 
 #include "billet/solve/solution.h"
 #include "billet/state.h"
 
 namespace billet {
 
-/// What an explicit run believes its energies to be off, ∫|E − E*| dt over ∫Σ E* dt: by steps, from the drift
-/// of the energies, and by penalties, from what their springs hold. Steps get shorter while the first is more
-/// than its part of the tolerance, and grows.
+/// What a run of explicit or implicit dynamics believes its energies to be off, ∫|E − E*| dt over ∫Σ E* dt:
+/// by steps, from the drift of the energies and what the integration dissipates, and by penalties, from what
+/// their springs hold. Steps get shorter while the first is more than its part of the tolerance, and grows.
 ///
 /// A node that is g deep in is late by g/v, v its velocity: kinetic energy, which falls by F v in a unit of
 /// time, is off by F g = 2 E_c, and the springs hold E_c themselves.
-class ExplicitErrors {
+class EnergyErrors {
 public:
   /// `tolerance`: part of the energies.
-  explicit ExplicitErrors(const double tolerance) : tolerance_(tolerance) {}
+  explicit EnergyErrors(const double tolerance) : tolerance_(tolerance) {}
 
   /// The energies at a later time than the last ones.
   void add(double time, const EnergyLedger &energies);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/solve/explicit_errors.h"
+#include "billet/solve/energy_errors.h"
 #include "billet/usage.h"
 
 #include <algorithm>
@@ -7,9 +7,10 @@
 
 namespace billet {
 
-void ExplicitErrors::add(const double time, const EnergyLedger &energies) {
+void EnergyErrors::add(const double time, const EnergyLedger &energies) {
   Usage::count(Capability::error_control, 1);
-  const double drift = std::abs(energies.drift()), contact = std::abs(energies.contact),
+  const double drift = std::abs(energies.drift()) + std::abs(energies.numerical),
+               contact = std::abs(energies.contact),
                total = std::max(energies.total(), std::abs(energies.initial));
   if (has_begun_) {
     constexpr double late_and_stored = 3.;
@@ -29,12 +30,12 @@ void ExplicitErrors::add(const double time, const EnergyLedger &energies) {
   last_total_ = total;
 }
 
-void ExplicitErrors::save(StateWriter &writer) const {
+void EnergyErrors::save(StateWriter &writer) const {
   writer.write("errors", {has_begun_ ? 1. : 0., time_, last_drift_, last_contact_, last_total_, drift_,
                           penetration_, total_, step_factor_});
 }
 
-void ExplicitErrors::load(const StateReader &reader) {
+void EnergyErrors::load(const StateReader &reader) {
   const std::vector<double> state = reader.read("errors");
   has_begun_ = state.at(0) > 0.;
   time_ = state.at(1);
