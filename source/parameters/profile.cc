@@ -210,7 +210,7 @@ void check_contradictions(const SceneFile &file, const double target) {
   if (file.value({"Time stepping"}, "Step control", "automatic") == "fixed")
     refuse({"Time stepping"}, "Step control", "automatic");
   for (const auto &[path, key] : limited) {
-    const double most = key == "Force tolerance" ? 0.1 * target : target;
+    const double most = key == "Force tolerance" ? 0.3 * target : target;
     if (file.is_set(path, key) && number_in(file.value(path, key, ""), 0.) > most)
       refuse(path, key, "a number not above " + print(most) + ", or none");
   }

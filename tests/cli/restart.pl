@@ -84,10 +84,13 @@ sub largest_difference
 # --- going on ------------------------------------------------------------------------------------------------------
 
 my @same = ('history.csv', 'scene.pvd');
-my %base = (block => $block, impact => $impact);
-my %every = (block => 'set Every steps = 1', impact => 'set Interval = 0.1e-3');
-my %extra = (block => '', impact => ' & Output: Interval = 0.1e-3');
-for my $which ('block', 'impact')
+my %base = (block => $block, impact => $impact, aimed => $block, drop => read_text("$here/drop.prm"));
+my %every = (block => 'set Every steps = 1', impact => 'set Interval = 0.1e-3', aimed => 'set Every steps = 1',
+  drop => 'set Every steps = 1');
+# With a target error, what was measured so far goes on, too.
+my %extra = (block => '', impact => ' & Output: Interval = 0.1e-3', drop => ' & Target error = 1 % & Time stepping: End time = 0.1e-3',
+  aimed => ' & Target error = 1 % & Time stepping: - Initial step & Time stepping: - Largest step');
+for my $which ('block', 'impact', 'aimed', 'drop')
 {
   for my $ranks (1, @launcher ? 2 : ())
   {
