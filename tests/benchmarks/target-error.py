@@ -21,14 +21,14 @@ class Implicit:
 
     unit = "iterations"
 
-    def __init__(self, name, pairs, end, changes):
-        self.path, self.pairs, self.end, self.changes = ROOT / f"prm/{name}.prm", pairs, end, changes
+    def __init__(self, name, pairs, end, changes, depth=1e-5):
+        self.path, self.pairs, self.end, self.changes, self.depth = ROOT / f"prm/{name}.prm", pairs, end, changes, depth
 
     def steps(self, n):
         return {"Time stepping/Initial step": repr(self.end / n), "Time stepping/Largest step": repr(self.end / n)}
 
     def reference(self):
-        return {**self.changes, **self.steps(REFERENCE_STEPS), **pairs(self.pairs, Penetration_tolerance=1e-5),
+        return {**self.changes, **self.steps(REFERENCE_STEPS), **pairs(self.pairs, Penetration_tolerance=self.depth),
                 "Solver/Force tolerance": 1e-9, "Solver/Most augmentations": 60}
 
     def by_hand(self):
@@ -73,8 +73,9 @@ SCENES = {
     "Hertz, two cylinders, 370 bricks": Implicit("hertz_cylinders", ["faces"], 1.0, {
         "Bodies/lower/Mesh/Arguments": "20, 1, 10 : 0, 0, -1 : 1, 0.1, 0 : true",
         "Bodies/upper/Mesh/Arguments": "17, 1, 10 : 0, 0, 0 : 1, 0.1, 1 : true"}),
+    # The reference to 1e-5 of a facet ends at time 0.27, where two states of contact take turns.
     "ironing, pressed down and drawn 2 mm": Implicit("ironing", ["face"], 1.4, {
-        "Time stepping/End time": 1.4, "Time stepping/Stops": 1}),
+        "Time stepping/End time": 1.4, "Time stepping/Stops": 1}, 1e-4),
     "Wagoner's punch, 48 bricks, 10 mm": Implicit("wagoner_punch", ["blank on punch", "blank on die"], 0.25, {
         "Bodies/blank/Mesh/Refinements": 2, "Time stepping/End time": 0.25}),
     "Taylor bar, 192 bricks, 40 us": Explicit("taylor_bar", ["bar on wall"], {
@@ -82,7 +83,7 @@ SCENES = {
         "Output/Interval": 0}),
 }
 
-rows, csv_rows, landed, cheap, tries = [], [], 0, 0, 0
+rows, csv_rows, landed, cheap, quick, tries = [], [], 0, 0, 0, 0
 for name, scene in SCENES.items():
     by_hand = list(scene.by_hand())
     reference, *runs = run_all(scene.path, [scene.reference()] + [changes for _, changes in by_hand]
@@ -103,6 +104,7 @@ for name, scene in SCENES.items():
         seconds = run.seconds / cheapest[3].seconds if cheapest else math.nan
         landed += off <= target
         cheap += ratio <= 1.5 or cheapest is None
+        quick += seconds <= 1.5 or cheapest is None
         csv_rows.append([name, "target error", target, "", run.work, f"{run.seconds:.3g}", f"{off:.4g}",
                          f"{believed:.4g}"])
         rows.append([name, percent(target), percent(off), percent(believed), run.steps, run.work, number(run.seconds),
@@ -114,11 +116,12 @@ publish(
     "penalties as they are or augmented, tight or loose tolerances; of the explicit scene penalty, safety factor and contact "
     "resolution. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of the explicit scene of "
     f"kinetic energy and what is stored or dissipated, against a reference on the same mesh, with {REFERENCE_STEPS} steps, "
-    "augmented to 1e-5 of a facet, residuals below 1e-9; in the explicit scene with a penalty factor of 300, a "
+    "augmented to 1e-5 of a facet (ironing: 1e-4), residuals below 1e-9; in the explicit scene with a penalty factor of 300, a "
     "safety factor of 0.3 and a contact resolution of 4. Work: Newton iterations, with those of failed steps and of "
     "estimates, or element updates; "
     "the ratio is that to the cheapest run by hand whose error is no larger than the target. Each run once.",
-    f"{landed} of {tries} runs are within their target; {cheap} take at most 1.5 times the work of the cheapest run by hand.",
+    f"{landed} of {tries} runs are within their target. Beside the cheapest run by hand {cheap} take at most 1.5 times the work, "
+    f"{quick} at most 1.5 times the CPU seconds (set-up included), where there is one.",
     table(["scene", "target", "error", "believed", "steps", "work", "CPU seconds", "cheapest by hand", "ratio of work",
            "of CPU seconds"], rows))
 if not options.quick:

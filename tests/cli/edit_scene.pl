@@ -114,7 +114,9 @@ sub run
     open STDIN,  '<', '/dev/null';
     open STDOUT, '>', '../scene.stdout' or die;
     open STDERR, '>', '../scene.stderr' or die;
-    my $limited = "ulimit -v $memory_limit && exec timeout --kill-after=5 $time_limit \"\$@\"";
+    # The sanitizer of addresses takes all of them for itself.
+    my $limit_memory = $ENV{ASAN_OPTIONS} ? 'true' : "ulimit -v $memory_limit";
+    my $limited = "$limit_memory && exec timeout --kill-after=5 $time_limit \"\$@\"";
     exec 'bash', '-c', $limited, 'bash', @command or die "bash: $!\n";
   }
   waitpid $pid, 0;
