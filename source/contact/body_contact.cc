@@ -112,7 +112,7 @@ void BodyContact::collect(const NodeKeys &keys) {
     sizes_.push_back(sizes.at(nodes_.dofs(node)[0]));
 }
 
-std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene) const {
+std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene) {
   const MPI_Comm communicator = nodes_.discretization().communicator();
   std::array<double, 4> totals{}; // area and number of facets, by surface
   for (std::size_t f = 0; f < facets_.size(); ++f) {
@@ -133,12 +133,12 @@ std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene)
     const unsigned int other = pair_.is_self_contact ? 0 : 1 - surface_of_[i];
     const double own_side = young(surface_of_[i]) / (is_uniform ? mean_size(surface_of_[i]) : sizes_[i]);
     const double other_side = young(other) / mean_size(other);
-    double unit = 1.;
-    if (pair_.penalty_is_factor)
-      unit = pair_.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
-                 ? std::max(own_side, other_side)
-                 : own_side * other_side / (own_side + other_side);
+    const double of_factor = pair_.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
+                                 ? std::max(own_side, other_side)
+                                 : own_side * other_side / (own_side + other_side);
+    const double unit = pair_.penalty_is_factor ? of_factor : 1.;
     stiffness.push_back({unit * pair_.normal_penalty, unit * pair_.tangential_penalty});
+    most_stiffening_ = std::min(most_stiffening_, enough_penalty * of_factor / (unit * pair_.normal_penalty));
   }
   return stiffness;
 }

@@ -44,6 +44,7 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   }
   writer.write("removed", {is_removed_ ? 1. : 0.});
   writer.write("allowed part", {allowed_part_});
+  writer.write("stiffening", {stiffening_});
   writer.write_rows("gaps", gap_width, node_keys, gaps);
   if (pair_.has_friction())
     writer.write_rows("friction", friction_width, node_keys, friction);
@@ -53,6 +54,8 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
   if (reader.number("removed") != 0.)
     remove_tool();
   allowed_part_ = reader.number("allowed part");
+  if (reader.has("stiffening"))
+    stiffen(reader.number("stiffening") / stiffening_);
   std::vector<std::uint64_t> node_keys;
   for (const auto &node : nodes_)
     node_keys.push_back(keys(node.dofs[0]));
@@ -175,6 +178,7 @@ void FacetContact::save(StateWriter &writer) const {
   }
   writer.write("start",
                {has_started_ ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0., allowed_part_});
+  writer.write("stiffening", {stiffening_});
   writer.write_rows("touched", touch_width, keys, touches);
   if (edges_)
     write_list(writer, "edges", dealii::Utilities::MPI::this_mpi_process(communicator_), edges_->offsets());
@@ -213,6 +217,8 @@ void FacetContact::load(const StateReader &reader) {
   has_started_ = start.at(0) != 0.;
   has_lifts_ = is_augmented || has_depths;
   allowed_part_ = allowed_part_n_ = start.at(3);
+  if (reader.has("stiffening"))
+    stiffen(reader.number("stiffening") / stiffening_);
   lifts_n_.assign(is_augmented ? slaves_.size() : 0, 0.);
   initial_depths_.assign(has_depths ? slaves_.size() : 0, 0.);
   if (has_lifts_) {

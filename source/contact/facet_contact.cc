@@ -582,6 +582,19 @@ void FacetContact::augment() {
   }
 }
 
+void FacetContact::stiffen(const double factor) {
+  stiffening_ *= factor;
+  for (auto &stiffness : stiffness_) {
+    stiffness.normal *= factor;
+    stiffness.tangential *= factor;
+  }
+  for (auto &lift : lifts_)
+    lift /= factor;
+  for (auto &lift : lifts_n_)
+    lift /= factor;
+  last_augmentations_.assign(last_augmentations_.size(), Augmentation());
+}
+
 double FacetContact::pace_of_augmentation(const std::size_t s, const double gap) const {
   const auto [lift_before, gap_before] = last_augmentations_[s];
   const double lifted = lifts_[s] - lift_before, closed = gap - gap_before;

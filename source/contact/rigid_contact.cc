@@ -66,6 +66,8 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         node.size = sizes.at(node.dofs[0]);
         node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, node.size),
                           pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
+        most_stiffening_ =
+            std::min(most_stiffening_, enough_penalty * young_modulus / (node.size * node.stiffness.normal));
         nodes_.push_back(node);
       }
       facet.nodes[a] = found.first->second;
@@ -506,6 +508,19 @@ void RigidContact::augment() {
   for (std::size_t i = 0; i < friction_.size(); ++i)
     base_.push_back(friction_n_[i].is_active ? friction_[i].tangential : friction_n_[i].tangential);
 }
+
+void RigidContact::stiffen(const double factor) {
+  stiffening_ *= factor;
+  for (auto &node : nodes_) {
+    node.stiffness.normal *= factor;
+    node.stiffness.tangential *= factor;
+    node.lift /= factor;
+    node.gap_n += node.lift_n * (1. - 1. / factor);
+    node.lift_n /= factor;
+  }
+}
+
+double RigidContact::stiffening_left() const { return most_stiffening_ / stiffening_; }
 
 double RigidContact::penetration() const {
   double deepest = 0.;

@@ -242,10 +242,11 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "k_n > 0: pressure = k_n times penetration. [1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
-  prm.declare_entry("Penetration tolerance", "0", Patterns::Double(),
-                    ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
-                    "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
-                    "slipped elastically by more. [facet sizes]");
+  prm.declare_entry(
+      "Penetration tolerance", "0", Patterns::Double(),
+      ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
+      "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
+      "slipped elastically by more; where that takes long, or fails, penalties are adapted. [facet sizes]");
   prm.declare_entry(
       "Allowed initial penetration", "1e-3", Patterns::Double(),
       "A body that starts deeper than this inside the tool, or another body, is refused. [facet "

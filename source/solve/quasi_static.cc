@@ -72,15 +72,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   // A hundred times the force that the last bit of a displacement of the scene's size makes.
   round_off_force_ = 100. * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
                      discretization.radius();
-  // And three times what that of a position makes of a stiff penalty.
-  double spring = 0.;
-  for (const auto &contact : contacts_)
-    spring = std::max(spring, contact.largest_spring());
-  for (const auto &contact : body_contacts_)
-    spring = std::max(spring, contact->largest_spring());
-  round_off_force_ += 3. * std::numeric_limits<double>::epsilon() *
-                      dealii::Utilities::MPI::max(spring, discretization.communicator()) *
-                      (discretization.centre().norm() + discretization.radius());
+  spring_round_off_ = find_spring_round_off();
 
   const std::size_t n_tools = scene.tools().size();
   offsets_.assign(n_tools, 0.);
@@ -465,6 +457,9 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
   NewtonReport report = attempt_step(t, previous_step);
+  std::string softened;
+  if (!report.converged && !(softened = soften_augmented_contacts()).empty())
+    report.append_anew(attempt_step(t, previous_step));
   if (!report.converged) {
     probe_.reset(); // it may have led astray
     for (const auto &contact : body_contacts_)
@@ -472,7 +467,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     report.failure += describe_residual();
   }
   report.linear_iterations = linear_->take_iterations();
-  report.note = linear_->take_note();
+  report.note = softened + linear_->take_note();
   if (report.converged)
     report.note += watch_penalties();
   return report;
@@ -544,36 +539,6 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
       stopped_[tool] = std::make_unique<Placement>(state_.placements[tool]);
   }
   return report;
-}
-
-void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
-  const unsigned int most = scene_.parameters().solver.most_augmentations;
-  // Residuals leave gaps, too: where augmentations do not close them, residuals have to be smaller.
-  constexpr double slow = 0.5, smaller = 0.1;
-  const double accuracy = accuracy_;
-  double last_error = std::numeric_limits<double>::infinity();
-  for (unsigned int n = 0; report.converged; ++n) {
-    const double error = augmentation_error() / penetration_allowed_;
-    if (error <= 1.)
-      break;
-    if (error > slow * last_error && accuracy_ > smaller * smaller * accuracy)
-      accuracy_ *= smaller;
-    last_error = error;
-    if (n == most) {
-      report.converged = false;
-      report.failure =
-          "after " + std::to_string(n) + " augmentations contact is still " + std::to_string(error) +
-          " times its 'Penetration tolerance' from what it should be: try a larger penalty or more "
-          "'Most augmentations'";
-      break;
-    }
-    for (auto &contact : contacts_)
-      contact.augment();
-    for (auto &contact : body_contacts_)
-      contact->augment();
-    report.append(iterate(offsets, displacements));
-  }
-  accuracy_ = accuracy;
 }
 
 NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displacements) {

@@ -30,15 +30,6 @@ std::vector<dealii::Tensor<1, 3>> QuasiStatic::trial_forces() const {
   return result;
 }
 
-double QuasiStatic::augmentation_error() const {
-  double error = 0.;
-  for (const auto &contact : contacts_)
-    error = std::max(error, contact.augmentation_error());
-  for (const auto &contact : body_contacts_)
-    error = std::max(error, contact->augmentation_error());
-  return dealii::Utilities::MPI::max(error, discretization_.communicator());
-}
-
 QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step,
                                       const bool measures_penetration) {
   Probe probe;

@@ -48,6 +48,9 @@ public:
                                             : 0.;
   }
 
+  /// As RigidContact's.
+  void stiffen(const double factor) { contact_->stiffen(factor); }
+  double stiffening_left() const { return most_stiffening_ / contact_->stiffening(); }
   /// As RigidContact::penetration().
   double penetration() const { return contact_->penetration(); }
   const std::string &name() const { return pair_.name; }
@@ -105,7 +108,7 @@ public:
 private:
   void collect(const NodeKeys &keys);
   FacetContact::Positions positions_at(const NodalVectors &displacements) const;
-  std::vector<ContactStiffness> compute_stiffness(const Scene &scene) const;
+  std::vector<ContactStiffness> compute_stiffness(const Scene &scene);
   template <class DisplacementOf> void update(const DisplacementOf &displacement_of, double duration);
   /// Of surface nodes and ghosts. Collective.
   std::vector<std::array<DofIndex, 3>> find_all_dofs() const;
@@ -120,8 +123,9 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it
   std::vector<SurfaceFacet> facets_;
-  std::vector<double> areas_;                                    ///< of the undeformed facets
-  double least_reach_ = std::numeric_limits<double>::infinity(); ///< of this rank's facets
+  std::vector<double> areas_;                                        ///< of the undeformed facets
+  double least_reach_ = std::numeric_limits<double>::infinity();     ///< of this rank's facets
+  double most_stiffening_ = std::numeric_limits<double>::infinity(); ///< until penalties are 10 E/h
   std::unique_ptr<FacetContact> contact_;
   FacetContact::Positions positions_n_, positions_;
   FacetContact::Positions forces_; ///< of one step, as row_sums_

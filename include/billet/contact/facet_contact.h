@@ -181,6 +181,9 @@ public:
   /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its
   /// facets; after add_forces(). On this rank.
   double augmentation_error() const;
+  /// Makes all penalties so many times as stiff; what augmentation holds stays. After augment().
+  void stiffen(double factor);
+  double stiffening() const { return stiffening_; } ///< so far
   /// How deep the deepest of this rank's nodes that press is, in facet sizes.
   double penetration() const;
 
@@ -340,6 +343,7 @@ private:
     double lift = 0., gap = 0.; ///< that it came from, and the gap that this left [length]
   };
   std::vector<Augmentation> last_augmentations_; ///< of slaves, in this step
+  double stiffening_ = 1.;                       ///< of all penalties, by stiffen()
   std::vector<double> initial_depths_;           ///< of slaves; empty if none is allowed
   double allowed_part_ = 1., allowed_part_n_ = 1.;
   bool has_lifts_ = false; ///< augment() has been called

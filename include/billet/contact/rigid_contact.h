@@ -14,6 +14,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <limits>
 #include <vector>
 
 namespace billet {
@@ -88,6 +89,11 @@ public:
   void augment();
   /// Relative to what the pair asks for; 0 if it asks for none. On this rank.
   double augmentation_error() const;
+  /// Makes penalties so many times as stiff; what augmentation holds stays. After augment().
+  void stiffen(double factor);
+  /// How many times as stiff penalties may become until those of a node of this rank are 10 E/h; below 1
+  /// where one is stiffer.
+  double stiffening_left() const;
   /// How deep the deepest of this rank's nodes that press is, in facet sizes.
   double penetration() const;
 
@@ -217,6 +223,8 @@ private:
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
+  double stiffening_ = 1.; ///< of all penalties, by stiffen()
+  double most_stiffening_ = std::numeric_limits<double>::infinity();
   bool is_removed_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction};
 };

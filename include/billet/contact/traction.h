@@ -13,6 +13,9 @@ using parameters::ContactTangent;
 
 enum class ContactStatus { open = 0, stick = 1, slip = 2 };
 
+/// Stiffer than this, relative to E/h, augmentation does not make penalties: each one leaves little then.
+constexpr double enough_penalty = 10.;
+
 /// Penalties of a node [force/length³].
 struct ContactStiffness {
   double normal;

@@ -56,6 +56,11 @@ struct NewtonReport {
     iterations.insert(iterations.end(), next.iterations.begin(), next.iterations.end());
     hardest = std::max(hardest, next.hardest);
   }
+  /// The same of a step that was begun anew.
+  void append_anew(const NewtonReport &next) {
+    append(next);
+    hardest = next.hardest;
+  }
 };
 
 /// The loosest relative tolerance of a linear system.

@@ -90,7 +90,7 @@ public:
   bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
   double force_scale() const override { return force_scale_; }
   double round_off_force() const override {
-    return round_off_force_ + (motion_ ? motion_->round_off_force() : 0.);
+    return round_off_force_ + spring_round_off_ + (motion_ ? motion_->round_off_force() : 0.);
   }
 
 private:
@@ -148,10 +148,19 @@ private:
   double distance_to_touch(std::size_t tool) const;
   std::vector<std::size_t> tools_to_stop(double t) const;
   /// The augmented Lagrangian: tractions are augmented and iterated anew until all pairs have what they ask
-  /// for. Continues `report`.
+  /// for. Continues `report`. In solve/quasi_static_augmentation.cc.
   void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
-  /// Largest error of contacts, as part of what pairs ask for. Collective.
+  /// Of each contact, tools first, as part of what its pair asks for. Collective.
+  std::vector<double> augmentation_errors() const;
+  /// The largest of them. Collective.
   double augmentation_error() const;
+  /// Makes the penalties of contacts stiffer whose errors fell by little since `before`. Collective.
+  void stiffen_slow_contacts(const std::vector<double> &before, const std::vector<double> &errors);
+  /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that. Empty if there are
+  /// none, else a line about it. Collective.
+  std::string soften_augmented_contacts();
+  /// The force that round-off in positions makes of the stiffest penalty. Collective.
+  double find_spring_round_off() const;
   /// What the user should know of the penalties after a step, each once; lines. In
   /// solve/quasi_static_guards.cc.
   std::string watch_penalties();
@@ -197,7 +206,7 @@ private:
   Vector trial_, trial_ghosted_, u_n_, last_increment_;
   Vector raw_internal_, raw_contact_;        ///< additive
   Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
-  double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0.;
+  double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
 
   double time_ = 0.;     ///< end of the step that is tried
   double duration_ = 0.; ///< of that step; 0 while its first guess is made

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The augmented Lagrangian of contacts with a 'Penetration tolerance'.
+#include "billet/solve/quasi_static.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+/// What augmentations are left with, one after the other, as part of what is asked for.
+class Pace {
+public:
+  void add(const double error) { errors_.push_back(error); }
+
+  /// What each of the last augmentations left of the error, in the mean.
+  double ratio() const {
+    return std::pow(errors_.back() / errors_[errors_.size() - 1 - window], 1. / window);
+  }
+  /// Whether, at this pace, the error will be above 1 after `most` augmentations.
+  bool is_hopeless(const unsigned int most) const {
+    const auto n = static_cast<unsigned int>(errors_.size()) - 1;
+    return n >= 2 * window && std::log(errors_.back()) + (most - n) * std::log(ratio()) > 0.;
+  }
+  /// So many more it would take; infinitely many where the error does not fall.
+  double to_go() const {
+    return ratio() < 1. ? std::ceil(-std::log(errors_.back()) / std::log(ratio()))
+                        : std::numeric_limits<double>::infinity();
+  }
+
+private:
+  static constexpr unsigned int window = 5;
+  std::vector<double> errors_;
+};
+
+} // namespace
+
+std::vector<double> QuasiStatic::augmentation_errors() const {
+  std::vector<double> errors;
+  for (const auto &contact : contacts_)
+    errors.push_back(contact.augmentation_error());
+  for (const auto &contact : body_contacts_)
+    errors.push_back(contact->augmentation_error());
+  dealii::Utilities::MPI::max(errors, discretization_.communicator(), errors);
+  return errors;
+}
+
+double QuasiStatic::augmentation_error() const {
+  double error = 0.;
+  for (const double of_contact : augmentation_errors())
+    error = std::max(error, of_contact);
+  return error;
+}
+
+double QuasiStatic::find_spring_round_off() const {
+  double spring = 0.;
+  for (const auto &contact : contacts_)
+    spring = std::max(spring, contact.largest_spring());
+  for (const auto &contact : body_contacts_)
+    spring = std::max(spring, contact->largest_spring());
+  // Three times what the last bit of a position makes.
+  return 3. * std::numeric_limits<double>::epsilon() *
+         dealii::Utilities::MPI::max(spring, discretization_.communicator()) *
+         (discretization_.centre().norm() + discretization_.radius());
+}
+
+void QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
+                                        const std::vector<double> &errors) {
+  // An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's.
+  constexpr double slow = 0.25, wanted = 0.1; // Bertsekas, Constrained Optimization, 1982, sec. 2.2.5
+  std::vector<double> room;
+  for (const auto &contact : contacts_)
+    room.push_back(contact.stiffening_left());
+  for (const auto &contact : body_contacts_)
+    room.push_back(contact->stiffening_left());
+  dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
+  bool is_stiffer = false;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double left = errors[i] / before[i];
+    if (!(errors[i] > penetration_allowed_ && left > slow && room[i] > 1.))
+      continue;
+    const double factor =
+        left < 1. ? std::min(room[i], left / (1. - left) * (1. - wanted) / wanted) : room[i];
+    is_stiffer = true;
+    if (i < contacts_.size())
+      contacts_[i].stiffen(factor);
+    else
+      body_contacts_[i - contacts_.size()]->stiffen(factor);
+  }
+  if (is_stiffer)
+    spring_round_off_ = find_spring_round_off();
+}
+
+std::string QuasiStatic::soften_augmented_contacts() {
+  std::vector<double> room;
+  for (const auto &contact : contacts_)
+    room.push_back(contact.stiffening_left());
+  for (const auto &contact : body_contacts_)
+    room.push_back(contact->stiffening_left());
+  dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
+  std::ostringstream note;
+  for (std::size_t i = 0; i < room.size(); ++i) {
+    if (!(room[i] < 1.))
+      continue;
+    const bool is_tool = i < contacts_.size();
+    if ((is_tool ? scene_.pairs()[contacts_[i].pair()].penetration_tolerance
+                 : scene_.body_pairs()[i - contacts_.size()].penetration_tolerance) == 0.)
+      continue;
+    if (is_tool)
+      contacts_[i].stiffen(room[i]);
+    else
+      body_contacts_[i - contacts_.size()]->stiffen(room[i]);
+    note << "The penalty of contact pair '"
+         << (is_tool ? scene_.pairs()[contacts_[i].pair()].name
+                     : body_contacts_[i - contacts_.size()]->name())
+         << "' is too stiff for Newton's method; from here on it is " << enough_penalty
+         << " E/h, and augmentation does the rest\n";
+  }
+  spring_round_off_ = find_spring_round_off();
+  return note.str();
+}
+
+void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
+  const unsigned int most = scene_.parameters().solver.most_augmentations;
+  // Residuals leave gaps, too: where augmentations do not close them, residuals have to be smaller.
+  constexpr double slow = 0.5, smaller = 0.1;
+  const double accuracy = accuracy_;
+  double last_error = std::numeric_limits<double>::infinity();
+  std::vector<double> before;
+  Pace pace;
+  for (unsigned int n = 0; report.converged; ++n) {
+    const std::vector<double> errors = augmentation_errors();
+    double error = 0.;
+    for (const double of_contact : errors)
+      error = std::max(error, of_contact / penetration_allowed_);
+    if (error <= 1.)
+      break;
+    if (error > slow * last_error && accuracy_ > smaller * smaller * accuracy)
+      accuracy_ *= smaller;
+    last_error = error;
+    pace.add(error);
+    if (n == most || pace.is_hopeless(most)) {
+      std::ostringstream message;
+      message << "after " << n << " augmentations contact is still " << error
+              << " times its 'Penetration tolerance' from what it should be";
+      if (n < most)
+        message << ", and at their pace, each leaves " << pace.ratio() << " of that, it would take "
+                << pace.to_go() << " more";
+      message << ": try a larger penalty or 'Penetration tolerance', or more 'Most augmentations'";
+      report.converged = false;
+      report.failure = message.str();
+      break;
+    }
+    for (auto &contact : contacts_)
+      contact.augment();
+    for (auto &contact : body_contacts_)
+      contact->augment();
+    if (n > 0)
+      stiffen_slow_contacts(before, errors);
+    before = errors;
+    report.append(iterate(offsets, displacements));
+  }
+  accuracy_ = accuracy;
+}
+
+} // namespace billet
