@@ -74,8 +74,9 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
     settings.most_changes = most_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
-  contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, compute_stiffness(scene),
-                                            sizes_);
+  const auto stiffness = compute_stiffness(scene);
+  settings.touching_gap *= std::min(1., most_stiffening_);
+  contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, stiffness, sizes_);
 }
 
 void BodyContact::collect(const NodeKeys &keys) {
@@ -267,11 +268,14 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
             for (unsigned int k = 0; k < 3; ++k)
               lift[nodes[a]][i] += constraint.free[k][i] * force[k];
         }
+        condensed *= system.weight;
         system.matrix.add(dofs, condensed, false);
       });
   if (system.lift == nullptr)
     return;
   contact_->exchange().collect(lift);
+  for (auto &force : lift)
+    force *= system.weight;
   for (std::size_t i = 0; i < local_nodes_.size(); ++i)
     system.lift->add(3, nodes_.dofs(local_nodes_[i]).data(), lift[i].begin_raw());
 }

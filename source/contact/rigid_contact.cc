@@ -66,8 +66,9 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         node.size = sizes.at(node.dofs[0]);
         node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, node.size),
                           pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
-        most_stiffening_ =
-            std::min(most_stiffening_, enough_penalty * young_modulus / (node.size * node.stiffness.normal));
+        const double room = enough_penalty * young_modulus / (node.size * node.stiffness.normal);
+        most_stiffening_ = std::min(most_stiffening_, room);
+        node.touching_gap = touching_gap_ * node.size * std::min(1., room);
         nodes_.push_back(node);
       }
       facet.nodes[a] = found.first->second;
@@ -142,7 +143,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   state.patch = projection.patch;
   // A node that starts on the tool counts as touching: its stiffness may be all that holds the body. Inertia
   // holds it anyway, and a stiffness without a force would mislead Newton's method when it lifts off.
-  const double on_it = touching_gap_ * node.size;
+  const double on_it = node.touching_gap;
   const bool touches = projection.exists && (state.gap < 0. || (state.gap <= on_it && node.gap_n <= on_it));
   if (touches) {
     state.normal = placement_.rotation * projection.normal;
@@ -193,7 +194,7 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
   // A node that enters within the step has slid along the tool for the part φ = g/(g − g_n) of it only.
   ContactStiffness stiffness = node.stiffness;
   double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ
-  if (!history_n.is_active && node.gap_n > touching_gap_ * node.size && state.gap < 0.) {
+  if (!history_n.is_active && node.gap_n > node.touching_gap && state.gap < 0.) {
     fraction = state.gap / (state.gap - node.gap_n);
     stiffness.tangential *= fraction;
     relative_slope = node.gap_n / (state.gap * (node.gap_n - state.gap));

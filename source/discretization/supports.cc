@@ -7,6 +7,8 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <Epetra_Vector.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +17,12 @@
 namespace billet {
 
 void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vector<DofIndex> &dofs) const {
+  if (weight != 1.) {
+    dealii::FullMatrix<double> weighted(local);
+    weighted *= weight;
+    TangentSystem{constraints, matrix, lift}.add(weighted, dofs);
+    return;
+  }
   if (lift == nullptr)
     constraints.distribute_local_to_global(local, dofs, matrix);
   else
@@ -180,6 +188,22 @@ double Supports::Line::value(const double t) const {
   for (const auto &term : terms)
     value += term.weight * term.hold->value->value(t, position);
   return value;
+}
+
+void Supports::condense(Vector &forces) const {
+  // On this rank's own values: to write through deal.II's vector would make ranks wait for each other that do
+  // not hold as many constraints.
+  Epetra_Vector &values = *forces.trilinos_vector()(0);
+  const auto place = [&values](const DofIndex dof) { return values.Map().LID(static_cast<int>(dof)); };
+  for (const auto &line : homogeneous_.get_lines()) {
+    if (!discretization_.owned_dofs().is_element(line.index))
+      continue;
+    double &force = values[place(line.index)];
+    // The dofs of a node have one owner, and constraints couple dofs of one node only.
+    for (const auto &entry : line.entries)
+      values[place(entry.first)] += entry.second * force;
+    force = 0.;
+  }
 }
 
 DofIndex Supports::n_constrained() const {

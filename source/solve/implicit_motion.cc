@@ -4,6 +4,10 @@
 #include "billet/errors.h"
 #include "billet/usage.h"
 
+#include <deal.II/lac/solver_cg.h>
+
+#include <Epetra_Vector.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,7 +52,9 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
     tools_.back().rate = motion.initial_rate;
   }
 
-  u_n_ = v_n_ = a_n_ = discretization.make_owned_vector();
+  u_n_ = v_n_ = a_n_ = a_bare_ = c_ = lumped_ = discretization.make_owned_vector();
+  lumped_ = 1.;
+  lumped_ = inertia_.times(ghosted(lumped_));
   load_forces_n_ = load_forces_ = held_change_ = u_n_;
   fail_together(discretization.communicator(), [&] {
     check_before_start([&] {
@@ -98,7 +104,7 @@ void ImplicitMotion::save_tool(const std::size_t tool, StateWriter &writer) cons
   if (heavy.inertia == 0.)
     return;
   writer.write("rate", {heavy.rate});
-  writer.write("acceleration", {heavy.acceleration, heavy.excess});
+  writer.write("acceleration", {heavy.acceleration, heavy.exerted, heavy.load});
 }
 
 void ImplicitMotion::load_tool(const std::size_t tool, const StateReader &reader, const bool is_exact) {
@@ -113,7 +119,8 @@ void ImplicitMotion::load_tool(const std::size_t tool, const StateReader &reader
     heavy.rate = reader.number("rate");
   if (is_exact) {
     heavy.acceleration = reader.read("acceleration").at(0);
-    heavy.excess = reader.read("acceleration").at(1);
+    heavy.exerted = reader.read("acceleration").at(1);
+    heavy.load = reader.read("acceleration").at(2);
   }
 }
 
@@ -184,10 +191,81 @@ void ImplicitMotion::set_accelerations(const Vector &accelerations) {
   load_forces_n_ = load_forces_;
 }
 
-void ImplicitMotion::start_tool(const std::size_t tool, const double excess) {
+void ImplicitMotion::start_tool(const std::size_t tool, const double exerted, const double load) {
   HeavyTool &heavy = tools_[tool];
-  heavy.excess = excess;
-  heavy.acceleration = -excess / heavy.inertia;
+  heavy.exerted = exerted;
+  heavy.load = load;
+  heavy.acceleration = (load - exerted) / heavy.inertia;
+}
+
+namespace {
+
+/// x -> CᵀMC x of the dofs that are free, C the homogeneous constraints.
+struct CondensedMass {
+  const Inertia &inertia;
+  const Supports &supports;
+  Vector &ghosted;
+
+  void vmult(Vector &result, const Vector &x) const {
+    Vector all = x;
+    supports.homogeneous().distribute(all);
+    ghosted = all;
+    result = inertia.times(ghosted);
+    supports.condense(result);
+  }
+};
+
+/// Divides by the row sums.
+struct LumpedMass {
+  const Vector &row_sums;
+
+  void vmult(Vector &result, const Vector &x) const {
+    result = x;
+    Epetra_Vector &values = *result.trilinos_vector()(0);
+    values.ReciprocalMultiply(1., *row_sums.trilinos_vector()(0), values, 0.);
+  }
+};
+
+} // namespace
+
+Vector ImplicitMotion::accelerations_by(const Vector &forces) const {
+  Vector rhs = forces, result = discretization_.make_owned_vector();
+  rhs *= -1.;
+  supports_.condense(rhs);
+  const double size = rhs.l2_norm();
+  if (size == 0.)
+    return result;
+  // The mass over its row sums has eigenvalues from 1/27 to 1 in bricks: some thirty iterations.
+  constexpr double relative_tolerance = 1e-12;
+  constexpr unsigned int most_iterations = 1000;
+  dealii::SolverControl control(most_iterations, relative_tolerance * size, false, false);
+  dealii::SolverCG<Vector> solver(control);
+  Vector scratch = discretization_.make_ghosted_vector();
+  try {
+    solver.solve(CondensedMass{inertia_, supports_, scratch}, result, rhs, LumpedMass{lumped_});
+  } catch (const dealii::SolverControl::NoConvergence &) {
+    // By round-off, in bodies whose densities differ by very much: what is missing is of that size.
+  }
+  supports_.homogeneous().distribute(result);
+  return result;
+}
+
+void ImplicitMotion::damp_contact(const Vector &contact_forces) {
+  damps_contact_ = true;
+  a_bare_ = a_n_;
+  a_bare_ -= accelerations_by(contact_forces);
+}
+
+void ImplicitMotion::finish_contact(const Vector &contact_forces) {
+  if (damps_contact_)
+    c_ = accelerations_by(contact_forces);
+}
+
+Vector ImplicitMotion::end_accelerations() const {
+  Vector result = a_;
+  if (damps_contact_)
+    result.add(1. - 1. / integrator_.gamma(), c_);
+  return result;
 }
 
 void ImplicitMotion::start_step(const double t_n, const double t, const Vector &displacements,
@@ -228,7 +306,7 @@ void ImplicitMotion::set_rates(const Vector &displacements) {
   const auto set = [&](const TimeIntegrator::Rate &weights, const Vector &held, Vector &rate) {
     rate = increment;
     rate *= weights.increment;
-    rate.add(weights.velocity, v_n_, weights.acceleration, a_n_);
+    rate.add(weights.velocity, v_n_, weights.acceleration, start_accelerations());
     if (scene_.capabilities().moving_supports) {
       supports_.homogeneous().distribute(rate);
       rate += held;
@@ -262,7 +340,7 @@ double ImplicitMotion::complete(const Vector &forces_n, Vector &residual) const 
     return 0.;
   Vector weighted = a_;
   weighted *= integrator_.inertia_now();
-  weighted.add(integrator_.inertia_before(), a_n_);
+  weighted.add(integrator_.inertia_before(), start_accelerations());
   const Vector inertia = inertia_.times(ghosted(weighted));
   residual += inertia;
   if (integrator_.forces_before() != 0.)
@@ -279,16 +357,16 @@ void ImplicitMotion::add_tangent(const double t, const TangentSystem &system) co
 double ImplicitMotion::accelerate(const HeavyTool &tool, const double offset) const {
   const TimeIntegrator::Rate weights = integrator_.acceleration(step_);
   return weights.increment * (offset - tool.offset) + weights.velocity * tool.rate +
-         weights.acceleration * tool.acceleration;
+         weights.acceleration * start_acceleration(tool);
 }
 
 double ImplicitMotion::tool_inertia(const std::size_t tool, const double offset) const {
   const HeavyTool &heavy = tools_[tool];
   if (heavy.inertia == 0.)
     return 0.;
-  return integrator_.forces_before() * heavy.excess +
+  return integrator_.forces_before() * ((damps_contact_ ? 0. : heavy.exerted) - heavy.load) +
          heavy.inertia * (integrator_.inertia_now() * accelerate(heavy, offset) +
-                          integrator_.inertia_before() * heavy.acceleration);
+                          integrator_.inertia_before() * start_acceleration(heavy));
 }
 
 double ImplicitMotion::tool_slope(const std::size_t tool) const {
@@ -299,7 +377,7 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
   if (parameters_.error_tolerance == 0.)
     return 0.;
   Usage::count(Capability::error_control, 1);
-  Vector change = a_;
+  Vector change = end_accelerations();
   change -= a_n_;
   const double error = integrator_.error_factor() * step_ * step_ * mean_size(change);
   constexpr double least = 1e-6; // of the scene's radius: at the start nothing has moved yet
@@ -310,16 +388,14 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
   return error / (parameters_.error_tolerance * reference);
 }
 
-void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &forces_n,
-                            const Vector &forces, EnergyLedger &energies) {
+void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
+                            EnergyLedger &energies) {
   // With p = M Δv and the mean forces F̄, what the nodes' motions v̄·p + F̄·Δu do not cancel out is the
   // supports' work where they prescribe the motion, and elsewhere what the integrator takes.
-  Vector change = v_, mean_velocity = v_, mean_forces = forces;
+  Vector change = v_, mean_velocity = v_;
   change -= v_n_;
   mean_velocity += v_n_;
   mean_velocity *= 0.5;
-  mean_forces += forces_n;
-  mean_forces *= 0.5;
   Vector held_velocity = held_n_.velocity;
   held_velocity += held_.velocity;
   held_velocity *= 0.5;
@@ -333,28 +409,31 @@ void ImplicitMotion::commit(const Vector &displacements, const Vector &increment
     load_forces_n_ = load_forces_;
   }
   v_n_ = v_;
-  a_n_ = a_;
+  a_n_ = end_accelerations();
   held_n_ = held_;
   if (parameters_.error_tolerance > 0. && parameters_.reference_displacement == 0.)
     largest_displacement_ = std::max(largest_displacement_, mean_size(displacements));
 }
 
-void ImplicitMotion::commit_tool(const std::size_t tool, const double offset, const double excess,
-                                 EnergyLedger &energies) {
+void ImplicitMotion::commit_tool(const std::size_t tool, const double offset, const double exerted,
+                                 const double load, EnergyLedger &energies) {
   HeavyTool &heavy = tools_[tool];
   const double way = offset - heavy.offset, rate_n = heavy.rate;
   const TimeIntegrator::Rate weights = integrator_.velocity(step_);
   const double acceleration = accelerate(heavy, offset);
   heavy.rate =
-      weights.increment * way + weights.velocity * rate_n + weights.acceleration * heavy.acceleration;
+      weights.increment * way + weights.velocity * rate_n + weights.acceleration * start_acceleration(heavy);
   // The tools' works contain what it exerts, of which its kinetic energy keeps account; its load is the
   // scene's.
-  const double work = -0.5 * (heavy.excess + excess) * way;
+  const double mean_exerted = damps_contact_ ? exerted : 0.5 * (heavy.exerted + exerted);
+  const double work = (0.5 * (heavy.load + load) - mean_exerted) * way;
   energies.external += work;
   energies.numerical -= 0.5 * heavy.inertia * (heavy.rate * heavy.rate - rate_n * rate_n) - work;
-  heavy.acceleration = acceleration;
+  heavy.acceleration =
+      acceleration - (damps_contact_ ? (1. - 1. / integrator_.gamma()) * exerted / heavy.inertia : 0.);
   heavy.offset = offset;
-  heavy.excess = excess;
+  heavy.exerted = exerted;
+  heavy.load = load;
 }
 
 double ImplicitMotion::remove_tool(const std::size_t tool) {

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace billet {
 
@@ -151,11 +152,13 @@ public:
 
     const double start = dot(direction, old.getF());
     double end = dot(direction, group.getF());
-    if (!(std::abs(end) > std::abs(start)) || start == 0.)
+    const bool stagnates = is_stagnating(old.getNormF());
+    const double enough = stagnates ? enough_of_cycles_ : enough_;
+    if (!(std::abs(end) > (stagnates ? enough : 1.) * std::abs(start)) || start == 0.)
       return true;
     double best_step = step, best = std::abs(end);
     double low = 0., low_value = start, high = step, high_value = end;
-    for (unsigned int trial = 0; trial < most_trials_ && std::abs(end) > enough_ * std::abs(start); ++trial) {
+    for (unsigned int trial = 0; trial < most_trials_ && std::abs(end) > enough * std::abs(start); ++trial) {
       const bool brackets = low_value * high_value < 0.;
       step = brackets ? low - low_value * (high - low) / (high_value - low_value) : 0.5 * high;
       step = std::clamp(step, low + 0.1 * (high - low), high - 0.1 * (high - low));
@@ -188,9 +191,21 @@ private:
     return group.computeF() == NOX::Abstract::Group::Ok;
   }
 
+  /// Whether the residual has not got smaller in some iterations: nodes that touch, and touch no more, and
+  /// touch again, are a cycle in which each correction undoes the last one, with as much work.
+  bool is_stagnating(const double norm) {
+    constexpr std::size_t window = 4;
+    norms_.push_back(norm);
+    if (norms_.size() <= window)
+      return false;
+    norms_.erase(norms_.begin());
+    return norms_.back() > 0.5 * norms_.front();
+  }
+
   static constexpr unsigned int most_cuts_ = 5, most_trials_ = 4;
-  static constexpr double enough_ = 0.8;
+  static constexpr double enough_ = 0.8, enough_of_cycles_ = 0.3;
   bool by_energy_;
+  std::vector<double> norms_; ///< of residuals, the last ones
 };
 
 class LineSearchFactory final : public NOX::LineSearch::UserDefinedFactory {

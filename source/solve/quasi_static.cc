@@ -57,11 +57,16 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
       body_contacts_.back()->check_overlap();
   }
+  has_friction_ = std::any_of(scene.pairs().begin(), scene.pairs().end(),
+                              [](const ContactPair &pair) { return pair.has_friction(); }) ||
+                  std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(),
+                              [](const BodyPair &pair) { return pair.has_friction(); });
   state_.body_pair_loads.resize(body_contacts_.size());
   if (body_contacts_.empty()) // else when it is known who touches whom
     build_matrix();
 
-  trial_ = u_n_ = last_increment_ = support_forces_ = support_forces_n_ = discretization.make_owned_vector();
+  trial_ = u_n_ = last_increment_ = support_forces_ = support_forces_n_ = contact_forces_ =
+      contact_forces_n_ = bare_forces_n_ = discretization.make_owned_vector();
   trial_ghosted_ = state_.displacements = discretization.make_ghosted_vector();
   raw_internal_ = discretization.make_additive_vector();
   raw_contact_ = discretization.make_additive_vector();
@@ -184,22 +189,6 @@ void QuasiStatic::set_trial(const Epetra_Vector &x) {
   place_tools(time_);
 }
 
-void QuasiStatic::condense(Vector &forces) const {
-  // On this rank's own values: to write through deal.II's vector would make ranks wait for each other that do
-  // not hold as many constraints.
-  Epetra_Vector &values = as_epetra(forces);
-  const auto place = [&values](const DofIndex dof) { return values.Map().LID(static_cast<int>(dof)); };
-  for (const auto &line : supports_.homogeneous().get_lines()) {
-    if (!discretization_.owned_dofs().is_element(line.index))
-      continue;
-    double &force = values[place(line.index)];
-    // The dofs of a node have one owner, and constraints couple dofs of one node only.
-    for (const auto &entry : line.entries)
-      values[place(entry.first)] += entry.second * force;
-    force = 0.;
-  }
-}
-
 bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) {
   set_trial(x);
   raw_internal_ = 0.;
@@ -221,9 +210,9 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
   support_forces_ = raw_internal_;
   force_scale_ = support_forces_.l2_norm();
   Vector total = support_forces_;
-  support_forces_ = raw_contact_;
-  force_scale_ = std::max(force_scale_, support_forces_.l2_norm());
-  total += support_forces_;
+  contact_forces_ = raw_contact_;
+  force_scale_ = std::max(force_scale_, contact_forces_.l2_norm());
+  total += contact_forces_;
   for (std::size_t tool = 0; tool < fading_forces_.size(); ++tool)
     if (fading_forces_[tool])
       total.add(fading(time_, tool), *fading_forces_[tool]);
@@ -232,9 +221,11 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
   if (imbalance_)
     total.add(-imbalance_left(time_), *imbalance_);
   support_forces_ = total;
-  if (motion_)
-    force_scale_ = std::max(force_scale_, motion_->complete(support_forces_n_, total));
-  condense(total);
+  if (motion_) {
+    total.add(contact_weight() - 1., contact_forces_);
+    force_scale_ = std::max(force_scale_, motion_->complete(bare_forces_n_, total));
+  }
+  supports_.condense(total);
   const Epetra_Vector &values = as_epetra(total);
   std::copy(values.Values(), values.Values() + values.MyLength(), residual.Values());
   for (std::size_t k = 0; k < unknown_tools_.size(); ++k) {
@@ -281,16 +272,17 @@ bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yie
   system.matrix = 0.;
   if (!all_ranks(internal_.assemble_tangent(trial_ghosted_, system, yield_slack)))
     return false;
+  const TangentSystem contact_system{system.constraints, system.matrix, system.lift, contact_weight()};
   for (auto &contact : contacts_) {
     contact.update(trial_ghosted_);
-    contact.add_tangent(system);
+    contact.add_tangent(contact_system);
   }
   if (linear_->is_iterative() && !body_contacts_.empty()) {
     system.matrix.compress(dealii::VectorOperation::add);
     linear_->start_contact(touching_dofs());
   }
   for (const auto &contact : body_contacts_)
-    contact->add_tangent(system, scene_.contact_tangent());
+    contact->add_tangent(contact_system, scene_.contact_tangent());
   if (motion_)
     motion_->add_tangent(time_, {supports_.homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
@@ -414,7 +406,8 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
   pushes.compress(dealii::VectorOperation::add);
   Vector push = correction;
   push = pushes;
-  condense(push);
+  push *= contact_weight();
+  supports_.condense(push);
   rhs += push;
   // Whether points on the yield surface will load or unload is not known yet. The elastic guess is the safe
   // one, and takes the fewer iterations: the soft plastic one overshoots wherever they unload.
@@ -456,8 +449,13 @@ void QuasiStatic::start_step(const double t) {
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
-  NewtonReport report = attempt_step(t, previous_step);
   std::string softened;
+  choose_contact_damping();
+  NewtonReport report = attempt_step(t, previous_step);
+  if (report.makes_energy) { // once more, so that it does not
+    damp_contact();
+    report.append_anew(attempt_step(t, previous_step));
+  }
   if (!report.converged && !(softened = soften_augmented_contacts()).empty())
     report.append_anew(attempt_step(t, previous_step));
   if (!report.converged) {
@@ -530,7 +528,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     const Epetra_Vector accepted = pack(x, offsets);
     Epetra_Vector residual(accepted);
     compute_residual(accepted, residual);
-    if (is_probing_ || !is_accurate(report))
+    if (is_probing_ || !is_accurate(report) || contact_makes_energy(t, report))
       return report;
     penetration_ = augmentation_error();
     commit(t);
@@ -560,6 +558,8 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
 }
 
 void QuasiStatic::commit(const double t) {
+  if (motion_)
+    book_contact(contact_loss(t));
   has_lost_pace_ = false;
   // When the forces go they leave a measure for what is small.
   lasting_scale_ = std::max(lasting_scale_, 1e-3 * force_scale_);
@@ -579,15 +579,19 @@ void QuasiStatic::commit(const double t) {
   u_n_ = trial_;
   internal_.commit();
 
-  // Work of the supports and of the tools, by the trapezoidal rule.
+  // Work of the supports and of the tools, by the trapezoidal rule, but with (I6) that of contact by its
+  // forces at the end.
+  const double before = contact_before();
+  Vector mean_forces = support_forces_;
+  mean_forces += support_forces_n_;
+  mean_forces *= 0.5;
+  mean_forces.add(0.5 - before, contact_forces_, before - 0.5, contact_forces_n_);
   if (motion_)
-    motion_->commit(u_n_, last_increment_, support_forces_n_, support_forces_, state_.energies);
-  else {
-    Vector mean_support_forces = support_forces_;
-    mean_support_forces += support_forces_n_;
-    state_.energies.external += 0.5 * (mean_support_forces * last_increment_);
-  }
+    motion_->commit(u_n_, last_increment_, mean_forces, state_.energies);
+  else
+    state_.energies.external += mean_forces * last_increment_;
   support_forces_n_ = support_forces_;
+  contact_forces_n_ = contact_forces_;
 
   const std::vector<ContactLoad> loads_n = state_.tool_loads;
   const std::vector<Placement> placements_n = state_.placements;
@@ -611,12 +615,13 @@ void QuasiStatic::commit(const double t) {
       continue;
     const double turn = placement.rotation_angle - placements_n[i].rotation_angle;
     state_.energies.external +=
-        0.5 * ((load.force + loads_n[i].force) * (placement.translation - placements_n[i].translation) +
-               (load.moment + loads_n[i].moment) * scene_.tools()[i].rotation_axis() * turn);
+        ((1. - before) * load.force + before * loads_n[i].force) *
+            (placement.translation - placements_n[i].translation) +
+        ((1. - before) * load.moment + before * loads_n[i].moment) * scene_.tools()[i].rotation_axis() * turn;
     state_.energies.contact += load.stored_energy;
     state_.energies.friction += load.dissipation;
     if (motion_ && motion_->has_mass(i))
-      motion_->commit_tool(i, offsets_[i], excess_load(i, t), state_.energies);
+      motion_->commit_tool(i, offsets_[i], exerted_load(i), scene_.tools()[i].load(t), state_.energies);
   }
   state_.time = t;
   state_.displacements = u_n_;
@@ -671,19 +676,25 @@ RigidContact::ToolRate QuasiStatic::rate_of(const std::size_t tool) const {
   return {scene_.tools()[tool].force_direction(), {}};
 }
 
-double QuasiStatic::excess_load(const std::size_t tool, const double t) const {
+double QuasiStatic::exerted_load(const std::size_t tool) const {
   ContactLoad load;
   for (const auto &contact : contacts_)
     if (contact.tool() == tool)
       load += contact.compute_load();
   const Tool &which = scene_.tools()[tool];
-  return (which.control() == Tool::Control::moment ? load.moment * which.rotation_axis()
-                                                   : load.force * which.force_direction()) -
-         which.load(t);
+  return which.control() == Tool::Control::moment ? load.moment * which.rotation_axis()
+                                                  : load.force * which.force_direction();
+}
+
+double QuasiStatic::excess_load(const std::size_t tool, const double t) const {
+  return exerted_load(tool) - scene_.tools()[tool].load(t);
 }
 
 double QuasiStatic::imbalance(const std::size_t tool, const double t) const {
-  return excess_load(tool, t) + (motion_ ? motion_->tool_inertia(tool, offsets_[tool]) : 0.);
+  if (!motion_ || !motion_->has_mass(tool))
+    return excess_load(tool, t);
+  return contact_weight() * exerted_load(tool) - scene_.tools()[tool].load(t) +
+         motion_->tool_inertia(tool, offsets_[tool]);
 }
 
 void QuasiStatic::assemble_tool_tangent() {
@@ -700,11 +711,15 @@ void QuasiStatic::assemble_tool_tangent() {
         slope += contact.add_tool_derivatives(rate_of(unknown_tools_[k]), column, row);
     column.compress(dealii::VectorOperation::add);
     row.compress(dealii::VectorOperation::add);
+    const bool has_mass = motion_ && motion_->has_mass(unknown_tools_[k]);
+    const double weight = has_mass ? contact_weight() : 1.;
     tool_columns_[k] = column;
+    tool_columns_[k] *= contact_weight();
     tool_rows_[k] = row;
-    condense(tool_columns_[k]);
-    tool_block_(k, k) = dealii::Utilities::MPI::sum(slope, discretization_.communicator());
-    if (motion_)
+    tool_rows_[k] *= weight;
+    supports_.condense(tool_columns_[k]);
+    tool_block_(k, k) = weight * dealii::Utilities::MPI::sum(slope, discretization_.communicator());
+    if (has_mass)
       tool_block_(k, k) +=
           motion_->tool_slope(unknown_tools_[k]) / (unit_of(unknown_tools_[k]) * unit_of(unknown_tools_[k]));
   }
@@ -806,6 +821,7 @@ void QuasiStatic::remove_tools(const double t) {
     has_lost_pace_ = true;
     if (motion_) {
       state_.energies.external -= motion_->remove_tool(i);
+      contact_forces_n_ -= *fading_forces_[i]; // it is contact no more
       const double jump = 1. - fading(t, i);
       support_forces_n_.add(-jump, *fading_forces_[i]);
       forces_jump = forces_jump || jump > 0.;

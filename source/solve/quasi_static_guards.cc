@@ -11,7 +11,8 @@
 namespace billet {
 
 std::string QuasiStatic::watch_penalties() {
-  constexpr double deep = 0.1; // of a facet: what is deeper is seen in pictures and counts in areas
+  constexpr double much_taken = 0.05; // of the largest energy
+  constexpr double deep = 0.1;        // of a facet: what is deeper is seen in pictures and counts in areas
   std::ostringstream note;
   note.precision(2);
   const auto look = [&](const std::string &name, const double own_depth) {
@@ -37,6 +38,13 @@ std::string QuasiStatic::watch_penalties() {
          << " asks for, and is accepted: try a softer penalty, with a 'Penetration tolerance' where that is "
             "too soft, or bodies nearer to the origin\n";
     has_told_stiff_ = true;
+  }
+  if (!has_told_taken_ && contact_taken_ > much_taken * largest_energy_) {
+    note << "Contact has taken " << 100. * contact_taken_ / largest_energy_
+         << " % of the largest energy so far, since steps do not resolve how it opens and closes: where "
+            "bodies "
+            "are to bounce try a smaller 'Error tolerance' or 'Largest step', or a softer penalty\n";
+    has_told_taken_ = true;
   }
   return note.str();
 }

@@ -18,6 +18,7 @@ void QuasiStatic::start_motion() {
                             "out; allowed are small ones: the rest of the body starts undeformed");
   });
   support_forces_n_ = support_forces_;
+  contact_forces_n_ = contact_forces_;
   for (const auto &contact : contacts_)
     state_.tool_loads[contact.tool()] += contact.compute_load();
   check_before_start([&] { update_accelerations(); });
@@ -41,7 +42,7 @@ void QuasiStatic::update_accelerations() {
   matrix_.compress(dealii::VectorOperation::add);
   Vector rhs = motion_->driving_forces(support_forces_n_),
          accelerations = discretization_.make_owned_vector();
-  condense(rhs);
+  supports_.condense(rhs);
   if (linear_->is_iterative()) {
     linear_->start_contact({}); // there is none in the mass
     linear_->set_geometry(nodal_geometry());
@@ -59,7 +60,7 @@ void QuasiStatic::update_accelerations() {
   motion_->set_accelerations(accelerations);
   for (std::size_t tool = 0; tool < scene_.tools().size(); ++tool)
     if (motion_->has_mass(tool))
-      motion_->start_tool(tool, excess_load(tool, state_.time));
+      motion_->start_tool(tool, exerted_load(tool), scene_.tools()[tool].load(state_.time));
 }
 
 bool QuasiStatic::extrapolate_motion(const double t) {
@@ -85,6 +86,8 @@ bool QuasiStatic::extrapolate_motion(const double t) {
 }
 
 bool QuasiStatic::is_accurate(NewtonReport &report) {
+  if (motion_)
+    motion_->finish_contact(contact_forces_);
   time_error_ = motion_ ? motion_->step_error(trial_) : 0.;
   if (time_error_ <= 1.)
     return true;
@@ -93,6 +96,85 @@ bool QuasiStatic::is_accurate(NewtonReport &report) {
   message << "the error of the step's time integration is " << time_error_ << " times the 'Error tolerance'";
   report.failure = message.str();
   return false;
+}
+
+namespace {
+
+// Part of the largest energy that contact may make, and give back of what it took.
+constexpr double may_make = 0.005;
+
+} // namespace
+
+double QuasiStatic::contact_loss(const double t) const {
+  const double before = contact_before();
+  Vector mean = contact_forces_, increment = trial_;
+  mean *= 1. - before;
+  mean.add(before, contact_forces_n_);
+  increment -= u_n_;
+  double loss = mean * increment + state_.energies.contact;
+  std::vector<ContactLoad> loads(scene_.tools().size());
+  for (const auto &contact : contacts_)
+    loads[contact.tool()] += contact.compute_load();
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (fading_forces_[i])
+      continue;
+    const ContactLoad &load = loads[i], &load_n = state_.tool_loads[i];
+    const Placement to = place(i, t, offsets_[i]);
+    loss += ((1. - before) * load.force + before * load_n.force) *
+                (to.translation - state_.placements[i].translation) +
+            ((1. - before) * load.moment + before * load_n.moment) * scene_.tools()[i].rotation_axis() *
+                (to.rotation_angle - state_.placements[i].rotation_angle) -
+            load.stored_energy - load.dissipation;
+  }
+  for (const auto &contact : body_contacts_) {
+    const ContactLoad load = contact->compute_load();
+    loss -= load.stored_energy + load.dissipation;
+  }
+  return loss;
+}
+
+void QuasiStatic::choose_contact_damping() {
+  if (!motion_)
+    return;
+  bare_forces_n_ = support_forces_n_;
+  if (has_friction_)
+    damp_contact();
+  else if (motion_->damps_contact() && contact_forces_n_.l2_norm() == 0.)
+    motion_->release_contact();
+  else if (motion_->damps_contact())
+    damp_contact();
+}
+
+void QuasiStatic::damp_contact() {
+  bare_forces_n_ = support_forces_n_;
+  bare_forces_n_ -= contact_forces_n_;
+  motion_->damp_contact(contact_forces_n_);
+}
+
+bool QuasiStatic::contact_makes_energy(const double t, NewtonReport &report) {
+  if (!motion_ || motion_->damps_contact())
+    return false;
+  const EnergyLedger &energies = state_.energies;
+  // As it is shown: what is there counts half, so that energy from nowhere does not hide itself.
+  largest_energy_ = std::max(
+      {largest_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
+  report.makes_energy = contact_balance_ + contact_loss(t) < -may_make * largest_energy_;
+  if (report.makes_energy) {
+    report.converged = false;
+    report.failure = "contact makes energy in the step";
+  }
+  return report.makes_energy;
+}
+
+void QuasiStatic::book_contact(const double loss) {
+  double taken = 0.;
+  if (motion_->damps_contact())
+    taken = std::max(0., loss);
+  else
+    taken = std::max(0., contact_balance_ + loss - may_make * largest_energy_);
+  contact_balance_ += loss - taken;
+  contact_taken_ += taken;
+  state_.energies.numerical += taken;
 }
 
 } // namespace billet

@@ -35,6 +35,7 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
   Probe probe;
   if (!body_failure_.empty()) // the step itself tells
     return probe;
+  choose_contact_damping();
   is_probing_ = true;
   probe_.reset();
   probe.newton = attempt_step(t, previous_step);

@@ -32,6 +32,9 @@ void QuasiStatic::save(StateWriter &writer) const {
   writer.write_text("free body", body_failure_);
   if (motion_) {
     writer.write("kinetic energy", {state_.energies.kinetic});
+    save_nodal(writer, "contact forces", nodes, contact_forces_n_);
+    writer.write("contact balance",
+                 {contact_balance_, contact_taken_, largest_energy_, motion_->damps_contact() ? 1. : 0.});
     motion_->save(writer, nodes);
   }
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
@@ -129,6 +132,15 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
   if (is_own) {
     load_nodal(reader, "increment", nodes, last_increment_);
     load_nodal(reader, "support forces", nodes, support_forces_n_);
+    if (motion_) {
+      load_nodal(reader, "contact forces", nodes, contact_forces_n_);
+      const std::vector<double> balance = reader.read("contact balance");
+      contact_balance_ = balance.at(0);
+      contact_taken_ = balance.at(1);
+      largest_energy_ = balance.at(2);
+      if (balance.at(3) != 0.)
+        motion_->damp_contact(contact_forces_n_); // the next step begins with that anew
+    }
     const std::vector<double> scales = reader.read("scales");
     lasting_scale_ = scales.at(0);
     has_lost_pace_ = scales.at(1) != 0.;
@@ -246,6 +258,7 @@ void QuasiStatic::balance(RestartReport &report) {
   report.force_scale = force_scale_;
   lasting_scale_ = std::max(lasting_scale_, 1e-3 * force_scale_);
   support_forces_n_ = support_forces_;
+  contact_forces_n_ = contact_forces_;
   std::fill(state_.tool_loads.begin(), state_.tool_loads.end(), ContactLoad());
   state_.energies.contact = 0.;
   for (const auto &contact : contacts_)

@@ -137,6 +137,7 @@ private:
     dealii::Point<3> reference;
     ContactStiffness stiffness;
     double size;            ///< of the facets around it
+    double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
     double lift = 0., lift_n = 0.; ///< of the tool's surface, by augmentation

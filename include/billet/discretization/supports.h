@@ -20,6 +20,7 @@ struct TangentSystem {
   const Constraints &constraints;
   dealii::TrilinosWrappers::SparseMatrix &matrix;
   Vector *lift = nullptr; ///< additive
+  double weight = 1.;     ///< of all that is added
 
   void add(const dealii::FullMatrix<double> &local, const std::vector<DofIndex> &dofs) const;
 };
@@ -50,6 +51,9 @@ public:
   /// The same with the change of the values from t_n to t, for linear steps. `moves`, alike on all ranks,
   /// tells whether any of them changes.
   Constraints change(double t_n, double t, bool &moves) const;
+
+  /// Folds forces on constrained dofs into those that they depend on, and empties them.
+  void condense(Vector &forces) const;
 
   /// Number of prescribed nodal components on all ranks.
   DofIndex n_constrained() const;

@@ -33,8 +33,19 @@ public:
   /// The solution, on constrained dofs as well as the homogeneous constraints have it.
   void set_accelerations(const Vector &accelerations);
   bool has_mass(const std::size_t tool) const { return tools_[tool].inertia > 0.; }
-  /// Of a tool with a mass; `excess` is what it exerts less its load.
-  void start_tool(std::size_t tool, double excess);
+  /// Of a tool with a mass: what it exerts, and should.
+  void start_tool(std::size_t tool, double exerted, double load);
+
+  /// The next steps are those of (I6), in which contact can only take energy; its −F_c at the start of the
+  /// step. Collective.
+  void damp_contact(const Vector &contact_forces);
+  /// They are not any more.
+  void release_contact() { damps_contact_ = false; }
+  bool damps_contact() const { return damps_contact_; }
+  /// The weight of contact's forces, and of their tangent, in R.
+  double contact_weight() const { return damps_contact_ ? integrator_.contact() : 1.; }
+  /// With (I6), before step_error() and commit(): −F_c at the end of the step. Collective.
+  void finish_contact(const Vector &contact_forces);
 
   /// The step from t_n to t, from these displacements and offsets of the tools.
   void start_step(double t_n, double t, const Vector &displacements, const std::vector<double> &offsets);
@@ -50,7 +61,8 @@ public:
   /// Adds ∂R/∂u of loads and inertia. The system's constraints are homogeneous: accelerations of held nodes
   /// do not depend on u.
   void add_tangent(double t, const TangentSystem &system) const;
-  /// The same for a tool's offset: what there is beside its excess, and the slope of that.
+  /// The same for a tool's offset: what there is beside the weighted force that it exerts and its load, and
+  /// the slope of that.
   double tool_inertia(std::size_t tool, double offset) const;
   double tool_slope(std::size_t tool) const;
   /// The residual that round-off in the displacements makes [force].
@@ -61,9 +73,11 @@ public:
   double step_error(const Vector &displacements) const;
 
   /// The state of the last add_loads() becomes the start of the next step; works are booked in `energies`.
-  void commit(const Vector &displacements, const Vector &increment, const Vector &forces_n,
-              const Vector &forces, EnergyLedger &energies);
-  void commit_tool(std::size_t tool, double offset, double excess, EnergyLedger &energies);
+  /// `mean_forces`: F over the step.
+  void commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
+              EnergyLedger &energies);
+  /// `exerted` on the bodies along the tool's direction, or about its axis.
+  void commit_tool(std::size_t tool, double offset, double exerted, double load, EnergyLedger &energies);
   /// It goes with its mass; returns its kinetic energy.
   double remove_tool(std::size_t tool);
   /// Velocities, kinetic energy and momenta.
@@ -83,7 +97,7 @@ private:
   /// Of a tool with a mass: offset, rate and forces at the start of the step.
   struct HeavyTool {
     double inertia = 0.; ///< 0: none
-    double offset = 0., rate = 0., acceleration = 0., excess = 0.;
+    double offset = 0., rate = 0., acceleration = 0., exerted = 0., load = 0.;
   };
   /// Rates of the held components, other components 0.
   struct HeldRates {
@@ -94,6 +108,15 @@ private:
   Vector held_change(double from, double to) const;
   void set_rates(const Vector &displacements);
   double accelerate(const HeavyTool &tool, double offset) const;
+  /// a_n, or with (I6) that of the other forces.
+  const Vector &start_accelerations() const { return damps_contact_ ? a_bare_ : a_n_; }
+  double start_acceleration(const HeavyTool &tool) const {
+    return tool.acceleration + (damps_contact_ ? tool.exerted / tool.inertia : 0.);
+  }
+  /// Those at the end of the step, all in all.
+  Vector end_accelerations() const;
+  /// c = −M⁻¹ F of these forces. Collective.
+  Vector accelerations_by(const Vector &forces) const;
   Vector ghosted(const Vector &owned) const;
   double mean_size(const Vector &field) const;
   NodalVectors nodal(const Vector &field) const;
@@ -110,6 +133,11 @@ private:
 
   double t_n_ = 0., step_ = 0.; ///< of the step that is tried; 0: none yet
   Vector u_n_, v_n_, a_n_, v_, a_;
+  // With (I6) a_ is a*:
+  bool damps_contact_ = false;
+  Vector c_;                           ///< at the end of the step
+  Vector a_bare_;                      ///< a_n, without what contact adds
+  Vector lumped_;                      ///< row sums of the mass
   Vector load_forces_n_, load_forces_; ///< F
   NodalVectors displaced_;             ///< at the last add_loads()
   HeldRates held_n_, held_;

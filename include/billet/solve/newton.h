@@ -38,8 +38,9 @@ struct NewtonIteration {
 struct NewtonReport {
   bool converged = false;
   std::vector<NewtonIteration> iterations;
-  double force = 0.;   ///< |R| / force scale at the end
-  std::string failure; ///< why it did not converge
+  double force = 0.;         ///< |R| / force scale at the end
+  std::string failure;       ///< why it did not converge
+  bool makes_energy = false; ///< of the step: it converged, but contact makes energy in it
   unsigned int linear_iterations = 0;
   std::string note; ///< of the linear solver, for the user; lines
   /// Iterations of the hardest of the solutions that were appended: what the length of a step is ruled by.
@@ -50,6 +51,7 @@ struct NewtonReport {
   void append(const NewtonReport &next) {
     converged = next.converged;
     failure = next.failure;
+    makes_energy = next.makes_energy;
     force = next.force;
     linear_iterations += next.linear_iterations;
     note += next.note;

@@ -116,6 +116,19 @@ private:
   void start_motion();
   void update_accelerations();
   bool is_accurate(NewtonReport &report);
+  /// Of contact's forces in the residual.
+  double contact_weight() const { return motion_ ? motion_->contact_weight() : 1.; }
+  /// Of the contact forces at the start of a step in their mean.
+  double contact_before() const { return motion_ && motion_->damps_contact() ? 0. : 0.5; }
+  /// What contact takes in the step at its end, less what springs then store and friction dissipates; < 0: it
+  /// makes energy. Collective.
+  double contact_loss(double t) const;
+  /// Steps with friction, which has no potential, are damped by (I6); others, once damped, until contacts
+  /// have opened.
+  void choose_contact_damping();
+  void damp_contact();
+  bool contact_makes_energy(double t, NewtonReport &report);
+  void book_contact(double loss);
 
   bool assemble_tangent(const TangentSystem &system, double yield_slack = 0.);
   /// The nodes as they stand in the trial state.
@@ -134,7 +147,9 @@ private:
   Placement place(std::size_t tool, double t, double offset) const;
   void place_tools(double t);
   double unit_of(std::size_t tool) const;
-  /// What the tool exerts along its direction, or about its axis, less what it should: zero in equilibrium.
+  /// What the tool exerts along its direction, or about its axis.
+  double exerted_load(std::size_t tool) const;
+  /// The same less what it should exert: zero in equilibrium.
   double excess_load(std::size_t tool, double t) const;
   /// With the inertia of a heavy tool.
   double imbalance(std::size_t tool, double t) const;
@@ -187,8 +202,6 @@ private:
   void load_motion(StateReader &reader, RestartReport &report);
   /// Part of the imbalance that is left at t.
   double imbalance_left(double t) const;
-  /// Folds forces on constrained dofs into those that they depend on, and empties them.
-  void condense(Vector &forces) const;
 
   const Scene &scene_;
   const Discretization &discretization_;
@@ -206,6 +219,13 @@ private:
   Vector trial_, trial_ghosted_, u_n_, last_increment_;
   Vector raw_internal_, raw_contact_;        ///< additive
   Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
+  Vector contact_forces_, contact_forces_n_; ///< −F_c
+  Vector bare_forces_n_; ///< what the integrator takes for F_n: support_forces_n_, or without contact
+  // Of dynamic scenes: what contact has taken and not yet given back; what the integrator took of it; the
+  // largest energy so far.
+  double contact_balance_ = 0., contact_taken_ = 0., largest_energy_ = 0.;
+  bool has_told_taken_ = false;
+  bool has_friction_ = false; ///< any pair
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
 
   double time_ = 0.;     ///< end of the step that is tried
