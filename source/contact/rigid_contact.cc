@@ -164,6 +164,11 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
     if (touches)
       apply_friction(law, node, state, history_n, *history);
     else {
+      if (history_n.is_active && pair_.penetration_tolerance == 0.) { // its spring lets go
+        const auto [t_q, t_r] = history_n.tangential;
+        state.normal = placement_.rotation * projection.normal;
+        state.tangential_energy = 0.5 * (t_q * t_q + t_r * t_r) / node.stiffness.tangential;
+      }
       history->is_active = false;
       history->tangential = {};
       history->slip = history_n.slip;
@@ -313,6 +318,7 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
         area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
   });
+  add_released(load);
   return load;
 }
 
@@ -566,7 +572,29 @@ void RigidContact::add_to_load(ContactLoad &load, const std::size_t i, const dou
 ContactLoad RigidContact::local_load() const {
   ContactLoad load;
   for_each_area([&](const unsigned int i, const double area) { add_to_load(load, i, area); });
+  add_released(load);
   return load;
+}
+
+void RigidContact::add_released(ContactLoad &load) const {
+  const auto is_released = [](const NodeState &state) {
+    return state.status == ContactStatus::open && state.tangential_energy > 0.;
+  };
+  if (friction_.empty() || std::none_of(states_.begin(), states_.end(), is_released))
+    return;
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (std::none_of(states.begin(), states.end(), [&](const NodeState *node) { return is_released(*node); }))
+      continue;
+    for (const auto &point : facet_points()) {
+      const Tensor<1, 3> area_vector =
+          point.area_vector([&](const unsigned int a) { return states[a]->position; });
+      for (unsigned int a = 0; a < 4; ++a)
+        if (is_released(*states[a]))
+          load.dissipation +=
+              std::max(0., -(area_vector * states[a]->normal)) * point.N[a] * states[a]->tangential_energy;
+    }
+  }
 }
 
 std::vector<ContactNodeReport> RigidContact::report() const {

@@ -149,7 +149,9 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
       if (n < most)
         message << ", and at their pace, each leaves " << pace.ratio() << " of that, it would take "
                 << pace.to_go() << " more";
-      message << ": try a larger penalty or 'Penetration tolerance', or more 'Most augmentations'";
+      message << ": try a larger penalty or 'Penetration tolerance', "
+              << (motion_ ? "or none: nodes that have come in would have to stop within a step"
+                          : "or more 'Most augmentations'");
       report.converged = false;
       report.failure = message.str();
       break;

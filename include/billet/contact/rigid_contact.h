@@ -156,7 +156,7 @@ private:
     dealii::Tensor<2, 3> tangent; ///< −∂traction/∂x
     double slip_increment = 0.;
     double dissipation = 0.;       ///< per area, in this step
-    double tangential_energy = 0.; ///< per area
+    double tangential_energy = 0.; ///< per area; of a node that has lifted off, what its spring held before
   };
   /// Only with friction.
   struct FrictionHistory {
@@ -200,6 +200,8 @@ private:
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   void add_to_load(ContactLoad &load, std::size_t i, double area) const;
+  /// Counts what the tangential springs of nodes held that have lifted off in this step as dissipated.
+  void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
   /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
