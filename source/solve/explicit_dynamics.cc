@@ -53,6 +53,9 @@ ExplicitFormulation make_formulation(const parameters::Scene &scene, const param
     formulation.instructions = InstructionSet::avx512;
     break;
   }
+  formulation.number_type = dynamics.number_type == parameters::ExplicitDynamics::NumberType::float_precision
+                                ? ExplicitFormulation::NumberType::float_precision
+                                : ExplicitFormulation::NumberType::double_precision;
   return formulation;
 }
 
@@ -118,9 +121,8 @@ void ExplicitDynamics::make_blocks() {
         throw InputError(message.str());
       }
       if (!std::holds_alternative<std::monostate>(body.material.hardening))
-        plastic += blocks_.back()->size() * blocks_.back()->history_size() * sizeof(double);
-      if (body.formulation.element == ElementFormulation::Element::one_point)
-        stabilised += blocks_.back()->size() * explicit_stabilisation_size;
+        plastic += blocks_.back()->history_memory();
+      stabilised += blocks_.back()->stabilisation_memory();
     }
   });
   plastic_memory_.set(plastic);

@@ -196,6 +196,7 @@ def everything():  # noqa: C901
     yield from single("mass scaling", ("drop.explicit", "bars.explicit"), [1e-6, 1e-4, 1e-3])
     yield from single("linear viscosity", ("drop.explicit", "bar.explicit", "bars.explicit"), [0.0, 0.06, 0.5, 1.0, 3.0])
     yield from single("instructions", ("drop.explicit", "bars.explicit"), ("scalar", "SSE2", "AVX2", "AVX-512"))
+    yield from single("number type", EXPLICIT, ("double", "float"))
     yield from single("step", DYNAMIC, [1e-3, 0.01, 0.05, 0.2, 1.0])
     for method in ("Newmark", "HHT-alpha", "generalised-alpha"):
         for base in DYNAMIC:
