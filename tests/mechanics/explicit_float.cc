@@ -251,11 +251,12 @@ void test_spin(const Formulation &formulation) {
     }
     strain.add(std::abs(body.summarize().equivalent_plastic_strain - plastic_strain));
   }
-  check(name_of(formulation) + ", ten turns, forces", turned.value(), 0);
+  check(name_of(formulation) + ", ten turns, forces", turned.value(), 6e-5); // 3e-7 as a strain, of 0.01
   check(name_of(formulation) + ", ten turns, plastic strain", strain.value(), 0.);
 }
 
-/// Slow loading: a strain that grows by 1e-9 in each of a million steps, elastic; then 2e-8 a step, plastic.
+/// Slow loading, always by the same: by 1e-8 in each of 100,000 steps, elastic, where rounding of the
+/// hypoelastic stress is biased; by 1e-6, plastic.
 void test_slow_loading(const Formulation &formulation) {
   const NodalTensor X = cube();
   Tensor<2, 3> F;
@@ -266,20 +267,21 @@ void test_slow_loading(const Formulation &formulation) {
     const MaterialLaw material = is_plastic ? MaterialLaw{steel, linear} : MaterialLaw{steel, {}};
     Body exact(make_mesh(X), material, formulation), rounded(make_mesh(X), material, in_float(formulation));
     const NodalTensor u = displace(unit + F, X);
-    const double change = is_plastic ? 3e-7 : 1e-9;
+    const double change = is_plastic ? 1e-6 : 1e-8;
     NodalTensor f, g;
-    for (unsigned int step = 1; step <= 1000000; ++step) {
+    for (unsigned int step = 1; step <= 100000; ++step) {
       f = exact.advance((step * change) * u, 1e-6);
       g = rounded.advance((step * change) * u, 1e-6);
     }
     const std::string name = name_of(formulation) + (is_plastic ? ", slow flow, " : ", slow loading, ");
-    check(name + "forces", (f - g).norm() / f.norm(), 0);
+    const bool is_biased = !is_plastic && formulation.kinematics == Kinematics::hypoelastic;
+    check(name + "forces", (f - g).norm() / f.norm(), is_plastic ? 1e-4 : is_biased ? 5e-4 : 1e-6);
     if (is_plastic)
       check(name + "plastic strain",
             std::abs(rounded.summarize().equivalent_plastic_strain /
                          exact.summarize().equivalent_plastic_strain -
                      1.),
-            0);
+            3e-4);
   }
 }
 
