@@ -196,13 +196,15 @@ public:
   StepResult advance(const Nodes &nodes, const double dt) override {
     explicit_kernels::Result result{};
     if (is_fresh_ && dt == 0.)
-      storage_.begin(nodes.displacements);
+      storage_.renew(nodes.displacements, true);
     is_fresh_ = false;
     kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);
     const double energy = units_.energy();
     return {1. / largest_rate(result),    energy * result.elastic_energy,   energy * result.plastic_work,
             energy * result.viscous_work, energy * result.hourglass_energy, result.inverted};
   }
+
+  void renew(const double *displacements) override { storage_.renew(displacements, false); }
 
   void add_masses(double *masses) const override { storage_.add_masses(material_.density, masses); }
 
@@ -249,8 +251,10 @@ public:
 
   void set_stress(const std::size_t element, const double *displacements,
                   const ElementStress &stress) override {
-    if (!has_plasticity && formulation_.kinematics != Kinematics::hypoelastic)
+    if (!has_plasticity && formulation_.kinematics != Kinematics::hypoelastic) {
+      storage_.renew(displacements, true);
       return;
+    }
     is_fresh_ = false;
     ElementStress wanted = stress;
     if (formulation_.element == Element::one_point) {

@@ -15,12 +15,9 @@ using Kinematics = ExplicitFormulation::Kinematics;
 namespace {
 
 /// What history keeps of the last call, see kernel.h.
-template <class Number> struct LastCall {
-  static constexpr std::size_t volume = 0, omega = 1, viscous_pressure = 2, size = 3;
-};
-template <> struct LastCall<float> {
-  static constexpr std::size_t omega = 0, viscous_pressure = 1, size = 2;
-};
+namespace last {
+constexpr std::size_t volume = 0, omega = 1, viscous_pressure = 2, n = 3;
+} // namespace last
 
 constexpr std::size_t n_mode_numbers = 21, one_point_modes = 28, eight_point_modes = 2;
 
@@ -107,25 +104,22 @@ ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const Expli
     : n_lanes_(n_lanes), formulation_(formulation), has_plasticity_(has_plasticity),
       keeps_yield_stress_(keeps_yield_stress) {
   const bool is_one_point = formulation.element == Element::one_point;
-  constexpr std::size_t n_last = LastCall<Number>::size;
-  n_tensor_ = is_rate() ? 5 : is_single && !has_plasticity ? 0 : 6;
+  n_tensor_ = is_rate() ? 5 : 6;
   const std::size_t n_alpha = has_plasticity ? (is_single ? 2 : 1) : 0;
   layout_.n_point_history = n_tensor_ + n_alpha + (keeps_yield_stress ? 1 : 0);
-  first_point_ = n_last + (is_one_point && (!is_single || has_plasticity) ? 12 : 0);
+  first_point_ = last::n + (is_one_point ? 12 : 0);
   layout_.n_history = first_point_ + (is_one_point ? 1 : n_element_points) * layout_.n_point_history;
-  const bool asks_volumes = !is_rate() && (!is_single || has_plasticity);
   layout_.n_constants =
-      is_one_point ? one_point_modes : eight_point_modes + (asks_volumes ? n_element_points : 0);
+      is_one_point ? one_point_modes : eight_point_modes + (is_rate() ? 0 : n_element_points);
   if (is_single)
     layout_.n_constants += n_mode_numbers;
   history_units_.assign(layout_.n_history, 1.);
 }
 
 template <class Number> void ExplicitStorage<Number>::set_history_units() {
-  using Last = LastCall<Number>;
   history_units_.assign(layout_.n_history, 1.);
-  history_units_[Last::omega] = 1. / (units_.density * units_.length * units_.length);
-  history_units_[Last::viscous_pressure] = units_.stress;
+  history_units_[last::omega] = 1. / (units_.density * units_.length * units_.length);
+  history_units_[last::viscous_pressure] = units_.stress;
   for (std::size_t first = first_point_; first < layout_.n_history; first += layout_.n_point_history) {
     for (std::size_t k = 0; k < n_tensor_ && is_rate(); ++k)
       history_units_[first + k] = units_.stress;
@@ -260,8 +254,7 @@ bool ExplicitStorage<Number>::initialize_one_point(const std::size_t element, co
   else
     for (unsigned int m = 0; m < 4; ++m)
       for (unsigned int k = 0; k < 3; ++k)
-        set_history(element, LastCall<Number>::size + std::size_t{3} * m + k,
-                    (inverse * geometry.modes[3 + m])[k]);
+        set_history(element, last::n + std::size_t{3} * m + k, (inverse * geometry.modes[3 + m])[k]);
   initialize_point(element, first_point_, inverse, yield_stress);
   return true;
 }
@@ -291,20 +284,17 @@ bool ExplicitStorage<Number>::initialize_element(const std::size_t element, cons
       set_modes(element, place, ModalGeometry(positions));
       place += n_mode_numbers;
     }
-    const bool asks_volumes = place < layout_.n_constants;
     for (unsigned int q = 0; q < n_element_points; ++q) {
       const Tensor<2, 3> inverse = compute_inverse_jacobian(reference, q);
       lambda = std::max(lambda, reference.volumes[q] * bound_metric(inverse));
-      if (asks_volumes)
+      if (!is_rate())
         set_constant(element, place + q, reference.volumes[q] / cubed);
       initialize_point(element, first_point_ + q * layout_.n_point_history, inverse, yield_stress);
     }
   }
-  using Last = LastCall<Number>;
-  if constexpr (!is_single)
-    set_history(element, Last::volume, volume);
-  set_history(element, Last::omega, lambda / smallest_mass);
-  set_history(element, Last::viscous_pressure, 0.);
+  set_history(element, last::volume, is_single ? 0. : volume);
+  set_history(element, last::omega, lambda / smallest_mass);
+  set_history(element, last::viscous_pressure, 0.);
   return true;
 }
 
@@ -344,7 +334,7 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
       set_constant(e, 3, constant(e, 3) / factor);
     } else
       set_constant(e, 1, constant(e, 1) / factor);
-    set_history(e, LastCall<Number>::omega, history(e, LastCall<Number>::omega) / factor);
+    set_history(e, last::omega, history(e, last::omega) / factor);
   }
   return volume * (factor - 1.);
 }
@@ -409,7 +399,7 @@ std::vector<PointState> ExplicitStorage<Number>::compute_states(const std::size_
                      state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]] =
                          history(element, k++);
                    state.tensor[2][2] = -state.tensor[0][0] - state.tensor[1][1];
-                 } else if (n_tensor_ == 0) {
+                 } else if (is_single && !has_plasticity_) {
                    const Tensor<2, 3> F = jacobian * inverse_reference;
                    state.tensor = symmetrize(F * transpose(F));
                  } else {
@@ -428,8 +418,8 @@ std::vector<PointState> ExplicitStorage<Number>::compute_states(const std::size_
 }
 
 template <class Number>
-void ExplicitStorage<Number>::forget_hourglass(const std::size_t element, const double *displacements,
-                                               const Tensor<2, 3> &jacobian) {
+void ExplicitStorage<Number>::set_hourglass(const std::size_t element, const double *displacements,
+                                            const Tensor<2, 3> &jacobian, const bool is_forgotten) {
   const ElementVectors X = gather(element, reference_positions_.data()), u = gather(element, displacements);
   ElementVectors x;
   std::transform(X.begin(), X.end(), u.begin(), x.begin(), std::plus<>());
@@ -441,10 +431,10 @@ void ExplicitStorage<Number>::forget_hourglass(const std::size_t element, const 
   const Tensor<2, 3> inverse = invert(jacobian), inverse_reference = invert(reference_jacobian);
   for (unsigned int m = 0; m < 4; ++m) {
     Tensor<1, 3> strain = inverse * current.modes[3 + m];
-    if (is_single)
-      strain -= inverse_reference * reference.modes[3 + m];
+    if (is_single) // of its own from the reference on, or none
+      strain = is_forgotten ? Tensor<1, 3>() : strain - inverse_reference * reference.modes[3 + m];
     for (unsigned int i = 0; i < 3; ++i)
-      set_history(element, LastCall<Number>::size + std::size_t{3} * m + i, strain[i]);
+      set_history(element, last::n + std::size_t{3} * m + i, strain[i]);
   }
 }
 
@@ -458,14 +448,15 @@ void ExplicitStorage<Number>::set_states(const std::size_t element, const double
       [&](const std::size_t first, const double, const double volume_ratio, const Tensor<2, 3> &jacobian,
           const Tensor<2, 3> &) {
         const PointState &state = states[q];
+        if (is_single)
+          set_history(element, last::volume, volume_ratio - 1.);
         std::size_t k = first;
         if (is_rate())
           for (const unsigned int place : {0, 1, 3, 4, 5})
             set_history(element, k++, state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]]);
         else if (is_single) {
-          if (n_tensor_ > 0)
-            for (const auto &pair : symmetric_pairs)
-              set_history(element, k++, state.tensor[pair[0]][pair[1]] - (pair[0] == pair[1] ? 1. : 0.));
+          for (const auto &pair : symmetric_pairs)
+            set_history(element, k++, state.tensor[pair[0]][pair[1]] - (pair[0] == pair[1] ? 1. : 0.));
         } else {
           const Tensor<2, 3> inverse = invert(jacobian), b = state.tensor;
           const Tensor<2, 3> H = std::pow(volume_ratio, 2. / 3.) * inverse * b * transpose(inverse);
@@ -477,19 +468,27 @@ void ExplicitStorage<Number>::set_states(const std::size_t element, const double
         if (keeps_yield_stress_)
           set_history(element, k, yield_stress[q]);
         if (has_plasticity_ && formulation_.element == Element::one_point)
-          forget_hourglass(element, displacements, jacobian);
+          set_hourglass(element, displacements, jacobian, true);
         ++q;
       });
   repeat_last(element);
 }
 
-template <class Number> void ExplicitStorage<Number>::begin(const double *displacements) {
-  if (!is_single || !has_plasticity_ || is_rate())
+template <class Number>
+void ExplicitStorage<Number>::renew(const double *displacements, const bool from_the_start) {
+  if (!is_single)
     return;
   for (std::size_t element = 0; element < n_elements_; ++element) {
     visit_points(element, displacements,
                  [&](const std::size_t first, const double, const double volume_ratio,
                      const Tensor<2, 3> &jacobian, const Tensor<2, 3> &inverse_reference) {
+                   set_history(element, last::volume, volume_ratio - 1.);
+                   if (has_plasticity_ && !from_the_start)
+                     return;
+                   if (formulation_.element == Element::one_point)
+                     set_hourglass(element, displacements, jacobian, false);
+                   if (is_rate())
+                     return;
                    const Tensor<2, 3> F = jacobian * inverse_reference;
                    const Tensor<2, 3> b = std::pow(volume_ratio, -2. / 3.) * F * transpose(F);
                    std::size_t k = first;

@@ -241,6 +241,8 @@ void ExplicitDynamics::compute_internal_forces() {
         why << "at no finite place: a velocity, a load or a penalty may be too large for its units";
       fail(why.str());
     }
+    if (n_steps_ % ExplicitBlock::renewal_interval == 0)
+      blocks_[b]->renew(u_.data());
     const Body &body = scene_.bodies()[b];
     Usage::count_if(!std::holds_alternative<std::monostate>(body.material.hardening), Capability::plasticity,
                     blocks_[b]->size());
@@ -588,7 +590,7 @@ std::vector<std::vector<ContactNodeReport>> ExplicitDynamics::report_contacts() 
 std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
   std::array<std::size_t, 2> sizes{};
   for (const auto &block : blocks_)
-    sizes[0] += block->size() * block->history_size();
+    sizes[0] += block->history_memory() / sizeof(double);
   for (const auto &contact : contacts_)
     sizes[1] += contact.history_size();
   for (const auto &contact : body_contacts_)
@@ -598,6 +600,10 @@ std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
   return sizes;
 }
 
-std::string ExplicitDynamics::method() const { return "central differences"; }
+std::string ExplicitDynamics::method() const {
+  return parameters_.number_type == parameters::ExplicitDynamics::NumberType::float_precision
+             ? "central differences, elements in float"
+             : "central differences";
+}
 
 } // namespace billet

@@ -156,8 +156,8 @@ void test_forces(const Formulation &formulation) {
   }
 }
 
-/// Strains of 1e-6, far from the origin: relative to the forces where nothing has turned; where an elastic
-/// element has, by a radian, strains are rounded as parts of 1.
+/// Strains of 1e-6, far from the origin: relative to the forces where nothing has turned; while an element
+/// turns, in a few large steps, strains are rounded as parts of the rotation.
 void test_small_strain(const Formulation &formulation) {
   Random random;
   const Mesh mesh = make_mesh({3, 3, 2}, 0.2, random);
@@ -246,6 +246,8 @@ void test_spin(const Formulation &formulation) {
       const Tensor<2, 3> R =
           dealii::Physics::Transformations::Rotations::rotation_matrix_3d(axis, step * M_PI / 1800.);
       const NodalTensor f = body.advance(transform(R, at_rest) - X, 1e-6);
+      if (step % ExplicitBlock::renewal_interval == 0)
+        body.renew();
       if (step % 100 == 0)
         turned.add((f - transform(R, start)).norm() / start.norm());
     }
@@ -272,10 +274,12 @@ void test_slow_loading(const Formulation &formulation) {
     for (unsigned int step = 1; step <= 100000; ++step) {
       f = exact.advance((step * change) * u, 1e-6);
       g = rounded.advance((step * change) * u, 1e-6);
+      if (step % ExplicitBlock::renewal_interval == 0)
+        rounded.renew();
     }
     const std::string name = name_of(formulation) + (is_plastic ? ", slow flow, " : ", slow loading, ");
     const bool is_biased = !is_plastic && formulation.kinematics == Kinematics::hypoelastic;
-    check(name + "forces", (f - g).norm() / f.norm(), is_plastic ? 1e-4 : is_biased ? 5e-4 : 1e-6);
+    check(name + "forces", (f - g).norm() / f.norm(), is_plastic ? 1e-4 : is_biased ? 1e-3 : 3e-5);
     if (is_plastic)
       check(name + "plastic strain",
             std::abs(rounded.summarize().equivalent_plastic_strain /

@@ -46,6 +46,8 @@ struct ExplicitFormulation {
 /// set; sums over the nodes are made in the order of the elements.
 class ExplicitBlock {
 public:
+  static constexpr unsigned int renewal_interval = 1000; ///< of steps, see renew()
+
   virtual ~ExplicitBlock() = default;
 
   /// `elements` holds local node indices in lexicographic order (ξ fastest), `reference_positions` three
@@ -84,6 +86,12 @@ public:
   /// dt, the time since the last call (0 in the first). After an inverted element was found forces and
   /// history are of no more use.
   virtual StepResult advance(const Nodes &nodes, double dt) = 0;
+
+  /// Kernels in float add up strains step by step. Of those that follow from the displacements alone (of
+  /// elastic elements, of the volume) this takes away what the steps have rounded: it computes them in
+  /// double. After advance(), at the same displacements, every `renewal_interval` steps. In double without
+  /// effect.
+  virtual void renew(const double *displacements) = 0;
 
   /// Adds the lumped masses ρ ∫ N_a, all positive, one number for each node. With those added by
   /// scale_mass().

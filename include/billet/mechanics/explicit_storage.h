@@ -48,13 +48,13 @@ public:
                   const double *reference_positions, const KernelUnits &units, double density,
                   double yield_stress, std::size_t &offender);
 
-  /// For the first call of a kernel: histories that only steps change become those of these displacements.
-  void begin(const double *displacements);
+  /// See ExplicitBlock::renew(); from the start, what plasticity has not yet changed too.
+  void renew(const double *displacements, bool from_the_start);
 
   std::size_t size() const { return n_elements_; }
-  /// Numbers that a one-point element has for its stabilisation: ĥ_0, edges' ratios, a bound, and in float
+  /// Numbers that a one-point element has for its stabilisation: ĥ, the edges' ratios, a bound, and in float
   /// the modes b and c.
-  std::size_t stabilisation_size() const { return (first_point_ > 3 ? 12 : 0) + 7 + (is_single ? 12 : 0); }
+  std::size_t stabilisation_size() const { return 12 + 6 + 1 + (is_single ? 12 : 0); }
   const explicit_kernels::Layout &layout() const { return layout_; }
   explicit_kernels::BasicElements<Number> elements();
 
@@ -115,9 +115,10 @@ private:
   bool initialize_one_point(std::size_t element, const ElementVectors &positions, double volume,
                             double smallest_mass, double yield_stress, double &lambda);
   void set_modes(std::size_t element, std::size_t first, const ModalGeometry &geometry);
-  /// What the stabilisation of a one-point element holds becomes nothing.
-  void forget_hourglass(std::size_t element, const double *displacements,
-                        const dealii::Tensor<2, 3> &jacobian);
+  /// What the stabilisation of a one-point element holds becomes that of the displacements, in float; or
+  /// nothing.
+  void set_hourglass(std::size_t element, const double *displacements, const dealii::Tensor<2, 3> &jacobian,
+                     bool is_forgotten);
   void set_alpha(std::size_t element, std::size_t &k, double alpha);
   /// Units of the numbers of an element's history.
   void set_history_units();

@@ -41,10 +41,10 @@ BILLET_INLINE void compute_modes(const Real x[8][3], Modes &modes) {
   }
 }
 
-/// Positions, displacements and displacements of the step of a batch by their modes. Kernels in double know
-/// the positions alone, and of the step only where it is asked.
+/// Positions and displacements of the step of a batch by their modes; the latter only where they are asked,
+/// in float always.
 struct Motion {
-  Modes reference, u, x, delta;
+  Modes x, delta;
 };
 
 #if BILLET_SINGLE
@@ -66,13 +66,11 @@ BILLET_INLINE void gather_modes(const double *p, const double scale, const std::
 template <bool with_step>
 BILLET_INLINE void gather_motion(const Elements &, const Step &step, const std::uint32_t *nodes,
                                  const Number *reference, Motion &motion) {
-  gather_modes(step.displacements, step.inverse_length, nodes, motion.u);
+  gather_modes(step.displacements, step.inverse_length, nodes, motion.x);
   gather_modes(step.velocities, step.dt * step.inverse_length, nodes, motion.delta);
   for (unsigned int m = 0; m < 7; ++m)
-    for (unsigned int i = 0; i < 3; ++i) {
-      motion.reference.m[m][i] = load(reference + (3 * m + i) * n_lanes);
-      motion.x.m[m][i] = motion.reference.m[m][i] + motion.u.m[m][i];
-    }
+    for (unsigned int i = 0; i < 3; ++i)
+      motion.x.m[m][i] += load(reference + (3 * m + i) * n_lanes);
 }
 
 #else
@@ -188,16 +186,45 @@ BILLET_INLINE void collect_columns(const Columns &forces, Modes &f) {
     }
 }
 
-/// Places of what every element keeps of its last call; its kind's own numbers follow. In float the volume is
-/// not asked.
+/// Places of what every element keeps of its last call; its kind's own numbers follow. In float J̄ − 1 stands
+/// for the volume.
 namespace last {
-constexpr unsigned int volume = 0, omega = is_single ? 0 : 1, viscous_pressure = omega + 1, n = omega + 2;
+constexpr unsigned int volume = 0, omega = 1, viscous_pressure = 2, n = 3;
 } // namespace last
 
 /// Places of an eight-point element's constants. In float its reference modes follow.
 namespace eight_point {
 constexpr unsigned int volume = 0, inverse_mass = 1, modes = 2, point_volumes = is_single ? 23 : 2;
 } // namespace eight_point
+
+/// Volume of an element now, ln J̄, the change in the step, and the sum before and after it.
+struct VolumeChange {
+  Real now, logarithm_of_J, change, sum;
+};
+
+/// Float: from the change, J̄ − 1 adds up.
+BILLET_INLINE VolumeChange add_volume(const Real change, const Real reference_volume, Number *history) {
+  VolumeChange volume;
+  const Real above_one = load(history + last::volume * n_lanes) + change / reference_volume;
+  store(history + last::volume * n_lanes, above_one);
+  volume.now = reference_volume + reference_volume * above_one;
+  volume.logarithm_of_J = logarithm_of_one_plus(above_one);
+  volume.change = change;
+  volume.sum = 2._r * volume.now - change;
+  return volume;
+}
+
+/// Double: from the volume.
+BILLET_INLINE VolumeChange compare_volume(const Real now, const Real J, Number *history) {
+  VolumeChange volume;
+  const Real before = load(history + last::volume * n_lanes);
+  volume.now = now;
+  volume.logarithm_of_J = logarithm(J);
+  volume.change = now - before;
+  volume.sum = now + before;
+  store(history + last::volume * n_lanes, now);
+  return volume;
+}
 
 /// Bulk viscosity of a brick and its stable step.
 struct Damping {
@@ -207,11 +234,11 @@ struct Damping {
 };
 
 /// Characteristic length of the brick: L² = 4/(ρ Ω) with the Ω of the last call, which `history` has. Puts
-/// the pressure there. `change` of the volume in the step; `volumes`: before and after it, added.
-BILLET_INLINE Damping compute_viscosity(const Material &material, const Real change, const Real volumes,
-                                        Number *history, const Number inverse_dt) {
+/// the pressure there.
+BILLET_INLINE Damping compute_viscosity(const Material &material, const VolumeChange &volume, Number *history,
+                                        const Number inverse_dt) {
   const Real last_omega = load(history + last::omega * n_lanes);
-  const Real d = (2._r * inverse_dt) * change / volumes;
+  const Real d = (2._r * inverse_dt) * volume.change / volume.sum;
   const Real root = square_root(last_omega);
   const Real inverse_root = 1._r / root; // √ρ L / 2
   const Real linear =
@@ -221,7 +248,8 @@ BILLET_INLINE Damping compute_viscosity(const Material &material, const Real cha
                          inverse_root * compression;
   Damping damping;
   damping.pressure = (linear + quadratic) * d;
-  damping.work = 0.5_r * (load(history + last::viscous_pressure * n_lanes) + damping.pressure) * change;
+  damping.work =
+      0.5_r * (load(history + last::viscous_pressure * n_lanes) + damping.pressure) * volume.change;
   store(history + last::viscous_pressure * n_lanes, damping.pressure);
   damping.rate = 3._r * (linear + 2._r * quadratic);
   return damping;

@@ -31,9 +31,9 @@ BILLET_INLINE void get_columns(const Columns &columns, const unsigned int q, Rea
       j[k][i] = columns.c[k][place_of_point(k, q)][i];
 }
 
-/// Of positions, displacements and those of the step, as Motion has them.
+/// Of positions and the step's displacements, as Motion has them.
 struct MotionColumns {
-  Columns reference, u, x, delta;
+  Columns x, delta;
 };
 
 /// Stress of a point from the law, dev τ; `map` is completed. Returns the factor that makes it Cauchy's times
@@ -44,9 +44,10 @@ BILLET_INLINE Real compute_stress(const Material &material, const LaneFunctions 
                                   const Real inverse_mean_J, Number *history, Map &map, Real stress[6],
                                   PointSums &sums, Real &volume) {
   Real d[3][3];
-  if constexpr (is_rate_form<Law>) {
-    get_columns(columns.x, q, map.j);
+  get_columns(columns.x, q, map.j);
+  if constexpr (is_rate_form<Law> || is_single)
     get_columns(columns.delta, q, d);
+  if constexpr (is_rate_form<Law>) {
     Map middle;
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
@@ -57,42 +58,24 @@ BILLET_INLINE Real compute_stress(const Material &material, const LaneFunctions 
     Law::template update<is_plastic>(material, functions, middle, d, Real{}, history, stress, sums.watch);
     volume = inverse_mean_J * map.det;
     return inverse_mean_J;
-  } else if constexpr (!is_single) {
-    get_columns(columns.x, q, map.j);
-    map.complete();
-    volume = load(weights + q * n_lanes);
-    Law::template update<is_plastic>(material, functions, map, map.det / volume, Real{}, history, stress,
-                                     sums.watch);
-    return volume * map.inverse_det;
   } else {
-    Map before; // the step, or the reference
-    Real l[3][3];
-    Strain strain;
-    if constexpr (is_plastic) {
-      get_columns(columns.x, q, map.j);
-      get_columns(columns.delta, q, d);
+    volume = load(weights + q * n_lanes);
+    if constexpr (is_single) {
+      Map before;
       for (unsigned int k = 0; k < 3; ++k)
         for (unsigned int i = 0; i < 3; ++i)
           before.j[k][i] = map.j[k][i] - d[k][i];
       before.complete();
-      compute_gradient(before, d, l);
       sums.inadmissible |= !(before.det > 0._r);
-      strain.load_from(history);
-      advance_strain(l, strain.y);
-      volume = load(weights + q * n_lanes);
+      Strain strain;
+      strain.advance(before, d, history);
+      map.complete();
+      Law::template update<is_plastic>(material, functions, strain, Real{}, history, stress, sums.watch);
     } else {
-      get_columns(columns.reference, q, before.j);
-      get_columns(columns.u, q, d);
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int i = 0; i < 3; ++i)
-          map.j[k][i] = before.j[k][i] + d[k][i];
-      before.complete();
-      compute_gradient(before, d, l);
-      compute_strain(l, strain.y);
-      volume = before.det;
+      map.complete();
+      Law::template update<is_plastic>(material, functions, map, map.det / volume, Real{}, history, stress,
+                                       sums.watch);
     }
-    map.complete();
-    Law::template update<is_plastic>(material, functions, strain, Real{}, history, stress, sums.watch);
     return volume * map.inverse_det;
   }
 }
@@ -123,33 +106,18 @@ BILLET_INLINE void add_point(const Material &material, const LaneFunctions &func
   sums.lambda = max(sums.lambda, bound_eigenvalue(metric) * (max(factor, inverse_mean_J) * map.inverse_det));
 }
 
-/// Volume of an element: now and, in float, from its change, ln J̄ and the change of the step.
-struct VolumeChange {
-  Real now, logarithm_of_J, change, sum; ///< sum: before and after the step
-};
-
 BILLET_INLINE VolumeChange compute_volumes(const Motion &motion, const Real reference_volume,
                                            Number *history) {
-  VolumeChange volume;
   if constexpr (is_single) {
     Modes before;
     for (unsigned int m = 0; m < 6; ++m)
       for (unsigned int i = 0; i < 3; ++i)
         before.m[m][i] = motion.x.m[m][i] - motion.delta.m[m][i];
-    volume.change = compute_volume_change(before, motion.delta, motion.x);
-    const Real increase = compute_volume_change(motion.reference, motion.u, motion.x);
-    volume.now = reference_volume + increase;
-    volume.logarithm_of_J = logarithm_of_one_plus(increase / reference_volume);
-    volume.sum = 2._r * volume.now - volume.change;
+    return add_volume(compute_volume_change(before, motion.delta, motion.x), reference_volume, history);
   } else {
-    volume.now = compute_volume(motion.x, motion.x, motion.x);
-    const Real before = load(history + last::volume * n_lanes);
-    volume.change = volume.now - before;
-    volume.sum = volume.now + before;
-    volume.logarithm_of_J = logarithm(volume.now / reference_volume);
-    store(history + last::volume * n_lanes, volume.now);
+    const Real volume = compute_volume(motion.x, motion.x, motion.x);
+    return compare_volume(volume, volume / reference_volume, history);
   }
-  return volume;
 }
 
 template <class Law, bool is_plastic>
@@ -172,14 +140,9 @@ void advance_eight_point(const Elements &elements, const Material &material, con
     const VolumeChange volume = compute_volumes(motion, reference_volume, history);
     MotionColumns columns;
     Columns forces;
-    if constexpr (is_single && !is_rate && !is_plastic) {
-      compute_columns(motion.reference, columns.reference);
-      compute_columns(motion.u, columns.u);
-    } else {
-      compute_columns(motion.x, columns.x);
-      if constexpr (is_rate || is_single)
-        compute_columns(motion.delta, columns.delta);
-    }
+    compute_columns(motion.x, columns.x);
+    if constexpr (is_rate || is_single)
+      compute_columns(motion.delta, columns.delta);
     for (auto &direction : forces.c)
       for (auto &column : direction)
         for (Real &component : column)
@@ -189,7 +152,7 @@ void advance_eight_point(const Elements &elements, const Material &material, con
     const Real inverse_J = 1._r / J;
     const Real mean_tau = material.bulk * volume.logarithm_of_J;
     const Damping damping =
-        compute_viscosity(material, volume.change, volume.sum, history, static_cast<Number>(step.inverse_dt));
+        compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));
     const Real pressure = mean_tau * inverse_J + damping.pressure;
     PointSums sums;
     for (unsigned int q = 0; q < 8; ++q)

@@ -83,9 +83,8 @@ using Kernel = void (*)(const BasicElements<Number> &, const BasicMaterial<Numbe
 // hardening is not linear, σ_y(α). The one-point element: see one_point.h.
 //
 // In float, where differences have to be taken before they are rounded: the modes of the reference positions
-// (21 numbers) are constants, too, and of the point's reference volumes only plastic ones are asked that are
-// not hypoelastic. History: Ω and the viscous pressure, then each point's: b_e − 1 in space up to a factor (6
-// numbers, where there is plasticity) or dev τ; then α in two parts, and σ_y(α).
+// (21 numbers) are constants, too. History: J̄ − 1 in the place of v, and of each point b_e − 1 in space up to
+// a factor (6 numbers) or dev τ; then α in two parts, and σ_y(α).
 
 /// Index by element (mean_dilatation, one_point), kinematics, and whether there is plasticity.
 template <class Number> struct KernelTable {

@@ -114,9 +114,6 @@ BILLET_INLINE void multiply(const Real l[3][3], const Real s[6], Real m[3][3]) {
                 l[2][i] * s[symmetric_index[2][k]];
 }
 
-/// Y of a deformation gradient 1 + L, from a stress-free state.
-BILLET_INLINE void compute_strain(const Real l[3][3], Real y[6]) { compute_change(l, l, y); }
-
 /// Y after a step of gradient L.
 BILLET_INLINE void advance_strain(const Real l[3][3], Real y[6]) {
   Real m[3][3], change[6];
@@ -332,6 +329,14 @@ struct Strain {
       store(history + k * n_lanes, y[k]);
   }
 
+  /// After a step of displacements d, which belong to the element's directions; `before` is the map there.
+  BILLET_INLINE void advance(const Map &before, const Real d[3][3], const Number *history) {
+    Real l[3][3];
+    compute_gradient(before, d, l);
+    load_from(history);
+    advance_strain(l, y);
+  }
+
   BILLET_INLINE Real mean() const { return (y[0] + y[1] + y[2]) * (1._r / 3._r); }
 };
 
@@ -391,11 +396,9 @@ struct Hencky {
       x[k] = s * (strain.y[k] - (k < 3 ? third : Real{}));
     const Mask yields = respond<is_plastic>(material, functions, x, hourglass, history + 6 * n_lanes, log_b,
                                             mean, dev_tau, watch);
-    if constexpr (is_plastic) {
-      if (any(yields))
-        flow(yields, watch.share, log_b, strain);
-      strain.store_to(history);
-    }
+    if (is_plastic && any(yields))
+      flow(yields, watch.share, log_b, strain);
+    strain.store_to(history);
   }
 
   /// exp(Y) by few terms or many.
@@ -518,8 +521,7 @@ struct NeoHookean {
       flow(material, yields, dev_tau, strain, watch);
     } else
       store_energy(material, dev_tau, mean_bar, own, watch);
-    if constexpr (is_plastic)
-      strain.store_to(history);
+    strain.store_to(history);
   }
 
   /// ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e: x³ − 1 = i2 x − i3, without the

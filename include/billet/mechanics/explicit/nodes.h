@@ -117,11 +117,18 @@ BILLET_INLINE void gather_from(const FirstNode &first, const double *p, const do
     x[i] = static_cast<float>(scale * p[4 * std::size_t{nodes[0]} + i] - first.vector[i]);
 }
 
+/// Subtracts the forces of all nodes; the first node's are those that make their sum nothing, in double.
 BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t,
                            const double unit, double *forces) {
-  for (unsigned int a = 0; a < 8; ++a)
-    for (unsigned int i = 0; i < 3; ++i)
-      forces[4 * std::size_t{nodes[a]} + i] -= unit * f[a][i];
+  for (unsigned int i = 0; i < 3; ++i) {
+    double sum = 0.;
+    for (unsigned int a = 1; a < 8; ++a) {
+      const double force = unit * f[a][i];
+      forces[4 * std::size_t{nodes[a]} + i] -= force;
+      sum += force;
+    }
+    forces[4 * std::size_t{nodes[0]} + i] += sum;
+  }
 }
 
 #else
@@ -224,20 +231,26 @@ BILLET_INLINE void gather_from(const FirstNode &first, const double *p, const do
   transpose(rows, x);
 }
 
-/// Subtracts the forces of all nodes, element after element: elements of a batch may share nodes.
+/// Subtracts the forces of all nodes, element after element: elements of a batch may share nodes. The first
+/// node's are those that make their sum nothing, in double.
 BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t n,
                            const double unit, double *forces) {
   FloatRow rows[8][4][n_lanes / 4];
-  for (unsigned int a = 0; a < 8; ++a) {
+  for (unsigned int a = 1; a < 8; ++a) {
     Real transposed[4];
     transpose_back(f[a], transposed);
     for (unsigned int k = 0; k < 4; ++k)
       unstack_rows(transposed[k], rows[a][k]);
   }
-  for (std::size_t lane = 0; lane < n; ++lane)
-    for (unsigned int a = 0; a < 8; ++a)
-      *reinterpret_cast<Row *>(forces + 4 * std::size_t{nodes[a * n_lanes + lane]}) -=
-          unit * __builtin_convertvector(rows[a][lane % 4][lane / 4], Row);
+  for (std::size_t lane = 0; lane < n; ++lane) {
+    Row sum{};
+    for (unsigned int a = 1; a < 8; ++a) {
+      const Row force = unit * __builtin_convertvector(rows[a][lane % 4][lane / 4], Row);
+      *reinterpret_cast<Row *>(forces + 4 * std::size_t{nodes[a * n_lanes + lane]}) -= force;
+      sum += force;
+    }
+    *reinterpret_cast<Row *>(forces + 4 * std::size_t{nodes[lane]}) += sum;
+  }
 }
 
 #endif

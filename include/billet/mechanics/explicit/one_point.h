@@ -17,12 +17,8 @@ constexpr unsigned int volume = 0, inverse_det = 1, mean_bound = 2, hourglass_bo
 constexpr unsigned int beta = 4;    ///< J̄_k = Σ_m m β_mk over the modes a and b: 3 m + k
 constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
 constexpr unsigned int modes = 28;  ///< of the reference positions, in float
-// History: that of the last call, ĥ_0, then the point's. In float ĥ_0 without that of the reference
-// positions, and where there is plasticity only.
-constexpr unsigned int hourglass = last::n;
-constexpr unsigned int point(const bool is_plastic) {
-  return hourglass + (is_plastic || !is_single ? 12 : 0);
-}
+// History: that of the last call, ĥ_0 (in float ĥ itself), then the point's.
+constexpr unsigned int hourglass = last::n, point = hourglass + 12;
 } // namespace one_point
 
 /// Stress-like numbers of the hourglass strains `h` (of b_1, b_2, b_3, c, in the element's own directions),
@@ -90,39 +86,68 @@ struct HourglassTrial {
   Real density; ///< energy per reference volume, the scene's factor counted
 };
 
-/// In float `mean_u` are the columns of J̄ − J̄_0, `reference` is the map J̄_0: with ĉ_0 = J̄_0⁻¹ (b_1, b_2, b_3,
-/// c)_0 ĉ − ĉ_0 = J̄⁻¹ {(b_1, b_2, b_3, c) − (b_1, b_2, b_3, c)_0 − (J̄ − J̄_0) ĉ_0}, as small as the
-/// displacements.
-template <bool is_plastic>
+/// Maps of the mean deformation.
+struct MeanMotion {
+  Map now, before; ///< `before` the step, in float
+  Real d[3][3];    ///< columns of J̄ less those before the step, where they are asked
+  Real J;          ///< but for small changes
+};
+
+template <bool with_step>
+BILLET_INLINE void compute_mean_motion(const Motion &motion, const Number *constants, MeanMotion &mean) {
+  compute_mean(motion.x, constants, mean.now.j);
+  mean.now.complete();
+  mean.J = mean.now.det * load(constants + one_point::inverse_det * n_lanes);
+  if constexpr (with_step || is_single)
+    compute_mean(motion.delta, constants, mean.d);
+  if constexpr (is_single) {
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+        mean.before.j[k][i] = mean.now.j[k][i] - mean.d[k][i];
+    mean.before.complete();
+  }
+}
+
+/// det J̄ less that before the step, as small as the step.
+BILLET_INLINE Real compute_change(const MeanMotion &mean) {
+  Real middle[3];
+  cross(mean.d[1], mean.now.j[2], middle);
+  return dot(mean.d[0], mean.now.cofactor[0]) +
+         (dot(mean.before.j[0], middle) + dot(mean.d[2], mean.before.cofactor[2]));
+}
+
+/// In float from the step: ĉ ← ĉ + J̄⁻¹ {Δ(b_1, b_2, b_3, c) − ΔJ̄ ĉ}, and so ĥ, which the history has.
 BILLET_INLINE void compute_hourglass(const Material &material, const HourglassModuli &moduli,
-                                     const Motion &motion, const Map &map, const Map &reference,
-                                     const Real mean_u[3][3], const Number *constants, const Number *history,
-                                     HourglassTrial &trial) {
+                                     const Motion &motion, const MeanMotion &mean, const Number *constants,
+                                     Number *history, HourglassTrial &trial) {
   for (unsigned int k = 0; k < 6; ++k)
     trial.ratio[k] = load(constants + (one_point::ratios + k) * n_lanes);
   for (unsigned int m = 0; m < 4; ++m)
     if constexpr (is_single) {
-      Real c0[3], y[3];
-      for (unsigned int k = 0; k < 3; ++k)
-        c0[k] = reference.inverse_det * dot(reference.cofactor[k], motion.reference.m[3 + m]);
+      Real b[3], c[3], y[3];
       for (unsigned int i = 0; i < 3; ++i)
-        y[i] = motion.u.m[3 + m][i] - (mean_u[0][i] * c0[0] + mean_u[1][i] * c0[1] + mean_u[2][i] * c0[2]);
+        b[i] = motion.x.m[3 + m][i] - motion.delta.m[3 + m][i];
+      for (unsigned int k = 0; k < 3; ++k)
+        c[k] = mean.before.inverse_det * dot(mean.before.cofactor[k], b);
+      for (unsigned int i = 0; i < 3; ++i)
+        y[i] = motion.delta.m[3 + m][i] - (mean.d[0][i] * c[0] + mean.d[1][i] * c[1] + mean.d[2][i] * c[2]);
       for (unsigned int k = 0; k < 3; ++k) {
-        const Real change = map.inverse_det * dot(map.cofactor[k], y);
-        trial.c[m][k] = c0[k] + change;
-        trial.h[m][k] =
-            is_plastic ? change - load(history + (one_point::hourglass + 3 * m + k) * n_lanes) : change;
+        const Real change = mean.now.inverse_det * dot(mean.now.cofactor[k], y);
+        Number *strain = history + (one_point::hourglass + 3 * m + k) * n_lanes;
+        trial.c[m][k] = c[k] + change;
+        trial.h[m][k] = load(strain) + change;
+        store(strain, trial.h[m][k]);
       }
     } else
       for (unsigned int k = 0; k < 3; ++k) {
-        trial.c[m][k] = map.inverse_det * dot(map.cofactor[k], motion.x.m[3 + m]);
+        trial.c[m][k] = mean.now.inverse_det * dot(mean.now.cofactor[k], motion.x.m[3 + m]);
         trial.h[m][k] = trial.c[m][k] - load(history + (one_point::hourglass + 3 * m + k) * n_lanes);
       }
   trial.density = material.hourglass_stiffness * moduli.respond(trial.h, trial.ratio, trial.s);
 }
 
 /// Plastic flow leaves the `share` of the hourglass strains' elastic part that it leaves of the point's
-/// stress, (M33): ĥ_0 takes the rest.
+/// stress, (M33): ĥ_0 takes the rest, where the history has that.
 BILLET_INLINE void flow(const Real share, Number *history, HourglassTrial &trial) {
   if (!any(share < 1._r))
     return;
@@ -131,8 +156,11 @@ BILLET_INLINE void flow(const Real share, Number *history, HourglassTrial &trial
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int k = 0; k < 3; ++k) {
       Number *shift = history + (one_point::hourglass + 3 * m + k) * n_lanes;
-      store(shift, load(shift) + lost * trial.h[m][k]);
+      if constexpr (!is_single)
+        store(shift, load(shift) + lost * trial.h[m][k]);
       trial.h[m][k] *= share;
+      if constexpr (is_single)
+        store(shift, trial.h[m][k]);
       trial.s[m][k] *= share;
     }
 }
@@ -162,45 +190,8 @@ BILLET_INLINE Real add_hourglass(const Material &material, const HourglassModuli
          (1._r + c2 + square_root(h2) * (2._r + c2)) * load(constants + one_point::hourglass_bound * n_lanes);
 }
 
-/// Map of the mean deformation.
-struct MeanMotion {
-  Map now, reference; ///< the reference in float
-  Real u[3][3];       ///< columns of J̄ − J̄_0, in float
-  Real d[3][3];       ///< of the step, where it is asked
-  Real J, logarithm_of_J;
-};
-
-template <bool with_step>
-BILLET_INLINE void compute_mean_motion(const Motion &motion, const Number *constants, MeanMotion &mean) {
-  const Real inverse_det = load(constants + one_point::inverse_det * n_lanes);
-  if constexpr (is_single) {
-    // J̄_0 has the reference modes a_1, a_2, a_3 as columns
-    compute_mean(motion.u, constants, mean.u);
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i) {
-        mean.reference.j[k][i] = motion.reference.m[k][i];
-        mean.now.j[k][i] = mean.reference.j[k][i] + mean.u[k][i];
-      }
-    mean.now.complete();
-    mean.reference.complete();
-    Real middle[3];
-    cross(mean.u[1], mean.now.j[2], middle);
-    const Real increase = dot(mean.u[0], mean.now.cofactor[0]) +
-                          (dot(mean.reference.j[0], middle) + dot(mean.u[2], mean.reference.cofactor[2]));
-    mean.J = mean.now.det * inverse_det;
-    mean.logarithm_of_J = logarithm_of_one_plus(increase * inverse_det);
-  } else {
-    compute_mean(motion.x, constants, mean.now.j);
-    mean.now.complete();
-    mean.J = mean.now.det * inverse_det;
-    mean.logarithm_of_J = logarithm(mean.J);
-  }
-  if constexpr (with_step || is_single)
-    compute_mean(motion.delta, constants, mean.d);
-}
-
 template <class Law, bool is_plastic>
-BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &functions, const Map &before,
+BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &functions,
                                const MeanMotion &mean, const Real hourglass, Number *history, Real dev_tau[6],
                                Watch &watch) {
   if constexpr (is_rate_form<Law>) {
@@ -212,32 +203,12 @@ BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &fu
     watch.failed |= !(middle.det > 0._r);
     Law::template update<is_plastic>(material, functions, middle, mean.d, hourglass, history, dev_tau, watch);
   } else if constexpr (is_single) {
-    Real l[3][3];
     Strain strain;
-    if constexpr (is_plastic) {
-      compute_gradient(before, mean.d, l);
-      strain.load_from(history);
-      advance_strain(l, strain.y);
-    } else {
-      compute_gradient(mean.reference, mean.u, l);
-      compute_strain(l, strain.y);
-    }
+    strain.advance(mean.before, mean.d, history);
     Law::template update<is_plastic>(material, functions, strain, hourglass, history, dev_tau, watch);
   } else
     Law::template update<is_plastic>(material, functions, mean.now, mean.J, hourglass, history, dev_tau,
                                      watch);
-}
-
-/// det J̄ at the step's end less that at its beginning, to its last digits; `before` is the map there.
-BILLET_INLINE Real compute_change(const MeanMotion &mean, Map &before) {
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int i = 0; i < 3; ++i)
-      before.j[k][i] = mean.now.j[k][i] - mean.d[k][i];
-  before.complete();
-  Real middle[3];
-  cross(mean.d[1], mean.now.j[2], middle);
-  return dot(mean.d[0], mean.now.cofactor[0]) +
-         (dot(before.j[0], middle) + dot(mean.d[2], before.cofactor[2]));
 }
 
 template <class Law, bool is_plastic>
@@ -256,28 +227,20 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   const Map &map = mean.now;
   const Real J = mean.J;
   const Real reference_volume = load(constants + one_point::volume * n_lanes);
-  Map before; // of the step, in float
   Watch watch;
-  Real volume_change, volume_sum;
-  const Real volume = reference_volume * J;
+  VolumeChange volume;
   if constexpr (is_single) {
-    volume_change =
-        reference_volume * load(constants + one_point::inverse_det * n_lanes) * compute_change(mean, before);
-    watch.failed |= !(before.det > 0._r);
-    volume_sum = 2._r * volume - volume_change;
-  } else {
-    const Real last_volume = load(history + last::volume * n_lanes);
-    volume_change = volume - last_volume;
-    volume_sum = volume + last_volume;
-    store(history + last::volume * n_lanes, volume);
-  }
+    watch.failed |= !(mean.before.det > 0._r);
+    const Real scale = reference_volume * load(constants + one_point::inverse_det * n_lanes);
+    volume = add_volume(scale * compute_change(mean), reference_volume, history);
+  } else
+    volume = compare_volume(reference_volume * J, J, history);
   Real stress[6], metric[6];
-  Number *point_history = history + one_point::point(is_plastic) * n_lanes;
+  Number *point_history = history + one_point::point * n_lanes;
   const HourglassModuli moduli(material);
   HourglassTrial hourglass;
-  compute_hourglass<is_plastic>(material, moduli, motion, map, mean.reference, mean.u, constants, history,
-                                hourglass);
-  update_mean<Law, is_plastic>(material, functions, before, mean, (6._r * material.shear) * hourglass.density,
+  compute_hourglass(material, moduli, motion, mean, constants, history, hourglass);
+  update_mean<Law, is_plastic>(material, functions, mean, (6._r * material.shear) * hourglass.density,
                                point_history, stress, watch);
   if constexpr (is_plastic)
     flow(watch.share, history, hourglass);
@@ -287,9 +250,8 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   const Real eigenvalue = bound_eigenvalue(metric);
   const Real omega = reference_volume * eigenvalue * load(constants + one_point::mean_bound * n_lanes);
 
-  const Real mean_tau = material.bulk * mean.logarithm_of_J;
-  const Damping damping =
-      compute_viscosity(material, volume_change, volume_sum, history, static_cast<Number>(step.inverse_dt));
+  const Real mean_tau = material.bulk * volume.logarithm_of_J;
+  const Damping damping = compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));
   store(history + last::omega * n_lanes, omega);
   const Real factor = reference_volume * map.inverse_det, pressure = mean_tau + J * damping.pressure;
   for (unsigned int k = 0; k < 6; ++k)
