@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Usage: explicit_kernels [ELEMENTS_PER_EDGE [STEPS]]
+// Usage: explicit_kernels [ELEMENTS_PER_EDGE [STEPS [INSTRUCTION_SET]]]
 //
 // Prints the time per element and step in nanoseconds of every kernel of explicit dynamics, for each
 // instruction set that this machine has and each type of number: a cube of distorted elements, nearly all
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <string>
 
 using namespace billet;
 
@@ -180,7 +181,8 @@ int main(int argc, char *argv[]) {
       {"float", Formulation::NumberType::float_precision}};
   for (const auto &set : sets)
     for (const auto &type : types) {
-      if (!is_available(set.second) || (n == 0 && type.first != types[0].first))
+      if ((argc > 3 && std::string(argv[3]) != set.first) || !is_available(set.second) ||
+          (n == 0 && type.first != types[0].first))
         continue;
       std::printf("%-8s %-6s %6.1f", set.first, type.first, measure_peak(set.second));
       for (const auto &element : elements)

@@ -65,47 +65,42 @@ void test_taylor_bar(const parameters::Body::ElementType element) {
   const std::string name =
       element == parameters::Body::ElementType::one_point ? "one point" : "mean dilatation";
   const double energy = exact.at("energy").front();
-  for (const char *column : {"height", "width", "force"}) {
+  for (const auto &[column, values] : exact) {
+    if (column == "momentum" || column == "angular momentum" || column == "energy")
+      continue;
+    const bool is_energy = column != "height" && column != "width" && column != "force" && column != "drift";
+    const double scale = is_energy ? energy : column == "drift" ? 1. : largest(values);
     WorstError error;
-    for (std::size_t k = 0; k < exact.at(column).size(); ++k)
-      error.add(std::abs(exact.at(column)[k] - rounded.at(column)[k]) / largest(exact.at(column)));
-    check("Taylor bar, " + name + ", " + column, error.value(), 0);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      error.add(std::abs(values[k] - rounded.at(column)[k]) / scale);
+    check("Taylor bar, " + name + ", " + column, error.value(), column == "force" ? 1e-4 : 2e-6);
   }
-  for (const char *column :
-       {"kinetic energy", "elastic energy", "plastic work", "viscosity", "hourglass energy"}) {
-    WorstError error;
-    for (std::size_t k = 0; k < exact.at(column).size(); ++k)
-      error.add(std::abs(exact.at(column)[k] - rounded.at(column)[k]) / energy);
-    check("Taylor bar, " + name + ", " + column, error.value(), 0);
-  }
-  check("Taylor bar, " + name + ", drift",
-        std::abs(largest(exact.at("drift")) - largest(rounded.at("drift"))), 0);
 }
 
+/// It turns by a fifth of a circle, in strains of 1e-3 and some 10,000 steps.
 void test_flight(const parameters::Body::ElementType element,
-                 const parameters::Material::Kinematics kinematics) {
+                 const parameters::Material::Kinematics kinematics, const std::string &words) {
   parameters::Scene scene = testing::read_test_scene("explicit_float.prm");
   scene.bodies[0].element.value = element;
   scene.bodies[0].material.kinematics.value = kinematics;
-  if (const char *end = std::getenv("END"))
-    scene.time_stepping.end_time = std::atof(end);
   const double interval = scene.time_stepping.end_time / 100.;
   const History exact = run(scene, NumberType::double_precision, interval),
                 rounded = run(scene, NumberType::float_precision, interval);
   const std::string name =
       std::string("flight, ") +
-      (element == parameters::Body::ElementType::one_point ? "one point, " : "mean dilatation, ") +
-      std::to_string(static_cast<int>(kinematics)) + ", ";
-  for (const char *column : {"momentum", "angular momentum", "energy"})
-    for (const auto &h : {std::make_pair("double ", &exact), std::make_pair("", &rounded)}) {
-      WorstError error;
-      const auto &values = h.second->at(column);
-      for (const double value : values)
-        error.add(std::abs(value / values.front() - 1.));
-      check(name + h.first + column, error.value(), 0);
-    }
-  check(name + "double drift", largest(exact.at("drift")), 0);
-  check(name + "drift", largest(rounded.at("drift")), 0);
+      (element == parameters::Body::ElementType::one_point ? "one point, " : "mean dilatation, ") + words +
+      ", ";
+  for (const auto &[column, tolerance] :
+       {std::make_pair("momentum", 1e-12), std::make_pair("angular momentum", 1e-6)}) {
+    WorstError error;
+    for (const double value : rounded.at(column))
+      error.add(std::abs(value / rounded.at(column).front() - 1.));
+    check(name + column, error.value(), tolerance);
+  }
+  WorstError drift;
+  for (std::size_t k = 0; k < exact.at("drift").size(); ++k)
+    drift.add(std::abs(exact.at("drift")[k] - rounded.at("drift")[k]));
+  check(name + "drift of the energy, beyond that in double", drift.value(), 1e-5);
 }
 
 } // namespace
@@ -114,10 +109,11 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   using ElementType = parameters::Body::ElementType;
   using Kinematics = parameters::Material::Kinematics;
-  for (const auto element : {ElementType::mean_dilatation, ElementType::one_point})
+  for (const auto element : {ElementType::mean_dilatation, ElementType::one_point}) {
     test_taylor_bar(element);
-  for (const auto element : {ElementType::mean_dilatation, ElementType::one_point})
-    for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic})
-      test_flight(element, kinematics);
+    test_flight(element, Kinematics::hencky, "Hencky");
+    test_flight(element, Kinematics::neo_hookean, "neo-Hookean");
+    test_flight(element, Kinematics::hypoelastic, "hypoelastic");
+  }
   return testing::exit_code();
 }
