@@ -12,7 +12,7 @@ from pathlib import Path
 from billet_runs import PROGRAM, arguments, number, publish, table
 
 options = arguments("explicit")
-REPEAT = 1 if options.quick else 5
+REPEAT = 1 if options.quick else 3
 PROBE = Path(PROGRAM).resolve().parent.parent / "tests/benchmarks/bin/explicit_kernels"
 END = 3.2e-5
 
