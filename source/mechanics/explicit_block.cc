@@ -195,7 +195,9 @@ public:
 
   StepResult advance(const Nodes &nodes, const double dt) override {
     explicit_kernels::Result result{};
-    if (is_fresh_ && dt == 0.)
+    const auto is_moved = [](const double displacement) { return displacement != 0.; };
+    if (is_fresh_ && dt == 0. &&
+        std::any_of(nodes.displacements, nodes.displacements + storage_.nodal_size(), is_moved))
       storage_.renew(nodes.displacements, true);
     is_fresh_ = false;
     kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);

@@ -339,7 +339,9 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
   return volume * (factor - 1.);
 }
 
-template <class Number> void ExplicitStorage<Number>::add_masses(const double density, double *masses) const {
+template <class Number>
+// NOLINTNEXTLINE(readability-non-const-parameter): what is added depends on the template
+void ExplicitStorage<Number>::add_masses(const double density, double *masses) const {
   for (std::size_t element = 0; element < n_elements_; ++element) {
     ReferenceElement reference;
     compute_reference_element(gather(element, reference_positions_.data()), reference);
@@ -478,7 +480,18 @@ template <class Number>
 void ExplicitStorage<Number>::renew(const double *displacements, const bool from_the_start) {
   if (!is_single)
     return;
+  const bool is_volume_alone =
+      formulation_.element == Element::mean_dilatation && (is_rate() || (has_plasticity_ && !from_the_start));
   for (std::size_t element = 0; element < n_elements_; ++element) {
+    if (is_volume_alone) {
+      ElementVectors x = gather(element, reference_positions_.data());
+      const double reference = ModalGeometry(x).volume;
+      const ElementVectors u = gather(element, displacements);
+      std::transform(x.begin(), x.end(), u.begin(), x.begin(), std::plus<>());
+      set_history(element, last::volume, ModalGeometry(x).volume / reference - 1.);
+      repeat_last(element);
+      continue;
+    }
     visit_points(element, displacements,
                  [&](const std::size_t first, const double, const double volume_ratio,
                      const Tensor<2, 3> &jacobian, const Tensor<2, 3> &inverse_reference) {

@@ -241,7 +241,7 @@ void ExplicitDynamics::compute_internal_forces() {
         why << "at no finite place: a velocity, a load or a penalty may be too large for its units";
       fail(why.str());
     }
-    if (n_steps_ % ExplicitBlock::renewal_interval == 0)
+    if (n_steps_ > 0 && n_steps_ % ExplicitBlock::renewal_interval == 0)
       blocks_[b]->renew(u_.data());
     const Body &body = scene_.bodies()[b];
     Usage::count_if(!std::holds_alternative<std::monostate>(body.material.hardening), Capability::plasticity,

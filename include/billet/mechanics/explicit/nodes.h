@@ -151,42 +151,42 @@ BILLET_INLINE void scale_first(const double *p, const double scale, const std::u
     first.vector[lane] = scale * row_of_node(p, nodes[lane]);
 }
 
+/// Numbers i, j, k, l of each block of four lanes; of the second vector from `other` on.
+template <int i, int j, int k, int l> BILLET_INLINE Real shuffle(const Real &a, const Real &b) {
 #if BILLET_LANES == 16
-#define BILLET_SHUFFLE(a, b, i, j, k, l)                                                                     \
-  __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8, l + 8, i + 12,  \
-                          j + 12, k + 12, l + 12)
+  return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8, l + 8,
+                                 i + 12, j + 12, k + 12, l + 12);
 #elif BILLET_LANES == 8
-#define BILLET_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4)
+  return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4);
 #else
-#define BILLET_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+  return __builtin_shufflevector(a, b, i, j, k, l);
 #endif
-constexpr int other = n_lanes; // where the second vector's numbers begin
+}
+constexpr int other = n_lanes;
 
 /// x, y, z from four vectors of rows: of the elements k, k + 4, k + 8 and k + 12 in the k-th.
 BILLET_INLINE void transpose(const Real rows[4], Real x[3]) {
-  const Real t0 = BILLET_SHUFFLE(rows[0], rows[1], 0, other, 1, other + 1),
-             t1 = BILLET_SHUFFLE(rows[0], rows[1], 2, other + 2, 3, other + 3),
-             t2 = BILLET_SHUFFLE(rows[2], rows[3], 0, other, 1, other + 1),
-             t3 = BILLET_SHUFFLE(rows[2], rows[3], 2, other + 2, 3, other + 3);
-  x[0] = BILLET_SHUFFLE(t0, t2, 0, 1, other, other + 1);
-  x[1] = BILLET_SHUFFLE(t0, t2, 2, 3, other + 2, other + 3);
-  x[2] = BILLET_SHUFFLE(t1, t3, 0, 1, other, other + 1);
+  const Real t0 = shuffle<0, other, 1, other + 1>(rows[0], rows[1]),
+             t1 = shuffle<2, other + 2, 3, other + 3>(rows[0], rows[1]),
+             t2 = shuffle<0, other, 1, other + 1>(rows[2], rows[3]),
+             t3 = shuffle<2, other + 2, 3, other + 3>(rows[2], rows[3]);
+  x[0] = shuffle<0, 1, other, other + 1>(t0, t2);
+  x[1] = shuffle<2, 3, other + 2, other + 3>(t0, t2);
+  x[2] = shuffle<0, 1, other, other + 1>(t1, t3);
 }
 
 /// The other way.
 BILLET_INLINE void transpose_back(const Real x[3], Real rows[4]) {
   const Real zero{};
-  const Real t0 = BILLET_SHUFFLE(x[0], x[1], 0, other, 1, other + 1),
-             t1 = BILLET_SHUFFLE(x[0], x[1], 2, other + 2, 3, other + 3),
-             t2 = BILLET_SHUFFLE(x[2], zero, 0, other, 1, other + 1),
-             t3 = BILLET_SHUFFLE(x[2], zero, 2, other + 2, 3, other + 3);
-  rows[0] = BILLET_SHUFFLE(t0, t2, 0, 1, other, other + 1);
-  rows[1] = BILLET_SHUFFLE(t0, t2, 2, 3, other + 2, other + 3);
-  rows[2] = BILLET_SHUFFLE(t1, t3, 0, 1, other, other + 1);
-  rows[3] = BILLET_SHUFFLE(t1, t3, 2, 3, other + 2, other + 3);
+  const Real t0 = shuffle<0, other, 1, other + 1>(x[0], x[1]),
+             t1 = shuffle<2, other + 2, 3, other + 3>(x[0], x[1]),
+             t2 = shuffle<0, other, 1, other + 1>(x[2], zero),
+             t3 = shuffle<2, other + 2, 3, other + 3>(x[2], zero);
+  rows[0] = shuffle<0, 1, other, other + 1>(t0, t2);
+  rows[1] = shuffle<2, 3, other + 2, other + 3>(t0, t2);
+  rows[2] = shuffle<0, 1, other, other + 1>(t1, t3);
+  rows[3] = shuffle<2, 3, other + 2, other + 3>(t1, t3);
 }
-
-#undef BILLET_SHUFFLE
 
 /// Four rows, one above the other.
 BILLET_INLINE Real stack_rows(const FloatRow rows[n_lanes / 4]) {
