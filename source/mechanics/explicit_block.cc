@@ -5,6 +5,7 @@
 #include "billet/mechanics/explicit_instructions.h"
 #include "billet/mechanics/explicit_storage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <type_traits>
@@ -16,7 +17,7 @@ namespace {
 using Element = ExplicitFormulation::Element;
 using Kinematics = ExplicitFormulation::Kinematics;
 using explicit_kernels::HardeningKind;
-using explicit_kernels::Material;
+using Material = explicit_kernels::BasicMaterial<double>;
 
 /// Elasticity, as a hardening law that is never asked.
 struct NoHardening {
@@ -79,7 +80,51 @@ bool compute_logarithm(const double *b, double *deviator, double &mean) {
   return true;
 }
 
-template <class Hardening> class Block final : public ExplicitBlock {
+/// The same in other units and another type of number.
+template <class Number>
+explicit_kernels::BasicMaterial<Number> convert(const Material &material, const KernelUnits &units) {
+  const auto to_number = [](const double x) { return static_cast<Number>(x); };
+  explicit_kernels::BasicMaterial<Number> result{};
+  result.bulk = to_number(material.bulk / units.stress);
+  result.shear = to_number(material.shear / units.stress);
+  result.hardening_kind = material.hardening_kind;
+  result.yield_stress = to_number(material.yield_stress / units.stress);
+  result.hardening_modulus = to_number(material.hardening_modulus / units.stress);
+  result.saturation_stress = to_number(material.saturation_stress / units.stress);
+  result.saturation_rate = to_number(material.saturation_rate);
+  result.prestrain = to_number(material.prestrain);
+  result.exponent = to_number(material.exponent);
+  result.strength = to_number(material.strength / units.stress);
+  result.hardening = material.hardening;
+  result.stress_unit = units.stress;
+  result.density = to_number(material.density / units.density);
+  result.wave_speed = to_number(material.wave_speed * units.time / units.length);
+  result.linear_viscosity = to_number(material.linear_viscosity);
+  result.quadratic_viscosity = to_number(material.quadratic_viscosity);
+  result.hourglass_stiffness = to_number(material.hourglass_stiffness);
+  return result;
+}
+
+/// Mean extent of the elements.
+double typical_length(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
+                      const double *positions) {
+  double sum = 0.;
+  for (const auto &element : elements) {
+    double largest = 0.;
+    for (unsigned int i = 0; i < 3; ++i) {
+      double low = positions[4 * std::size_t{element[0]} + i], high = low;
+      for (const unsigned int node : element) {
+        low = std::min(low, positions[4 * std::size_t{node} + i]);
+        high = std::max(high, positions[4 * std::size_t{node} + i]);
+      }
+      largest = std::max(largest, high - low);
+    }
+    sum += largest;
+  }
+  return sum / static_cast<double>(elements.size());
+}
+
+template <class Hardening, class Number> class Block final : public ExplicitBlock {
 public:
   static constexpr bool has_plasticity = !std::is_same_v<Hardening, NoHardening>;
   static constexpr bool is_linear = std::is_same_v<Hardening, LinearHardening>;
@@ -87,9 +132,9 @@ public:
   Block(const ElasticModuli &elastic, Hardening hardening, const double density,
         const ExplicitFormulation &formulation)
       : formulation_(formulation), hardening_(std::move(hardening)),
-        storage_(find_kernels(formulation.instructions).n_lanes, formulation, has_plasticity,
+        storage_(find_kernels<Number>(formulation.instructions).n_lanes, formulation, has_plasticity,
                  has_plasticity && !is_linear),
-        kernel_(find_kernels(formulation.instructions)
+        kernel_(find_kernels<Number>(formulation.instructions)
                     .kernels[formulation.element == Element::one_point ? 1 : 0]
                             [static_cast<unsigned int>(formulation.kinematics)][has_plasticity ? 1 : 0]) {
     material_ = {};
@@ -110,23 +155,38 @@ public:
 
   bool initialize(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
                   const double *reference_positions, std::size_t &offender) override {
-    return storage_.initialize(elements, reference_positions, material_, hardening_.stress(0.), offender);
+    if constexpr (is_single)
+      if (!elements.empty()) {
+        const double length = typical_length(elements, reference_positions);
+        if (length > 0.)
+          units_ = choose_units(length, material_.shear, material_.density);
+      }
+    kernel_material_ = convert<Number>(material_, units_);
+    is_fresh_ = true;
+    return storage_.initialize(elements, reference_positions, units_, material_.density,
+                               hardening_.stress(0.), offender);
   }
 
   std::size_t size() const override { return storage_.size(); }
   std::size_t history_size() const override { return storage_.layout().n_history; }
+  std::size_t history_memory() const override { return size() * history_size() * sizeof(Number); }
+  std::size_t stabilisation_memory() const override {
+    return formulation_.element == Element::one_point
+               ? size() * storage_.stabilisation_size() * sizeof(Number)
+               : 0;
+  }
 
   double scale_mass(const double smallest_step) override {
     // The kernel itself, element by element, says what their steps are.
     const dealii::AlignedVector<double> at_rest(storage_.nodal_size(), 0.);
     dealii::AlignedVector<double> ignored_forces(storage_.nodal_size(), 0.);
-    ExplicitStorage::Copy copy;
+    typename ExplicitStorage<Number>::Copy copy;
     double added = 0.;
     for (std::size_t element = 0; element < size(); ++element) {
       explicit_kernels::Result result{};
-      kernel_(storage_.copy_element(element, copy), material_, functions_,
-              {at_rest.data(), at_rest.data(), ignored_forces.data(), 0., 0.}, result);
-      const double excess = smallest_step * result.largest_rate;
+      kernel_(storage_.copy_element(element, copy), kernel_material_, functions_,
+              make_step({at_rest.data(), at_rest.data(), ignored_forces.data()}, 0.), result);
+      const double excess = smallest_step * largest_rate(result);
       if (excess > 1.) // stiffness over mass is the square of a rate, and damping over mass grows as its root
         added += material_.density * storage_.scale_mass(element, excess * excess);
     }
@@ -135,12 +195,18 @@ public:
 
   StepResult advance(const Nodes &nodes, const double dt) override {
     explicit_kernels::Result result{};
-    const explicit_kernels::Step step{nodes.displacements, nodes.velocities, nodes.forces,
-                                      dt > 0. ? 1. / dt : 0., dt};
-    kernel_(storage_.elements(), material_, functions_, step, result);
-    return {1. / result.largest_rate, result.elastic_energy,   result.plastic_work,
-            result.viscous_work,      result.hourglass_energy, result.inverted};
+    const auto is_moved = [](const double displacement) { return displacement != 0.; };
+    if (is_fresh_ && dt == 0. &&
+        std::any_of(nodes.displacements, nodes.displacements + storage_.nodal_size(), is_moved))
+      storage_.renew(nodes.displacements, true);
+    is_fresh_ = false;
+    kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);
+    const double energy = units_.energy();
+    return {1. / largest_rate(result),    energy * result.elastic_energy,   energy * result.plastic_work,
+            energy * result.viscous_work, energy * result.hourglass_energy, result.inverted};
   }
+
+  void renew(const double *displacements) override { storage_.renew(displacements, false); }
 
   void add_masses(double *masses) const override { storage_.add_masses(material_.density, masses); }
 
@@ -171,6 +237,7 @@ public:
   }
   void set_state(const std::size_t element, const double *state) override {
     storage_.set_history(element, state);
+    is_fresh_ = false;
   }
 
   ElementStress compute_stress(const std::size_t element, const double *displacements) const override {
@@ -186,8 +253,11 @@ public:
 
   void set_stress(const std::size_t element, const double *displacements,
                   const ElementStress &stress) override {
-    if (!has_plasticity && formulation_.kinematics != Kinematics::hypoelastic)
+    if (!has_plasticity && formulation_.kinematics != Kinematics::hypoelastic) {
+      storage_.renew(displacements, true);
       return;
+    }
+    is_fresh_ = false;
     ElementStress wanted = stress;
     if (formulation_.element == Element::one_point) {
       wanted[0] = PointStress();
@@ -206,6 +276,18 @@ public:
   }
 
 private:
+  static constexpr bool is_single = std::is_same_v<Number, float>;
+
+  explicit_kernels::Step make_step(const Nodes &nodes, const double dt) const {
+    return {nodes.displacements, nodes.velocities, nodes.forces, dt > 0. ? units_.time / dt : 0., dt,
+            1. / units_.length,  units_.force()};
+  }
+
+  /// What a rate has lost to rounding, a few parts in 10⁷, must not make a step longer than what is stable.
+  double largest_rate(const explicit_kernels::Result &result) const {
+    return (is_single ? 1. + 2e-6 : 1.) * result.largest_rate / units_.time;
+  }
+
   /// The inverse of compute_distortion(): a PointState's tensor from dev τ.
   dealii::SymmetricTensor<2, 3> elastic_tensor(const dealii::SymmetricTensor<2, 3> &dev_tau) const {
     if (formulation_.kinematics == Kinematics::hypoelastic)
@@ -246,10 +328,22 @@ private:
   ExplicitFormulation formulation_;
   Hardening hardening_;
   Material material_;
+  KernelUnits units_;
+  explicit_kernels::BasicMaterial<Number> kernel_material_{};
   explicit_kernels::LaneFunctions functions_{};
-  ExplicitStorage storage_;
-  explicit_kernels::Kernel kernel_;
+  ExplicitStorage<Number> storage_;
+  explicit_kernels::Kernel<Number> kernel_;
+  bool is_fresh_ = true; ///< no history but that of initialize()
 };
+
+template <class Hardening>
+std::unique_ptr<ExplicitBlock> make_block(const bool in_float, const ElasticModuli &elastic,
+                                          const Hardening &hardening, const double density,
+                                          const ExplicitFormulation &formulation) {
+  if (in_float)
+    return std::make_unique<Block<Hardening, float>>(elastic, hardening, density, formulation);
+  return std::make_unique<Block<Hardening, double>>(elastic, hardening, density, formulation);
+}
 
 void require(const bool holds, const char *reason) {
   if (!holds)
@@ -259,17 +353,22 @@ void require(const bool holds, const char *reason) {
 } // namespace
 
 std::string describe(const ExplicitFormulation &formulation) {
-  const std::string element =
+  std::string words =
       formulation.element == Element::one_point ? "explicit, one point, " : "explicit, mean dilatation, ";
   switch (formulation.kinematics) {
   case Kinematics::hencky:
-    return element + "Hencky";
+    words += "Hencky";
+    break;
   case Kinematics::neo_hookean:
-    return element + "neo-Hookean";
+    words += "neo-Hookean";
+    break;
   case Kinematics::hypoelastic:
+    words += "hypoelastic";
     break;
   }
-  return element + "hypoelastic";
+  if (formulation.number_type == ExplicitFormulation::NumberType::float_precision)
+    words += ", float";
+  return words;
 }
 
 std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, const double density,
@@ -283,10 +382,11 @@ std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, 
   return std::visit(
       [&](const auto &hardening) -> std::unique_ptr<ExplicitBlock> {
         using Hardening = std::decay_t<decltype(hardening)>;
+        const bool in_float = formulation.number_type == ExplicitFormulation::NumberType::float_precision;
         if constexpr (std::is_same_v<Hardening, std::monostate>)
-          return std::make_unique<Block<NoHardening>>(material.elastic, NoHardening{}, density, formulation);
+          return make_block(in_float, material.elastic, NoHardening{}, density, formulation);
         else
-          return std::make_unique<Block<Hardening>>(material.elastic, hardening, density, formulation);
+          return make_block(in_float, material.elastic, hardening, density, formulation);
       },
       material.hardening);
 }

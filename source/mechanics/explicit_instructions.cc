@@ -8,34 +8,50 @@ namespace {
 
 using explicit_kernels::KernelTable;
 
-/// Null where it was not compiled or the processor cannot run it.
-const KernelTable *find(const InstructionSet instructions) {
+/// The kernels of an instruction set for both types of number.
+struct Tables {
+  const KernelTable<double> *in_double = nullptr;
+  const KernelTable<float> *in_float = nullptr;
+};
+
+/// Nulls where it was not compiled or the processor cannot run it.
+Tables find(const InstructionSet instructions) {
+  using namespace explicit_kernels;
   switch (instructions) {
   case InstructionSet::automatic:
     return find(best_instruction_set());
   case InstructionSet::scalar:
-    return &explicit_kernels::scalar_kernels;
+    return {&scalar_kernels, &scalar_float_kernels};
   case InstructionSet::sse2:
 #ifdef BILLET_KERNELS_SSE2
     if (__builtin_cpu_supports("sse2"))
-      return &explicit_kernels::sse2_kernels;
+      return {&sse2_kernels, &sse2_float_kernels};
 #endif
-    return nullptr;
+    return {};
   case InstructionSet::avx2:
 #ifdef BILLET_KERNELS_AVX2
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-      return &explicit_kernels::avx2_kernels;
+      return {&avx2_kernels, &avx2_float_kernels};
 #endif
-    return nullptr;
+    return {};
   case InstructionSet::avx512:
 #ifdef BILLET_KERNELS_AVX512
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma"))
-      return &explicit_kernels::avx512_kernels;
+      return {&avx512_kernels, &avx512_float_kernels};
 #endif
-    return nullptr;
+    return {};
   }
-  return nullptr;
+  return {};
+}
+
+Tables require(const InstructionSet instructions) {
+  const Tables tables = find(instructions);
+  if (tables.in_double == nullptr)
+    throw std::invalid_argument(
+        "the instruction set is not available: this processor does not have it, or the "
+        "program was compiled without it");
+  return tables;
 }
 
 } // namespace
@@ -47,15 +63,14 @@ InstructionSet best_instruction_set() {
   return InstructionSet::scalar;
 }
 
-bool is_available(const InstructionSet instructions) { return find(instructions) != nullptr; }
+bool is_available(const InstructionSet instructions) { return find(instructions).in_double != nullptr; }
 
-const explicit_kernels::KernelTable &find_kernels(const InstructionSet instructions) {
-  const KernelTable *table = find(instructions);
-  if (table == nullptr)
-    throw std::invalid_argument(
-        "the instruction set is not available: this processor does not have it, or the "
-        "program was compiled without it");
-  return *table;
+template <> const KernelTable<double> &find_kernels<double>(const InstructionSet instructions) {
+  return *require(instructions).in_double;
+}
+
+template <> const KernelTable<float> &find_kernels<float>(const InstructionSet instructions) {
+  return *require(instructions).in_float;
 }
 
 } // namespace billet

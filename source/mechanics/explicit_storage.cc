@@ -14,7 +14,14 @@ using Kinematics = ExplicitFormulation::Kinematics;
 
 namespace {
 
-constexpr std::size_t n_last = 3; ///< what history keeps of the last call, see kernel.h
+/// What history keeps of the last call, see kernel.h.
+namespace last {
+constexpr std::size_t volume = 0, omega = 1, viscous_pressure = 2, n = 3;
+} // namespace last
+
+constexpr std::size_t n_mode_numbers = 21, one_point_modes = 28, eight_point_modes = 2;
+
+double next_power_of_two(const double x) { return std::exp2(std::round(std::log2(x))); }
 
 /// ∂ξ/∂X at a point: the gradient of the field that has the corners' coordinates ξ as nodal values.
 Tensor<2, 3> compute_inverse_jacobian(const ReferenceElement &reference, const unsigned int q) {
@@ -70,24 +77,58 @@ void bound(const ModalGeometry &geometry, double &mean, double &all) {
   all = bound_by_rows(matrix) / 8.;
 }
 
+/// Bound of the eigenvalues of J⁻¹ J⁻ᵀ.
+double bound_metric(const Tensor<2, 3> &inverse_jacobian) {
+  const Tensor<2, 3> metric = inverse_jacobian * transpose(inverse_jacobian);
+  double largest = 0.;
+  for (unsigned int k = 0; k < 3; ++k)
+    largest = std::max(largest, std::abs(metric[k][0]) + std::abs(metric[k][1]) + std::abs(metric[k][2]));
+  return largest;
+}
+
 } // namespace
 
-ExplicitStorage::ExplicitStorage(const unsigned int n_lanes, const ExplicitFormulation &formulation,
-                                 const bool has_plasticity, const bool keeps_yield_stress)
+KernelUnits choose_units(const double length, const double stress, const double density) {
+  KernelUnits units;
+  units.length = next_power_of_two(length);
+  units.stress = next_power_of_two(stress);
+  const double rate = std::exp2(std::round(0.5 * std::log2(units.stress / density))); // a speed
+  units.density = units.stress / (rate * rate);
+  units.time = units.length / rate;
+  return units;
+}
+
+template <class Number>
+ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const ExplicitFormulation &formulation,
+                                         const bool has_plasticity, const bool keeps_yield_stress)
     : n_lanes_(n_lanes), formulation_(formulation), has_plasticity_(has_plasticity),
       keeps_yield_stress_(keeps_yield_stress) {
-  const bool is_rate = formulation.kinematics == Kinematics::hypoelastic;
-  layout_.n_point_history = (is_rate ? 5 : 6) + (has_plasticity ? 1 : 0) + (keeps_yield_stress ? 1 : 0);
-  if (formulation.element == Element::one_point) {
-    layout_.n_constants = 28;
-    layout_.n_history = n_last + 12 + layout_.n_point_history;
-  } else {
-    layout_.n_constants = is_rate ? 2 : 10;
-    layout_.n_history = n_last + n_element_points * layout_.n_point_history;
+  const bool is_one_point = formulation.element == Element::one_point;
+  n_tensor_ = is_rate() ? 5 : 6;
+  const std::size_t n_alpha = has_plasticity ? (is_single ? 2 : 1) : 0;
+  layout_.n_point_history = n_tensor_ + n_alpha + (keeps_yield_stress ? 1 : 0);
+  first_point_ = last::n + (is_one_point ? 12 : 0);
+  layout_.n_history = first_point_ + (is_one_point ? 1 : n_element_points) * layout_.n_point_history;
+  layout_.n_constants =
+      is_one_point ? one_point_modes : eight_point_modes + (is_rate() ? 0 : n_element_points);
+  if (is_single)
+    layout_.n_constants += n_mode_numbers;
+  history_units_.assign(layout_.n_history, 1.);
+}
+
+template <class Number> void ExplicitStorage<Number>::set_history_units() {
+  history_units_.assign(layout_.n_history, 1.);
+  history_units_[last::omega] = 1. / (units_.density * units_.length * units_.length);
+  history_units_[last::viscous_pressure] = units_.stress;
+  for (std::size_t first = first_point_; first < layout_.n_history; first += layout_.n_point_history) {
+    for (std::size_t k = 0; k < n_tensor_ && is_rate(); ++k)
+      history_units_[first + k] = units_.stress;
+    if (keeps_yield_stress_)
+      history_units_[first + layout_.n_point_history - 1] = units_.stress;
   }
 }
 
-void ExplicitStorage::resize(const std::size_t n_elements) {
+template <class Number> void ExplicitStorage<Number>::resize(const std::size_t n_elements) {
   n_elements_ = n_elements;
   const std::size_t padded = (n_elements + n_lanes_ - 1) / n_lanes_ * n_lanes_;
   nodes_.resize(0);
@@ -99,10 +140,12 @@ void ExplicitStorage::resize(const std::size_t n_elements) {
   density_factors_.assign(n_elements, 1.);
 }
 
-bool ExplicitStorage::initialize(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
-                                 const double *reference_positions,
-                                 const explicit_kernels::Material &material, const double yield_stress,
-                                 std::size_t &offender) {
+template <class Number>
+bool ExplicitStorage<Number>::initialize(
+    const std::vector<std::array<unsigned int, n_element_nodes>> &elements, const double *reference_positions,
+    const KernelUnits &units, const double density, const double yield_stress, std::size_t &offender) {
+  units_ = units;
+  set_history_units();
   resize(elements.size());
   unsigned int n_nodes = 0;
   for (const auto &element : elements)
@@ -114,7 +157,7 @@ bool ExplicitStorage::initialize(const std::vector<std::array<unsigned int, n_el
   for (offender = 0; offender < elements.size(); ++offender) {
     for (unsigned int a = 0; a < n_element_nodes; ++a)
       nodes_[index(offender, a, n_element_nodes)] = elements[offender][a];
-    if (!initialize_element(offender, material, yield_stress))
+    if (!initialize_element(offender, density, yield_stress))
       return false;
   }
   // The lanes beyond the last element repeat it.
@@ -123,14 +166,15 @@ bool ExplicitStorage::initialize(const std::vector<std::array<unsigned int, n_el
     for (unsigned int a = 0; a < n_element_nodes; ++a)
       nodes_[index(e, a, n_element_nodes)] = nodes_[index(last, a, n_element_nodes)];
     for (std::size_t k = 0; k < layout_.n_constants; ++k)
-      constant(e, k) = constant(last, k);
+      set_constant(e, k, constant(last, k));
     for (std::size_t k = 0; k < layout_.n_history; ++k)
-      history(e, k) = history(last, k);
+      set_history(e, k, history(last, k));
   }
   return true;
 }
 
-ElementVectors ExplicitStorage::gather(const std::size_t element, const double *values) const {
+template <class Number>
+ElementVectors ExplicitStorage<Number>::gather(const std::size_t element, const double *values) const {
   ElementVectors result;
   for (unsigned int a = 0; a < n_element_nodes; ++a)
     for (unsigned int i = 0; i < 3; ++i)
@@ -138,96 +182,130 @@ ElementVectors ExplicitStorage::gather(const std::size_t element, const double *
   return result;
 }
 
-void ExplicitStorage::initialize_point(const std::size_t element, const std::size_t first,
-                                       const Tensor<2, 3> &inverse_jacobian, const double yield_stress) {
+template <class Number>
+void ExplicitStorage<Number>::set_alpha(const std::size_t element, std::size_t &k, const double alpha) {
+  set_history(element, k, alpha);
+  const double rest = alpha - history(element, k);
+  ++k;
+  if (is_single)
+    set_history(element, k++, rest);
+}
+
+template <class Number>
+void ExplicitStorage<Number>::initialize_point(const std::size_t element, const std::size_t first,
+                                               const Tensor<2, 3> &inverse_jacobian,
+                                               const double yield_stress) {
   std::size_t k = first;
-  if (formulation_.kinematics == Kinematics::hypoelastic)
-    for (; k < first + 5; ++k)
-      history(element, k) = 0.;
+  if (is_rate() || is_single)
+    for (; k < first + n_tensor_; ++k)
+      set_history(element, k, 0.);
   else {
     const Tensor<2, 3> H = inverse_jacobian * transpose(inverse_jacobian);
     for (const auto &pair : symmetric_pairs)
-      history(element, k++) = H[pair[0]][pair[1]];
+      set_history(element, k++, H[pair[0]][pair[1]]);
   }
   if (has_plasticity_)
-    history(element, k++) = 0.;
+    set_alpha(element, k, 0.);
   if (keeps_yield_stress_)
-    history(element, k) = yield_stress;
+    set_history(element, k, yield_stress);
 }
 
-bool ExplicitStorage::initialize_element(const std::size_t element,
-                                         const explicit_kernels::Material &material,
-                                         const double yield_stress) {
+template <class Number>
+void ExplicitStorage<Number>::set_modes(const std::size_t element, const std::size_t first,
+                                        const ModalGeometry &geometry) {
+  std::size_t place = first;
+  for (unsigned int m = 0; m < 7; ++m)
+    for (unsigned int i = 0; i < 3; ++i)
+      set_constant(element, place++, geometry.modes[m][i] / units_.length);
+}
+
+template <class Number>
+bool ExplicitStorage<Number>::initialize_one_point(const std::size_t element, const ElementVectors &positions,
+                                                   const double volume, const double smallest_mass,
+                                                   const double yield_stress, double &lambda) {
+  const ModalGeometry geometry(positions);
+  Tensor<2, 3> jacobian;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      jacobian[i][k] = geometry.modes[k][i];
+  const double det = determinant(jacobian);
+  if (!(det > 0.))
+    return false;
+  const Tensor<2, 3> inverse = invert(jacobian);
+  double mean = 0., all = 0.;
+  bound(geometry, mean, all);
+  lambda = volume * bound_metric(inverse) * mean;
+  const double cubed = units_.length * units_.length * units_.length;
+  const double mass_unit = units_.density * cubed;
+  set_constant(element, 0, volume / cubed);
+  set_constant(element, 1, cubed / det);
+  set_constant(element, 2, mean / smallest_mass * mass_unit);
+  set_constant(element, 3, all / smallest_mass * mass_unit);
+  for (unsigned int m = 0; m < 6; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      set_constant(element, 4 + 3 * m + k, geometry.beta[m][k]);
+  unsigned int place = 22;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int l = 0; l < 3; ++l)
+      if (k != l)
+        set_constant(element, place++, geometry.modes[k].norm() / geometry.modes[l].norm());
+  if (is_single)
+    set_modes(element, one_point_modes, geometry);
+  else
+    for (unsigned int m = 0; m < 4; ++m)
+      for (unsigned int k = 0; k < 3; ++k)
+        set_history(element, last::n + std::size_t{3} * m + k, (inverse * geometry.modes[3 + m])[k]);
+  initialize_point(element, first_point_, inverse, yield_stress);
+  return true;
+}
+
+template <class Number>
+bool ExplicitStorage<Number>::initialize_element(const std::size_t element, const double density,
+                                                 const double yield_stress) {
   const ElementVectors positions = gather(element, reference_positions_.data());
   ReferenceElement reference;
   if (!compute_reference_element(positions, reference))
     return false;
   const auto nodal_volumes = compute_nodal_volumes(reference);
-  const double smallest_mass =
-      material.density * *std::min_element(nodal_volumes.begin(), nodal_volumes.end());
+  const double smallest_mass = density * *std::min_element(nodal_volumes.begin(), nodal_volumes.end());
   double volume = 0., lambda = 0.;
-  const auto bound_metric = [](const Tensor<2, 3> &inverse_jacobian) {
-    const Tensor<2, 3> metric = inverse_jacobian * transpose(inverse_jacobian);
-    double largest = 0.;
-    for (unsigned int k = 0; k < 3; ++k)
-      largest = std::max(largest, std::abs(metric[k][0]) + std::abs(metric[k][1]) + std::abs(metric[k][2]));
-    return largest;
-  };
   for (const double w : reference.volumes)
     volume += w;
 
   if (formulation_.element == Element::one_point) {
-    const ModalGeometry geometry(positions);
-    Tensor<2, 3> jacobian;
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-        jacobian[i][k] = geometry.modes[k][i];
-    const double det = determinant(jacobian);
-    if (!(det > 0.))
+    if (!initialize_one_point(element, positions, volume, smallest_mass, yield_stress, lambda))
       return false;
-    const Tensor<2, 3> inverse = invert(jacobian);
-    double mean = 0., all = 0.;
-    bound(geometry, mean, all);
-    lambda = volume * bound_metric(inverse) * mean;
-    constant(element, 0) = volume;
-    constant(element, 1) = 1. / det;
-    constant(element, 2) = mean / smallest_mass;
-    constant(element, 3) = all / smallest_mass;
-    for (unsigned int m = 0; m < 6; ++m)
-      for (unsigned int k = 0; k < 3; ++k)
-        constant(element, 4 + 3 * m + k) = geometry.beta[m][k];
-    unsigned int place = 22;
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int l = 0; l < 3; ++l)
-        if (k != l)
-          constant(element, place++) = geometry.modes[k].norm() / geometry.modes[l].norm();
-    for (unsigned int m = 0; m < 4; ++m)
-      for (unsigned int k = 0; k < 3; ++k)
-        history(element, n_last + std::size_t{3} * m + k) = (inverse * geometry.modes[3 + m])[k];
-    initialize_point(element, n_last + 12, inverse, yield_stress);
   } else {
-    constant(element, 0) = volume;
-    constant(element, 1) = 1. / smallest_mass;
+    const double cubed = units_.length * units_.length * units_.length;
+    set_constant(element, 0, volume / cubed);
+    set_constant(element, 1, units_.density * cubed / smallest_mass);
+    std::size_t place = eight_point_modes;
+    if (is_single) {
+      set_modes(element, place, ModalGeometry(positions));
+      place += n_mode_numbers;
+    }
     for (unsigned int q = 0; q < n_element_points; ++q) {
       const Tensor<2, 3> inverse = compute_inverse_jacobian(reference, q);
       lambda = std::max(lambda, reference.volumes[q] * bound_metric(inverse));
-      if (formulation_.kinematics != Kinematics::hypoelastic)
-        constant(element, 2 + q) = reference.volumes[q];
-      initialize_point(element, n_last + q * layout_.n_point_history, inverse, yield_stress);
+      if (!is_rate())
+        set_constant(element, place + q, reference.volumes[q] / cubed);
+      initialize_point(element, first_point_ + q * layout_.n_point_history, inverse, yield_stress);
     }
   }
-  history(element, 0) = volume;
-  history(element, 1) = lambda / smallest_mass;
-  history(element, 2) = 0.;
+  set_history(element, last::volume, is_single ? 0. : volume);
+  set_history(element, last::omega, lambda / smallest_mass);
+  set_history(element, last::viscous_pressure, 0.);
   return true;
 }
 
-explicit_kernels::Elements ExplicitStorage::elements() {
+template <class Number> explicit_kernels::BasicElements<Number> ExplicitStorage<Number>::elements() {
   return {n_elements_,       nodes_.data(),   reference_positions_.data(),
           constants_.data(), history_.data(), layout_};
 }
 
-explicit_kernels::Elements ExplicitStorage::copy_element(const std::size_t element, Copy &copy) const {
+template <class Number>
+explicit_kernels::BasicElements<Number> ExplicitStorage<Number>::copy_element(const std::size_t element,
+                                                                              Copy &copy) const {
   copy.nodes.resize(std::size_t{n_element_nodes} * n_lanes_);
   copy.constants.resize(layout_.n_constants * n_lanes_);
   copy.history.resize(layout_.n_history * n_lanes_);
@@ -235,31 +313,35 @@ explicit_kernels::Elements ExplicitStorage::copy_element(const std::size_t eleme
     for (std::size_t a = 0; a < n_element_nodes; ++a)
       copy.nodes[a * n_lanes_ + lane] = nodes_[index(element, a, n_element_nodes)];
     for (std::size_t k = 0; k < layout_.n_constants; ++k)
-      copy.constants[k * n_lanes_ + lane] = constant(element, k);
+      copy.constants[k * n_lanes_ + lane] = constants_[index(element, k, layout_.n_constants)];
     for (std::size_t k = 0; k < layout_.n_history; ++k)
-      copy.history[k * n_lanes_ + lane] = history(element, k);
+      copy.history[k * n_lanes_ + lane] = history_[index(element, k, layout_.n_history)];
   }
   return {1,      copy.nodes.data(), reference_positions_.data(), copy.constants.data(), copy.history.data(),
           layout_};
 }
 
-double ExplicitStorage::scale_mass(const std::size_t element, const double factor) {
-  const double volume = constant(element, 0) * density_factors_[element];
+template <class Number>
+double ExplicitStorage<Number>::scale_mass(const std::size_t element, const double factor) {
+  const double cubed = units_.length * units_.length * units_.length;
+  const double volume = cubed * constant(element, 0) * density_factors_[element];
   density_factors_[element] *= factor;
   // The lanes beyond the last element repeat it.
   const bool is_last = element + 1 == n_elements_;
   for (std::size_t e = element; e == element || (is_last && e % n_lanes_ != 0); ++e) {
     if (formulation_.element == Element::one_point) {
-      constant(e, 2) /= factor;
-      constant(e, 3) /= factor;
+      set_constant(e, 2, constant(e, 2) / factor);
+      set_constant(e, 3, constant(e, 3) / factor);
     } else
-      constant(e, 1) /= factor;
-    history(e, 1) /= factor;
+      set_constant(e, 1, constant(e, 1) / factor);
+    set_history(e, last::omega, history(e, last::omega) / factor);
   }
   return volume * (factor - 1.);
 }
 
-void ExplicitStorage::add_masses(const double density, double *masses) const {
+template <class Number>
+// NOLINTNEXTLINE(readability-non-const-parameter): what is added depends on the template
+void ExplicitStorage<Number>::add_masses(const double density, double *masses) const {
   for (std::size_t element = 0; element < n_elements_; ++element) {
     ReferenceElement reference;
     compute_reference_element(gather(element, reference_positions_.data()), reference);
@@ -269,9 +351,10 @@ void ExplicitStorage::add_masses(const double density, double *masses) const {
   }
 }
 
+template <class Number>
 template <class Visit>
-void ExplicitStorage::visit_points(const std::size_t element, const double *displacements,
-                                   const Visit &visit) const {
+void ExplicitStorage<Number>::visit_points(const std::size_t element, const double *displacements,
+                                           const Visit &visit) const {
   const ElementVectors X = gather(element, reference_positions_.data()), u = gather(element, displacements);
   if (formulation_.element == Element::one_point) {
     ElementVectors x;
@@ -286,7 +369,7 @@ void ExplicitStorage::visit_points(const std::size_t element, const double *disp
       }
     const double J = determinant(jacobian) / determinant(reference_jacobian);
     if (J > 0.)
-      visit(n_last + 12, reference.volume, J, jacobian);
+      visit(first_point_, reference.volume, J, jacobian, invert(reference_jacobian));
     return;
   }
   ReferenceElement reference;
@@ -297,91 +380,159 @@ void ExplicitStorage::visit_points(const std::size_t element, const double *disp
   double volume = 0.;
   for (const double w : reference.volumes)
     volume += w;
-  for (unsigned int q = 0; q < n_element_points; ++q)
-    visit(n_last + q * layout_.n_point_history, reference.volumes[q], kinematics.current_volume / volume,
-          kinematics.F_bar[q] * invert(compute_inverse_jacobian(reference, q)));
+  for (unsigned int q = 0; q < n_element_points; ++q) {
+    const Tensor<2, 3> inverse = compute_inverse_jacobian(reference, q);
+    visit(first_point_ + q * layout_.n_point_history, reference.volumes[q],
+          kinematics.current_volume / volume, kinematics.F_bar[q] * invert(inverse), inverse);
+  }
 }
 
-std::vector<PointState> ExplicitStorage::compute_states(const std::size_t element,
-                                                        const double *displacements) const {
-  const bool is_rate = formulation_.kinematics == Kinematics::hypoelastic;
+template <class Number>
+std::vector<PointState> ExplicitStorage<Number>::compute_states(const std::size_t element,
+                                                                const double *displacements) const {
   std::vector<PointState> states;
   visit_points(element, displacements,
                [&](const std::size_t first, const double reference_volume, const double volume_ratio,
-                   const Tensor<2, 3> &jacobian) {
+                   const Tensor<2, 3> &jacobian, const Tensor<2, 3> &inverse_reference) {
                  PointState state{reference_volume, volume_ratio, {}, 0.};
                  std::size_t k = first;
-                 if (is_rate) {
+                 if (is_rate()) {
                    for (const unsigned int place : {0, 1, 3, 4, 5})
                      state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]] =
                          history(element, k++);
                    state.tensor[2][2] = -state.tensor[0][0] - state.tensor[1][1];
+                 } else if (is_single && !has_plasticity_) {
+                   const Tensor<2, 3> F = jacobian * inverse_reference;
+                   state.tensor = symmetrize(F * transpose(F));
                  } else {
                    Tensor<2, 3> H;
                    for (const auto &pair : symmetric_pairs)
                      H[pair[0]][pair[1]] = H[pair[1]][pair[0]] = history(element, k++);
-                   state.tensor = symmetrize(jacobian * H * transpose(jacobian));
+                   state.tensor = is_single ? symmetrize(H) + dealii::unit_symmetric_tensor<3>()
+                                            : symmetrize(jacobian * H * transpose(jacobian));
                  }
                  if (has_plasticity_)
-                   state.equivalent_plastic_strain = history(element, k);
+                   state.equivalent_plastic_strain =
+                       history(element, k) + (is_single ? history(element, k + 1) : 0.);
                  states.push_back(state);
                });
   return states;
 }
 
-void ExplicitStorage::set_states(const std::size_t element, const double *displacements,
-                                 const std::vector<PointState> &states,
-                                 const std::vector<double> &yield_stress) {
+template <class Number>
+void ExplicitStorage<Number>::set_hourglass(const std::size_t element, const double *displacements,
+                                            const Tensor<2, 3> &jacobian, const bool is_forgotten) {
+  const ElementVectors X = gather(element, reference_positions_.data()), u = gather(element, displacements);
+  ElementVectors x;
+  std::transform(X.begin(), X.end(), u.begin(), x.begin(), std::plus<>());
+  const ModalGeometry reference(X), current(x);
+  Tensor<2, 3> reference_jacobian;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      reference_jacobian[i][k] = reference.modes[k][i];
+  const Tensor<2, 3> inverse = invert(jacobian), inverse_reference = invert(reference_jacobian);
+  for (unsigned int m = 0; m < 4; ++m) {
+    Tensor<1, 3> strain = inverse * current.modes[3 + m];
+    if (is_single) // of its own from the reference on, or none
+      strain = is_forgotten ? Tensor<1, 3>() : strain - inverse_reference * reference.modes[3 + m];
+    for (unsigned int i = 0; i < 3; ++i)
+      set_history(element, last::n + std::size_t{3} * m + i, strain[i]);
+  }
+}
+
+template <class Number>
+void ExplicitStorage<Number>::set_states(const std::size_t element, const double *displacements,
+                                         const std::vector<PointState> &states,
+                                         const std::vector<double> &yield_stress) {
   std::size_t q = 0;
   visit_points(
       element, displacements,
-      [&](const std::size_t first, const double, const double volume_ratio, const Tensor<2, 3> &jacobian) {
+      [&](const std::size_t first, const double, const double volume_ratio, const Tensor<2, 3> &jacobian,
+          const Tensor<2, 3> &) {
         const PointState &state = states[q];
+        if (is_single)
+          set_history(element, last::volume, volume_ratio - 1.);
         std::size_t k = first;
-        if (formulation_.kinematics == Kinematics::hypoelastic)
+        if (is_rate())
           for (const unsigned int place : {0, 1, 3, 4, 5})
-            history(element, k++) = state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]];
-        else {
+            set_history(element, k++, state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]]);
+        else if (is_single) {
+          for (const auto &pair : symmetric_pairs)
+            set_history(element, k++, state.tensor[pair[0]][pair[1]] - (pair[0] == pair[1] ? 1. : 0.));
+        } else {
           const Tensor<2, 3> inverse = invert(jacobian), b = state.tensor;
           const Tensor<2, 3> H = std::pow(volume_ratio, 2. / 3.) * inverse * b * transpose(inverse);
           for (const auto &pair : symmetric_pairs)
-            history(element, k++) = H[pair[0]][pair[1]];
+            set_history(element, k++, H[pair[0]][pair[1]]);
         }
         if (has_plasticity_)
-          history(element, k++) = state.equivalent_plastic_strain;
+          set_alpha(element, k, state.equivalent_plastic_strain);
         if (keeps_yield_stress_)
-          history(element, k) = yield_stress[q];
-        if (has_plasticity_ && formulation_.element == Element::one_point) {
-          ElementVectors x = gather(element, reference_positions_.data());
-          const ElementVectors u = gather(element, displacements);
-          std::transform(x.begin(), x.end(), u.begin(), x.begin(), std::plus<>());
-          const ModalGeometry current(x);
-          const Tensor<2, 3> inverse = invert(jacobian);
-          for (unsigned int m = 0; m < 4; ++m)
-            for (unsigned int i = 0; i < 3; ++i)
-              history(element, n_last + std::size_t{3} * m + i) = (inverse * current.modes[3 + m])[i];
-        }
+          set_history(element, k, yield_stress[q]);
+        if (has_plasticity_ && formulation_.element == Element::one_point)
+          set_hourglass(element, displacements, jacobian, true);
         ++q;
       });
   repeat_last(element);
 }
 
-void ExplicitStorage::get_history(const std::size_t element, double *numbers) const {
+template <class Number>
+void ExplicitStorage<Number>::renew(const double *displacements, const bool from_the_start) {
+  if (!is_single)
+    return;
+  const bool is_volume_alone =
+      formulation_.element == Element::mean_dilatation && (is_rate() || (has_plasticity_ && !from_the_start));
+  for (std::size_t element = 0; element < n_elements_; ++element) {
+    if (is_volume_alone) {
+      ElementVectors x = gather(element, reference_positions_.data());
+      const double reference = ModalGeometry(x).volume;
+      const ElementVectors u = gather(element, displacements);
+      std::transform(x.begin(), x.end(), u.begin(), x.begin(), std::plus<>());
+      set_history(element, last::volume, ModalGeometry(x).volume / reference - 1.);
+      repeat_last(element);
+      continue;
+    }
+    visit_points(element, displacements,
+                 [&](const std::size_t first, const double, const double volume_ratio,
+                     const Tensor<2, 3> &jacobian, const Tensor<2, 3> &inverse_reference) {
+                   set_history(element, last::volume, volume_ratio - 1.);
+                   if (has_plasticity_ && !from_the_start)
+                     return;
+                   if (formulation_.element == Element::one_point)
+                     set_hourglass(element, displacements, jacobian, false);
+                   if (is_rate())
+                     return;
+                   const Tensor<2, 3> F = jacobian * inverse_reference;
+                   const Tensor<2, 3> b = std::pow(volume_ratio, -2. / 3.) * F * transpose(F);
+                   std::size_t k = first;
+                   for (const auto &pair : symmetric_pairs)
+                     set_history(element, k++, b[pair[0]][pair[1]] - (pair[0] == pair[1] ? 1. : 0.));
+                 });
+    repeat_last(element);
+  }
+}
+
+template <class Number>
+void ExplicitStorage<Number>::get_history(const std::size_t element, double *numbers) const {
   for (std::size_t k = 0; k < layout_.n_history; ++k)
     numbers[k] = history(element, k);
 }
 
-void ExplicitStorage::set_history(const std::size_t element, const double *numbers) {
+template <class Number>
+void ExplicitStorage<Number>::set_history(const std::size_t element, const double *numbers) {
   for (std::size_t k = 0; k < layout_.n_history; ++k)
-    history(element, k) = numbers[k];
+    set_history(element, k, numbers[k]);
   repeat_last(element);
 }
 
-void ExplicitStorage::repeat_last(const std::size_t element) {
+template <class Number> void ExplicitStorage<Number>::repeat_last(const std::size_t element) {
   if (element + 1 == n_elements_)
     for (std::size_t e = n_elements_; e % n_lanes_ != 0; ++e)
       for (std::size_t k = 0; k < layout_.n_history; ++k)
-        history(e, k) = history(element, k);
+        set_history(e, k, history(element, k));
 }
+
+template class ExplicitStorage<double>;
+template class ExplicitStorage<float>;
 
 } // namespace billet

@@ -53,6 +53,9 @@ ExplicitFormulation make_formulation(const parameters::Scene &scene, const param
     formulation.instructions = InstructionSet::avx512;
     break;
   }
+  formulation.number_type = dynamics.number_type == parameters::ExplicitDynamics::NumberType::float_precision
+                                ? ExplicitFormulation::NumberType::float_precision
+                                : ExplicitFormulation::NumberType::double_precision;
   return formulation;
 }
 
@@ -118,9 +121,8 @@ void ExplicitDynamics::make_blocks() {
         throw InputError(message.str());
       }
       if (!std::holds_alternative<std::monostate>(body.material.hardening))
-        plastic += blocks_.back()->size() * blocks_.back()->history_size() * sizeof(double);
-      if (body.formulation.element == ElementFormulation::Element::one_point)
-        stabilised += blocks_.back()->size() * explicit_stabilisation_size;
+        plastic += blocks_.back()->history_memory();
+      stabilised += blocks_.back()->stabilisation_memory();
     }
   });
   plastic_memory_.set(plastic);
@@ -239,6 +241,8 @@ void ExplicitDynamics::compute_internal_forces() {
         why << "at no finite place: a velocity, a load or a penalty may be too large for its units";
       fail(why.str());
     }
+    if (n_steps_ > 0 && n_steps_ % ExplicitBlock::renewal_interval == 0)
+      blocks_[b]->renew(u_.data());
     const Body &body = scene_.bodies()[b];
     Usage::count_if(!std::holds_alternative<std::monostate>(body.material.hardening), Capability::plasticity,
                     blocks_[b]->size());
@@ -586,7 +590,7 @@ std::vector<std::vector<ContactNodeReport>> ExplicitDynamics::report_contacts() 
 std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
   std::array<std::size_t, 2> sizes{};
   for (const auto &block : blocks_)
-    sizes[0] += block->size() * block->history_size();
+    sizes[0] += block->history_memory() / sizeof(double);
   for (const auto &contact : contacts_)
     sizes[1] += contact.history_size();
   for (const auto &contact : body_contacts_)
@@ -596,6 +600,10 @@ std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
   return sizes;
 }
 
-std::string ExplicitDynamics::method() const { return "central differences"; }
+std::string ExplicitDynamics::method() const {
+  return parameters_.number_type == parameters::ExplicitDynamics::NumberType::float_precision
+             ? "central differences, elements in float"
+             : "central differences";
+}
 
 } // namespace billet

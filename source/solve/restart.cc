@@ -53,14 +53,18 @@ std::optional<ElementFormulation> find_implicit_formulation(const std::string &w
 std::optional<ExplicitFormulation> find_formulation(const std::string &words) {
   using Element = ExplicitFormulation::Element;
   using Kinematics = ExplicitFormulation::Kinematics;
+  using NumberType = ExplicitFormulation::NumberType;
   ExplicitFormulation formulation;
   formulation.instructions = InstructionSet::scalar;
   for (const auto element : {Element::mean_dilatation, Element::one_point})
     for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic}) {
       formulation.element = element;
       formulation.kinematics = kinematics;
-      if (describe(formulation) == words)
-        return formulation;
+      for (const auto number_type : {NumberType::double_precision, NumberType::float_precision}) {
+        formulation.number_type = number_type;
+        if (describe(formulation) == words)
+          return formulation;
+      }
     }
   return {};
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Usage: explicit_kernels [ELEMENTS_PER_EDGE [STEPS]]
+// Usage: explicit_kernels [ELEMENTS_PER_EDGE [STEPS [INSTRUCTION_SET]]]
 //
 // Prints the time per element and step in nanoseconds of every kernel of explicit dynamics, for each
-// instruction set that this machine has: a cube of distorted elements, nearly all yielding; the least of
-// several steps (0 elements: no kernels). Beside it what the machine gives in the same run: memory bandwidth
-// (triad) and floating-point peak (multiply-add).
+// instruction set that this machine has and each type of number: a cube of distorted elements, nearly all
+// yielding; the least of several steps (0 elements: no kernels). Beside it what the machine gives in the same
+// run: memory bandwidth (triad) and floating-point peak (multiply-add).
 #include "billet/mechanics/explicit_block.h"
 
 #include <deal.II/base/aligned_vector.h>
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <string>
 
 using namespace billet;
 
@@ -169,29 +170,35 @@ int main(int argc, char *argv[]) {
       {"neo-Hookean", Formulation::Kinematics::neo_hookean},
       {"Hencky", Formulation::Kinematics::hencky}};
   std::printf("%zu elements, triad %.1f GB/s\n", cube.elements.size(), measure_triad());
-  std::printf("%-8s %6s", "", "GF/s");
+  std::printf("%-8s %-6s %6s", "", "", "GF/s");
   for (const auto &element : elements)
     for (const auto &law : kinematics)
       if (n > 0)
         std::printf("  %s %s", element.first, law.first);
   std::printf("\n");
-  for (const auto &set : sets) {
-    if (!is_available(set.second))
-      continue;
-    std::printf("%-8s %6.1f", set.first, measure_peak(set.second));
-    for (const auto &element : elements)
-      for (const auto &law : kinematics) {
-        if (n == 0)
-          continue;
-        Formulation formulation;
-        formulation.element = element.second;
-        formulation.kinematics = law.second;
-        formulation.instructions = set.second;
-        std::printf("  %8.0f", measure(cube, formulation, n_steps));
-        std::fflush(stdout);
-      }
-    std::printf("\n");
-  }
+  const std::pair<const char *, Formulation::NumberType> types[] = {
+      {"double", Formulation::NumberType::double_precision},
+      {"float", Formulation::NumberType::float_precision}};
+  for (const auto &set : sets)
+    for (const auto &type : types) {
+      if ((argc > 3 && std::string(argv[3]) != set.first) || !is_available(set.second) ||
+          (n == 0 && type.first != types[0].first))
+        continue;
+      std::printf("%-8s %-6s %6.1f", set.first, type.first, measure_peak(set.second));
+      for (const auto &element : elements)
+        for (const auto &law : kinematics) {
+          if (n == 0)
+            continue;
+          Formulation formulation;
+          formulation.element = element.second;
+          formulation.kinematics = law.second;
+          formulation.instructions = set.second;
+          formulation.number_type = type.second;
+          std::printf("  %8.0f", measure(cube, formulation, n_steps));
+          std::fflush(stdout);
+        }
+      std::printf("\n");
+    }
   std::printf("triad %.1f GB/s\n", measure_triad());
   return 0;
 }

@@ -119,6 +119,20 @@ for my $which ('block', 'impact', 'aimed', 'drop')
     return largest_difference("${which}2.whole/history.csv", "${which}3/history.csv", '^time$', 'force', 'travel');
   } if @launcher;
 }
+for my $types (['double', 'float'], ['float', 'double'])
+{
+  my ($from, $to) = @$types;
+  check "begun in $from, goes on in $to", sub {
+    scene("$from.prm", $impact, "Output: Folder = in_$from & Output: Interval = 0.1e-3 & Explicit dynamics: Number type = $from",
+          'set Interval = 0.1e-3\\nset Keep = 100');
+    runs(0, on(1, "$from.prm"));
+    scene("to_$to.prm", $impact, "Output: Folder = to_$to & Explicit dynamics: Number type = $to", '');
+    my $text = runs(0, on(1, '--restart', "in_$from/checkpoint_00002.h5", "to_$to.prm"));
+    my @whole = rows("in_$from/history.csv");
+    my @rest = rows("to_$to/history.csv");
+    return ($text =~ /^Goes on from in_$from/m ? '' : "says $text") || is('end', $rest[-1][1], $whole[-1][1]);
+  };
+}
 check 'HDF5 pictures go on', sub {
   scene('hdf5.prm', $block, 'Output: Folder = hdf5 & Output: Format = hdf5', 'set Every steps = 2');
   runs(0, on(1, 'hdf5.prm'));

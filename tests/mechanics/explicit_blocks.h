@@ -103,6 +103,8 @@ public:
     return f;
   }
 
+  void renew() { block_->renew(last_.data()); }
+
   const Mesh &mesh() const { return mesh_; }
   ExplicitBlock &block() { return *block_; }
   const ExplicitBlock::StepResult &result() const { return result_; }

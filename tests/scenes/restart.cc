@@ -42,6 +42,15 @@ int main(int argc, char *argv[]) {
         [](auto &run, const double time, History &history) { run.run(time, 1, history); });
   }
   {
+    parameters::Scene scene = testing::read_test_scene("explicit_ranks.prm");
+    scene.explicit_dynamics.number_type = parameters::ExplicitDynamics::NumberType::float_precision;
+    scene.time_stepping.end_time = 0.1e-3;
+    // Which elements stand together in a batch decides how many terms of a series all of them take.
+    testing::test_going_on<testing::ExplicitStops>(
+        "Impact in float", scene, {0.04e-3},
+        [](auto &run, const double time, History &history) { run.run(time, 1, history); }, 1e-5);
+  }
+  {
     parameters::Scene scene = testing::read_test_scene("restart_ring.prm");
     double area = 0.;
     testing::test_going_on<testing::ExplicitStops>(

@@ -184,7 +184,7 @@ inline History after(const History &all, const double time) {
 /// way round.
 template <class Run, class Until>
 void test_going_on(const std::string &name, const parameters::Scene &scene, const std::vector<double> &stops,
-                   const Until &until) {
+                   const Until &until, const double tolerance = 1e-8) {
   const double end = scene.time_stepping.end_time;
   parameters::Scene resumed = scene;
   resumed.restart.file.value = "stopped.h5";
@@ -201,7 +201,8 @@ void test_going_on(const std::string &name, const parameters::Scene &scene, cons
     if (n == 1)
       on_one = whole;
     else if (is_first_rank())
-      check(name + " without interruption, on 1 and on other ranks", difference(on_one, whole, kinds), 1e-8);
+      check(name + " without interruption, on 1 and on other ranks", difference(on_one, whole, kinds),
+            tolerance);
     for (const double stop : stops) {
       double time = 0.;
       on_ranks(n, [&](MPI_Comm some) {
@@ -233,7 +234,7 @@ void test_going_on(const std::string &name, const parameters::Scene &scene, cons
         else if (n == now)
           check(what + ", as many ranks, bit by bit", are_same_bits(expected, rest));
         else
-          check(what + ", other ranks", difference(expected, rest, kinds), 1e-8);
+          check(what + ", other ranks", difference(expected, rest, kinds), tolerance);
       }
     }
   }

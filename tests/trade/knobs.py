@@ -91,7 +91,7 @@ class TestKnobs(unittest.TestCase):
 
     def test_only_what_a_scene_can_use(self):
         cannot = {"billet_upsetting": ["facets", "safety factor", "hourglass stiffness", "mass", "error tolerance"],
-                  "hertz_cylinders": ["instructions"], "taylor_bar": ["steps", "tangent", "solver", "facets", "augmentation"],
+                  "hertz_cylinders": ["instructions", "number type"], "taylor_bar": ["steps", "tangent", "solver", "facets", "augmentation"],
                   "wagoner_punch_mu_0": ["search margin"]}
         for name, those in cannot.items():
             for knob in those:

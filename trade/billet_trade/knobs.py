@@ -206,6 +206,12 @@ def make_instructions(scene, argument):
     return {"Explicit dynamics/Instructions": argument}
 
 
+@knob("number type", "what elements compute with: float halves the width of numbers, to seven digits", "double", "float")
+def make_number_type(scene, argument):
+    explicit(scene)
+    return {"Explicit dynamics/Number type": argument}
+
+
 # --- contact -----------------------------------------------------------------------------------------------------
 
 def pairs(scene, of_bodies=False):

@@ -12,8 +12,8 @@
 
 namespace billet {
 
-/// What a kernel is compiled for: 1, 2, 4 or 8 elements at once. `automatic` is the widest that the processor
-/// knows.
+/// What a kernel is compiled for: 1, 2, 4 or 8 elements at once, in float 1, 4, 8 or 16. `automatic` is the
+/// widest that the processor knows.
 enum class InstructionSet { automatic, scalar, sse2, avx2, avx512 };
 
 /// The widest instruction set that was compiled and that this processor has.
@@ -29,6 +29,8 @@ struct ExplicitFormulation {
     one_point        ///< uniform gradient with physical stabilisation, see doc/theory.md
   };
   using Kinematics = ElementFormulation::Kinematics;
+  /// What elements are computed with; nodal vectors and all sums are double.
+  enum class NumberType { double_precision, float_precision };
 
   Element element = Element::mean_dilatation;
   Kinematics kinematics = Kinematics::hencky;
@@ -36,6 +38,7 @@ struct ExplicitFormulation {
   double quadratic_viscosity = 1.2; ///< c_2 of it, acts in compression only; ≥ 0
   double hourglass_stiffness = 1.;  ///< factor on the one-point element's physical stabilisation; > 0
   InstructionSet instructions = InstructionSet::automatic;
+  NumberType number_type = NumberType::double_precision; ///< in float twice as many elements at once
 };
 
 /// All elements of one body on one rank, for central differences. An explicit step is never taken back:
@@ -43,6 +46,8 @@ struct ExplicitFormulation {
 /// set; sums over the nodes are made in the order of the elements.
 class ExplicitBlock {
 public:
+  static constexpr unsigned int renewal_interval = 1000; ///< of steps, see renew()
+
   virtual ~ExplicitBlock() = default;
 
   /// `elements` holds local node indices in lexicographic order (ξ fastest), `reference_positions` three
@@ -82,6 +87,12 @@ public:
   /// history are of no more use.
   virtual StepResult advance(const Nodes &nodes, double dt) = 0;
 
+  /// Kernels in float add up strains step by step. Of those that follow from the displacements alone (of
+  /// elastic elements, of the volume) this takes away what the steps have rounded: it computes them in
+  /// double. After advance(), at the same displacements, every `renewal_interval` steps. In double without
+  /// effect.
+  virtual void renew(const double *displacements) = 0;
+
   /// Adds the lumped masses ρ ∫ N_a, all positive, one number for each node. With those added by
   /// scale_mass().
   virtual void add_masses(double *masses) const = 0;
@@ -89,8 +100,12 @@ public:
   /// At the displacements of the last call.
   virtual ElementSummary summarize(std::size_t element, const double *displacements) const = 0;
 
-  /// Doubles of history kept per element.
+  /// Numbers of history kept per element.
   virtual std::size_t history_size() const = 0;
+  /// What they take for all elements, and what of them and of the constants one-point elements have for their
+  /// stabilisation [bytes].
+  virtual std::size_t history_memory() const = 0;
+  virtual std::size_t stabilisation_memory() const = 0;
 
   // For checkpoints: an element's history_size() numbers, after advance().
   virtual void get_state(std::size_t element, double *state) const = 0;
@@ -105,10 +120,7 @@ public:
   virtual void set_stress(std::size_t element, const double *displacements, const ElementStress &stress) = 0;
 };
 
-/// What the stabilisation of a one-point element keeps [bytes].
-constexpr std::size_t explicit_stabilisation_size = 19 * sizeof(double);
-
-/// What a history means: element and kinematics in words.
+/// What a history means: element, kinematics and type of number in words.
 std::string describe(const ExplicitFormulation &formulation);
 
 /// `density` is per reference volume. Throws std::invalid_argument, with the reason, for an instruction set

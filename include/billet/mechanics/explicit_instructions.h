@@ -10,7 +10,10 @@
 namespace billet {
 
 /// Throws std::invalid_argument if they were not compiled or this processor cannot run them.
-const explicit_kernels::KernelTable &find_kernels(InstructionSet instructions);
+template <class Number>
+const explicit_kernels::KernelTable<Number> &find_kernels(InstructionSet instructions);
+template <> const explicit_kernels::KernelTable<double> &find_kernels<double>(InstructionSet instructions);
+template <> const explicit_kernels::KernelTable<float> &find_kernels<float>(InstructionSet instructions);
 
 } // namespace billet
 

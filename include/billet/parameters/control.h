@@ -40,6 +40,7 @@ struct TimeStepping {
 /// Subsection Explicit dynamics.
 struct ExplicitDynamics {
   enum class Instructions { automatic, scalar, sse2, avx2, avx512 };
+  enum class NumberType { double_precision, float_precision };
 
   double safety_factor;
   double contact_resolution; ///< of the oscillation on penalties, >= 1
@@ -48,6 +49,7 @@ struct ExplicitDynamics {
   double scaled_step;   ///< elements get mass until their step is not shorter; 0: none
   double largest_drift; ///< part of the energy
   Instructions instructions;
+  NumberType number_type; ///< of the element kernels
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -196,6 +196,14 @@ def everything():  # noqa: C901
     yield from single("mass scaling", ("drop.explicit", "bars.explicit"), [1e-6, 1e-4, 1e-3])
     yield from single("linear viscosity", ("drop.explicit", "bar.explicit", "bars.explicit"), [0.0, 0.06, 0.5, 1.0, 3.0])
     yield from single("instructions", ("drop.explicit", "bars.explicit"), ("scalar", "SSE2", "AVX2", "AVX-512"))
+    yield from single("number type", EXPLICIT, ("double", "float"))
+    yield from product(("number type", "length"), EXPLICIT, ("float",), decades(-9, 6)[::5])
+    for base in EXPLICIT:
+        for element in ("mean dilatation", "one point"):
+            for law in LAWS:
+                for more in ({}, PLASTIC):
+                    yield Case(base, {"number type": "float", "element": element, "kinematics": law, **more}, ("number type", "element", "law"),
+                               ("float", element, law + (", plastic" if more else "")))
     yield from single("step", DYNAMIC, [1e-3, 0.01, 0.05, 0.2, 1.0])
     for method in ("Newmark", "HHT-alpha", "generalised-alpha"):
         for base in DYNAMIC:
@@ -218,6 +226,11 @@ def everything():  # noqa: C901
             yield Case(base, {**more, "length": length, "stress": stress, "time": time}, ("units",), (name,), like=dict(more),
                        count="exact" if "2^" in name or "powers" in name else "nearly",
                        loose=1e-9 if "2^" in name or "powers" in name else 1e-6 if not base.endswith("implicit") else 1e-5)
+        if base in EXPLICIT:
+            length, stress, time = units["all by powers of 2"]
+            more = {"number type": "float", **({"duration": 0.1} if base.startswith("skid") else {})}
+            yield Case(base, {**more, "length": length, "stress": stress, "time": time}, ("units",), ("float, all by powers of 2",),
+                       like=more, count="exact", loose=1e-9)
         if base not in ("pull", "clip", "fold.explicit", "fold.implicit"):
             for degrees in (1e-6, 90.0, 137.0):
                 more = ROUGH if base in FRICTIONAL else {}
@@ -244,4 +257,5 @@ FIXED = (
     "drop.explicit/speed=0.3", "bar.explicit/safety=0.99", "bars.explicit/density ratio=100", "bars.explicit/turned=90 like the base",
     "skid.explicit/mu=0.3", "fold.explicit/speed=0.01", "lying.explicit/penalty=1000", "drop.implicit/nu=0.45", "bar.implicit/penalty=1",
     "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
+    "bars.explicit/number type=float",
 )

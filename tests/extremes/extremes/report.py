@@ -27,7 +27,7 @@ WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with aug
          "linear viscosity": "`Linear bulk viscosity`", "spectral radius": "`Spectral radius`", "error tolerance": "`Error tolerance`",
          "bricks": "bricks along an edge", "feature": "feature of a tool on nodes", "turned": "scene turned, degrees", "units": "units",
          "facets": "`Facets`, `Passes`", "element": "`Element`", "law": "`Kinematics`", "tangent": "`Contact tangent`", "solver": "`Linear solver`",
-         "method": "`Method`", "profile": "`Profile`", "instructions": "`Instructions`", "whole load": "whole load in the first step",
+         "method": "`Method`", "profile": "`Profile`", "instructions": "`Instructions`", "number type": "`Number type`", "whole load": "whole load in the first step",
          "explicit steps": "explicit steps of a resting pile"}
 COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda base: base.endswith(".implicit"),
            "explicit": lambda base: base.endswith(".explicit")}

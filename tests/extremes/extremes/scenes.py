@@ -24,6 +24,7 @@ KNOBS = {
     # time and solver
     "step": None, "first step": 0.1, "largest step": 0.25, "tangent": None, "tolerance": None, "solver": None,
     "predictor": None, "line search": None, "safety": None, "resolution": None, "mass scaling": None, "instructions": None,
+    "number type": None,
     "linear viscosity": None, "method": None, "spectral radius": None, "error tolerance": None, "profile": None,
     "target error": None, "mass": None, "duration": 1.0, "material tangent": None,
 }
@@ -167,6 +168,7 @@ def dynamics(k, f, scheme, end, rows=400):
     whole = {**top(k), "Time stepping": {"Scheme": scheme, "End time": number(end * f.time)}}
     if scheme == "explicit":
         x = {"Safety factor": k.safety, "Contact resolution": k.resolution, "Instructions": k.instructions,
+             "Number type": k.number_type,
              "Linear bulk viscosity": k.linear_viscosity,
              "Mass scaling step": None if k.mass_scaling is None else number(k.mass_scaling * f.time)}
         whole["Explicit dynamics"] = {a: b for a, b in x.items() if b is not None}

@@ -3,6 +3,7 @@
 #define BILLET_MECHANICS_EXPLICIT_BRICK_H
 
 #include "billet/mechanics/explicit/laws.h"
+#include "billet/mechanics/explicit/nodes.h"
 
 // The trilinear brick by its modes,
 //   x = a_0 + a_1 ξ + a_2 η + a_3 ζ + b_1 ηζ + b_2 ζξ + b_3 ξη + c ξηζ.
@@ -29,62 +30,118 @@ BILLET_INLINE void hadamard(Real x[8]) {
 
 constexpr unsigned int place_of_mode[7] = {1, 2, 4, 6, 5, 3, 7}; // bits ξ, η, ζ
 
-template <bool add>
-BILLET_INLINE void gather_modes(const double *p, const double *q, const std::uint32_t *nodes, Modes &modes) {
-  Real x[8][3];
-  for (unsigned int a = 0; a < 8; ++a)
-    gather<add>(p, q, nodes + a * n_lanes, x[a]);
+BILLET_INLINE void compute_modes(const Real x[8][3], Modes &modes) {
   for (unsigned int i = 0; i < 3; ++i) {
     Real values[8];
     for (unsigned int a = 0; a < 8; ++a)
       values[a] = x[a][i];
     hadamard(values);
     for (unsigned int k = 0; k < 7; ++k)
-      modes.m[k][i] = 0.125 * values[place_of_mode[k]];
+      modes.m[k][i] = 0.125_r * values[place_of_mode[k]];
   }
 }
 
-/// Displacements of the step.
-BILLET_INLINE void gather_increment(const Step &step, const std::uint32_t *nodes, Modes &modes) {
-  gather_modes<false>(step.velocities, nullptr, nodes, modes);
-  for (auto &mode : modes.m)
-    for (Real &component : mode)
-      component *= step.dt;
+/// Positions and displacements of the step of a batch by their modes; the latter only where they are asked,
+/// in float always.
+struct Motion {
+  Modes x, delta;
+};
+
+#if BILLET_SINGLE
+
+/// Of scale p.
+BILLET_INLINE void gather_modes(const double *p, const double scale, const std::uint32_t *nodes,
+                                Modes &modes) {
+  FirstNode first;
+  scale_first(p, scale, nodes, first);
+  Real x[8][3];
+  for (Real &component : x[0])
+    component = Real{};
+  for (unsigned int a = 1; a < 8; ++a)
+    gather_from(first, p, scale, nodes + a * n_lanes, x[a]);
+  compute_modes(x, modes);
 }
+
+/// `reference`: the modes of the reference positions among the constants.
+template <bool with_step>
+BILLET_INLINE void gather_motion(const Elements &, const Step &step, const std::uint32_t *nodes,
+                                 const Number *reference, Motion &motion) {
+  gather_modes(step.displacements, step.inverse_length, nodes, motion.x);
+  gather_modes(step.velocities, step.dt * step.inverse_length, nodes, motion.delta);
+  for (unsigned int m = 0; m < 7; ++m)
+    for (unsigned int i = 0; i < 3; ++i)
+      motion.x.m[m][i] += load(reference + (3 * m + i) * n_lanes);
+}
+
+#else
+
+template <bool add>
+BILLET_INLINE void gather_modes(const double *p, const double *q, const std::uint32_t *nodes, Modes &modes) {
+  Real x[8][3];
+  for (unsigned int a = 0; a < 8; ++a)
+    gather<add>(p, q, nodes + a * n_lanes, x[a]);
+  compute_modes(x, modes);
+}
+
+template <bool with_step>
+BILLET_INLINE void gather_motion(const Elements &elements, const Step &step, const std::uint32_t *nodes,
+                                 const Number *, Motion &motion) {
+  gather_modes<true>(elements.reference_positions, step.displacements, nodes, motion.x);
+  if constexpr (with_step) {
+    gather_modes<false>(step.velocities, nullptr, nodes, motion.delta);
+    for (auto &mode : motion.delta.m)
+      for (Real &component : mode)
+        component *= step.dt;
+  }
+}
+
+#endif
 
 /// `forces` belong to the modes.
 BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes, const std::size_t n,
-                                 double *nodal_forces) {
+                                 const Step &step) {
   Real f[8][3];
   for (unsigned int i = 0; i < 3; ++i) {
     Real values[8];
     values[0] = Real{};
     for (unsigned int k = 0; k < 7; ++k)
-      values[place_of_mode[k]] = 0.125 * forces.m[k][i];
+      values[place_of_mode[k]] = 0.125_r * forces.m[k][i];
     // The transpose: node a gets Σ_k ± value, with the sign of the mode at the node.
-    for (unsigned int step = 1; step < 8; step *= 2)
+    for (unsigned int bit = 1; bit < 8; bit *= 2)
       for (unsigned int a = 0; a < 8; ++a)
-        if ((a & step) == 0) {
-          const Real mean = values[a], slope = values[a + step];
+        if ((a & bit) == 0) {
+          const Real mean = values[a], slope = values[a + bit];
           values[a] = mean - slope;
-          values[a + step] = mean + slope;
+          values[a + bit] = mean + slope;
         }
     for (unsigned int a = 0; a < 8; ++a)
       f[a][i] = values[a];
   }
-  scatter(f, nodes, n, nodal_forces);
+#if BILLET_SINGLE
+  scatter(f, nodes, n, step.force, step.forces);
+#else
+  scatter(f, nodes, n, step.forces);
+#endif
 }
 
-/// Exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}.
-BILLET_INLINE Real compute_volume(const Modes &x) {
+/// Exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}: linear in the modes a1 and b1 of
+/// x, in a2 and b2 of y, in a3 and b3 of z.
+BILLET_INLINE Real compute_volume(const Modes &x, const Modes &y, const Modes &z) {
   Real a[3], b[3], t[3];
-  cross(x.m[1], x.m[2], a);
-  cross(x.m[4], x.m[5], b);
+  cross(y.m[1], z.m[2], a);
+  cross(y.m[4], z.m[5], b);
   for (unsigned int i = 0; i < 3; ++i)
-    a[i] -= b[i] * (1. / 3.);
-  cross(x.m[1], x.m[5], b);
-  cross(x.m[4], x.m[2], t);
-  return 8. * (dot(x.m[0], a) - (1. / 3.) * (dot(x.m[3], b) + dot(x.m[3], t)));
+    a[i] -= b[i] * (1._r / 3._r);
+  cross(y.m[1], z.m[5], b);
+  cross(y.m[4], z.m[2], t);
+  return 8._r * (dot(x.m[0], a) - (1._r / 3._r) * (dot(x.m[3], b) + dot(x.m[3], t)));
+}
+
+/// Volume at the modes `after` less that at `before`, from their difference: as small as that, to its last
+/// digits.
+BILLET_INLINE Real compute_volume_change(const Modes &before, const Modes &difference, const Modes &after) {
+  return compute_volume(difference, after, after) +
+         (compute_volume(before, difference, after) + compute_volume(before, before, difference));
 }
 
 /// ∂x/∂ξ_k at the four places where a line along ξ_k crosses the Gauss points: [k][place], bit 0 of the place
@@ -93,7 +150,7 @@ struct Columns {
   Real c[3][4][3];
 };
 
-constexpr double gauss = 0.57735026918962576451;
+constexpr Number gauss = 0.57735026918962576451_r;
 
 /// Modes that vary along the other two directions, in their order (first: with the first one, second, both).
 constexpr unsigned int varying[3][2] = {{5, 4}, {5, 3}, {4, 3}};
@@ -129,10 +186,45 @@ BILLET_INLINE void collect_columns(const Columns &forces, Modes &f) {
     }
 }
 
-/// Places of what every element keeps of its last call; its kind's own numbers follow.
+/// Places of what every element keeps of its last call; its kind's own numbers follow. In float J̄ − 1 stands
+/// for the volume.
 namespace last {
 constexpr unsigned int volume = 0, omega = 1, viscous_pressure = 2, n = 3;
 } // namespace last
+
+/// Places of an eight-point element's constants. In float its reference modes follow.
+namespace eight_point {
+constexpr unsigned int volume = 0, inverse_mass = 1, modes = 2, point_volumes = is_single ? 23 : 2;
+} // namespace eight_point
+
+/// Volume of an element now, ln J̄, the change in the step, and the sum before and after it.
+struct VolumeChange {
+  Real now, logarithm_of_J, change, sum;
+};
+
+/// Float: from the change, J̄ − 1 adds up.
+BILLET_INLINE VolumeChange add_volume(const Real change, const Real reference_volume, Number *history) {
+  VolumeChange volume;
+  const Real above_one = load(history + last::volume * n_lanes) + change / reference_volume;
+  store(history + last::volume * n_lanes, above_one);
+  volume.now = reference_volume + reference_volume * above_one;
+  volume.logarithm_of_J = logarithm_of_one_plus(above_one);
+  volume.change = change;
+  volume.sum = 2._r * volume.now - change;
+  return volume;
+}
+
+/// Double: from the volume.
+BILLET_INLINE VolumeChange compare_volume(const Real now, const Real J, Number *history) {
+  VolumeChange volume;
+  const Real before = load(history + last::volume * n_lanes);
+  volume.now = now;
+  volume.logarithm_of_J = logarithm(J);
+  volume.change = now - before;
+  volume.sum = now + before;
+  store(history + last::volume * n_lanes, now);
+  return volume;
+}
 
 /// Bulk viscosity of a brick and its stable step.
 struct Damping {
@@ -142,43 +234,40 @@ struct Damping {
 };
 
 /// Characteristic length of the brick: L² = 4/(ρ Ω) with the Ω of the last call, which `history` has. Puts
-/// volume and pressure there.
-BILLET_INLINE Damping compute_viscosity(const Material &material, const Real volume, double *history,
-                                        const double inverse_dt) {
-  const Real last_volume = load(history + last::volume * n_lanes);
+/// the pressure there.
+BILLET_INLINE Damping compute_viscosity(const Material &material, const VolumeChange &volume, Number *history,
+                                        const Number inverse_dt) {
   const Real last_omega = load(history + last::omega * n_lanes);
-  const Real change = volume - last_volume;
-  const Real d = (2. * inverse_dt) * change / (volume + last_volume);
+  const Real d = (2._r * inverse_dt) * volume.change / volume.sum;
   const Real root = square_root(last_omega);
-  const Real inverse_root = 1. / root; // √ρ L / 2
+  const Real inverse_root = 1._r / root; // √ρ L / 2
   const Real linear =
-      (2. * material.linear_viscosity * material.wave_speed * __builtin_sqrt(material.density)) *
-      inverse_root;
+      (2._r * material.linear_viscosity * material.wave_speed * square_root(material.density)) * inverse_root;
   const Real compression = max(-d, Real{});
-  const Real quadratic = (4. * material.quadratic_viscosity * material.quadratic_viscosity) * inverse_root *
+  const Real quadratic = (4._r * material.quadratic_viscosity * material.quadratic_viscosity) * inverse_root *
                          inverse_root * compression;
   Damping damping;
   damping.pressure = (linear + quadratic) * d;
-  damping.work = 0.5 * (load(history + last::viscous_pressure * n_lanes) + damping.pressure) * change;
-  store(history + last::volume * n_lanes, volume);
+  damping.work =
+      0.5_r * (load(history + last::viscous_pressure * n_lanes) + damping.pressure) * volume.change;
   store(history + last::viscous_pressure * n_lanes, damping.pressure);
-  damping.rate = 3. * (linear + 2. * quadratic);
+  damping.rate = 3._r * (linear + 2._r * quadratic);
   return damping;
 }
 
 /// Largest elastic stiffness per |∇v|², without stress.
-inline double max_modulus(const Material &material) {
-  return 3. * material.bulk > 2. * material.shear ? 3. * material.bulk : 2. * material.shear;
+inline Number max_modulus(const Material &material) {
+  return 3._r * material.bulk > 2._r * material.shear ? 3._r * material.bulk : 2._r * material.shear;
 }
 
 /// 1/Δt where M − Δt C/2 − Δt² K/4 stays positive: K ≤ M ω², C ≤ M c.
 BILLET_INLINE Real bound_rate(const Real omega_squared, const Real c) {
-  return 0.5 * (0.5 * c + square_root(0.25 * c * c + omega_squared));
+  return 0.5_r * (0.5_r * c + square_root(0.25_r * c * c + omega_squared));
 }
 
 /// Into the second-level cache: the first has no room for two batches and the work on a third.
-BILLET_INLINE void prefetch(const double *p, const std::size_t n) {
-  for (std::size_t k = 0; k < n; k += 8)
+template <class T> BILLET_INLINE void prefetch(const T *p, const std::size_t n) {
+  for (std::size_t k = 0; k < n; k += 64 / sizeof(T))
     __builtin_prefetch(p + k, 0, 2);
 }
 
@@ -194,9 +283,10 @@ BILLET_INLINE void prefetch(const Elements &elements, const Step &step, const st
   for (unsigned int k = 0; k < 8 * n_lanes; ++k) {
     const std::size_t place = 4 * std::size_t{nodes[k]};
     prefetch(step.displacements + place, 4);
-    prefetch(elements.reference_positions + place, 4);
+    if constexpr (!is_single)
+      prefetch(elements.reference_positions + place, 4);
     prefetch(step.forces + place, 4);
-    if (velocities)
+    if (velocities || is_single)
       prefetch(step.velocities + place, 4);
   }
 }
@@ -206,47 +296,73 @@ inline std::size_t count_elements(const Elements &elements, const std::size_t fi
   return elements.n_elements - first < n_lanes ? elements.n_elements - first : n_lanes;
 }
 
-/// Of an element, or summed over batches.
+/// Of an element of each lane.
 struct Energies {
   Real elastic = {}, plastic = {}, viscous = {}, hourglass = {};
 };
 
-/// Sums over the batches.
-struct Totals {
-  Real rate = {};
-  Energies energies;
+/// Sums over the batches, in double.
+struct Sum {
+#if BILLET_LANES == 1
+  using Wide = double;
+#else
+  using Wide = double __attribute__((vector_size(8 * BILLET_LANES)));
+#endif
+  Wide lanes = {};
 
   /// The lanes beyond n repeat an element.
+  void add(const std::size_t n, const Real more) {
+#if BILLET_LANES == 1
+    lanes += n == 1 ? more : Real{};
+#else
+    if (n == n_lanes)
+      lanes += __builtin_convertvector(more, Wide);
+    else
+      for (std::size_t lane = 0; lane < n; ++lane)
+        lanes[lane] = lanes[lane] + get(more, lane);
+#endif
+  }
+
+  double sum() const {
+#if BILLET_LANES == 1
+    return lanes;
+#else
+    double total = 0.;
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+      total += lanes[lane];
+    return total;
+#endif
+  }
+};
+
+struct Totals {
+  Real rate = {};
+  Sum elastic, plastic, viscous, hourglass;
+
   void add(const std::size_t n, const Real rate_now, const Energies &more) {
     rate = max(rate, rate_now);
-    add(n, more.elastic, energies.elastic);
-    add(n, more.plastic, energies.plastic);
-    add(n, more.viscous, energies.viscous);
-    add(n, more.hourglass, energies.hourglass);
+    elastic.add(n, more.elastic);
+    plastic.add(n, more.plastic);
+    viscous.add(n, more.viscous);
+    hourglass.add(n, more.hourglass);
   }
 
   void finish(Result &result) const {
     result.largest_rate = largest_lane(rate);
-    result.elastic_energy = sum_lanes(energies.elastic);
-    result.plastic_work = sum_lanes(energies.plastic);
-    result.viscous_work = sum_lanes(energies.viscous);
-    result.hourglass_energy = sum_lanes(energies.hourglass);
-  }
-
-private:
-  static void add(const std::size_t n, const Real more, Real &sum) {
-    if (n == n_lanes)
-      sum += more;
-    else
-      for (std::size_t lane = 0; lane < n; ++lane)
-        set(sum, lane, get(sum, lane) + get(more, lane));
+    result.elastic_energy = elastic.sum();
+    result.plastic_work = plastic.sum();
+    result.viscous_work = viscous.sum();
+    result.hourglass_energy = hourglass.sum();
   }
 };
 
 /// ½ κ ln²J per reference volume, from κ ln J.
 BILLET_INLINE Real compute_dilatation_energy(const Material &material, const Real mean_tau) {
-  return mean_tau * mean_tau * (0.5 / material.bulk);
+  return mean_tau * mean_tau * (0.5_r / material.bulk);
 }
+
+/// Determinants beyond it are those of something that is not finite, or soon is not.
+constexpr Number finite_bound = is_single ? 1e30_r : 1e300_r;
 
 /// The first bad lane of a batch becomes the result's element, if none was found before.
 inline void note_failure(const Mask bad, const std::size_t first, Result &result) {

@@ -23,18 +23,19 @@ struct LaneFunctions {
 /// concave but for `other`.
 enum class HardeningKind { linear, voce, power_law, other };
 
-/// Constants of the body.
-struct Material {
-  double bulk, shear;
+/// Constants of the body, in the units of its numbers. `Number` is what kernels compute with.
+template <class Number> struct BasicMaterial {
+  Number bulk, shear;
   HardeningKind hardening_kind;
-  double yield_stress, hardening_modulus;    ///< linear; Voce
-  double saturation_stress, saturation_rate; ///< Voce
-  double prestrain, exponent, strength;      ///< power law
+  Number yield_stress, hardening_modulus;    ///< linear; Voce
+  Number saturation_stress, saturation_rate; ///< Voce
+  Number prestrain, exponent, strength;      ///< power law
   const void *hardening;                     ///< the law, for LaneFunctions
-  double density;
-  double wave_speed;
-  double linear_viscosity, quadratic_viscosity;
-  double hourglass_stiffness;
+  double stress_unit;                        ///< of its stresses
+  Number density;
+  Number wave_speed;
+  Number linear_viscosity, quadratic_viscosity;
+  Number hourglass_stiffness;
 };
 
 /// One element takes these many numbers, in batches of as many elements as there are lanes: number k of batch
@@ -45,43 +46,55 @@ struct Layout {
   std::size_t n_point_history; ///< of which for each point
 };
 
-struct Elements {
+template <class Number> struct BasicElements {
   std::size_t n_elements;
   const std::uint32_t *nodes;        ///< 8 for each element, in batches like the others; padded with the last
   const double *reference_positions; ///< stride 4
-  const double *constants;
-  double *history;
+  const Number *constants;
+  Number *history;
   Layout layout;
 };
 
+/// Nodal vectors are in the user's units, all else is in those of the kernel's numbers.
 struct Step {
   const double *displacements, *velocities;
   double *forces;
-  double inverse_dt; ///< 0 in the first call
-  double dt;
+  double inverse_dt;     ///< 0 in the first call
+  double dt;             ///< in the user's units
+  double inverse_length; ///< of the unit; 1 for kernels in double
+  double force;          ///< the unit; 1 for kernels in double
 };
 
+/// In the units of the kernel's numbers.
 struct Result {
   double largest_rate; ///< 1/stable step
   double elastic_energy, plastic_work, viscous_work, hourglass_energy;
   std::size_t inverted; ///< n_elements if none
 };
 
-using Kernel = void (*)(const Elements &, const Material &, const LaneFunctions &, const Step &, Result &);
+template <class Number>
+using Kernel = void (*)(const BasicElements<Number> &, const BasicMaterial<Number> &, const LaneFunctions &,
+                        const Step &, Result &);
 
 // Order of the numbers above. Constants of the eight-point element: V, 1/(smallest nodal mass), then, unless
 // hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the viscous pressure of
 // the last call, then each point's. Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹ in the
 // element's own coordinates) or dev τ (11, 22, 12, 13, 23); then, where there is plasticity, α and, where
 // hardening is not linear, σ_y(α). The one-point element: see one_point.h.
+//
+// In float, where differences have to be taken before they are rounded: the modes of the reference positions
+// (21 numbers) are constants, too. History: J̄ − 1 in the place of v, and of each point b_e − 1 in space up to
+// a factor (6 numbers) or dev τ; then α in two parts, and σ_y(α).
 
 /// Index by element (mean_dilatation, one_point), kinematics, and whether there is plasticity.
-struct KernelTable {
+template <class Number> struct KernelTable {
   unsigned int n_lanes;
-  Kernel kernels[2][3][2];
+  Kernel<Number> kernels[2][3][2];
 };
 
-extern const KernelTable scalar_kernels, sse2_kernels, avx2_kernels, avx512_kernels;
+extern const KernelTable<double> scalar_kernels, sse2_kernels, avx2_kernels, avx512_kernels;
+extern const KernelTable<float> scalar_float_kernels, sse2_float_kernels, avx2_float_kernels,
+    avx512_float_kernels;
 
 } // namespace billet::explicit_kernels
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A translation unit defines BILLET_LANES, how many elements it computes at once, before it includes this.
+// A translation unit defines BILLET_LANES, how many elements it computes at once, and BILLET_SINGLE, whether
+// in float (1) or double (0), before it includes this.
 #ifndef BILLET_MECHANICS_EXPLICIT_LANES_H
 #define BILLET_MECHANICS_EXPLICIT_LANES_H
 
@@ -11,60 +12,105 @@
 
 #define BILLET_INLINE inline __attribute__((always_inline))
 
-// Everything here is in an unnamed namespace: each instruction set has its own.
+// Everything here is in an unnamed namespace: each instruction set has its own, for each type of number.
 namespace billet::explicit_kernels {
 namespace {
 
 constexpr std::size_t n_lanes = BILLET_LANES;
+#if BILLET_SINGLE
+using Number = float;
+#else
+using Number = double;
+#endif
+using Material = BasicMaterial<Number>;
+using Elements = BasicElements<Number>;
+
+constexpr bool is_single = sizeof(Number) == 4;
+
+/// Literals of the type that is computed with.
+constexpr Number operator""_r(const long double x) { return static_cast<Number>(x); }
+
+/// Integers as wide as the numbers.
+template <class T> struct IntegersOf;
+template <> struct IntegersOf<double> {
+  using Signed = long long;
+  using Unsigned = unsigned long long;
+};
+template <> struct IntegersOf<float> {
+  using Signed = int;
+  using Unsigned = unsigned int;
+};
+using Integer = IntegersOf<Number>::Unsigned;
 
 #if BILLET_LANES == 1
-using Real = double;
+using Real = Number;
 using Mask = bool;
-using Bits = unsigned long long;
-BILLET_INLINE double get(const Real x, const std::size_t) { return x; }
-BILLET_INLINE void set(Real &x, const std::size_t, const double value) { x = value; }
+using Bits = Integer;
+BILLET_INLINE Number get(const Real x, const std::size_t) { return x; }
+BILLET_INLINE void set(Real &x, const std::size_t, const Number value) { x = value; }
 BILLET_INLINE bool get_mask(const Mask m, const std::size_t) { return m; }
 BILLET_INLINE void set_mask(Mask &m, const std::size_t) { m = true; }
 BILLET_INLINE bool any(const Mask m) { return m; }
-BILLET_INLINE Real square_root(const Real x) { return __builtin_sqrt(x); }
+BILLET_INLINE double square_root(const double x) { return __builtin_sqrt(x); }
+BILLET_INLINE float square_root(const float x) { return __builtin_sqrtf(x); }
 #else
-using Real = double __attribute__((vector_size(8 * BILLET_LANES)));
-using Mask = long long __attribute__((vector_size(8 * BILLET_LANES)));
-using Bits = unsigned long long __attribute__((vector_size(8 * BILLET_LANES)));
-BILLET_INLINE double get(const Real &x, const std::size_t lane) { return x[lane]; }
-BILLET_INLINE void set(Real &x, const std::size_t lane, const double value) { x[lane] = value; }
+using Real = Number __attribute__((vector_size(sizeof(Number) * BILLET_LANES)));
+using Mask = IntegersOf<Number>::Signed __attribute__((vector_size(sizeof(Number) * BILLET_LANES)));
+using Bits = Integer __attribute__((vector_size(sizeof(Number) * BILLET_LANES)));
+BILLET_INLINE Number get(const Real &x, const std::size_t lane) { return x[lane]; }
+BILLET_INLINE void set(Real &x, const std::size_t lane, const Number value) { x[lane] = value; }
 BILLET_INLINE bool get_mask(const Mask &m, const std::size_t lane) { return m[lane] != 0; }
 BILLET_INLINE void set_mask(Mask &m, const std::size_t lane) { m[lane] = -1; }
-#if BILLET_LANES == 8
-BILLET_INLINE bool any(const Mask m) {
-  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(m), reinterpret_cast<__m512i>(m)) != 0;
+
+// Of the register's width; lanes are numbers of 4 or 8 bytes. The type of the argument is a vector either
+// way.
+#if defined(__AVX512F__)
+using DoubleRegister = __m512d;
+using FloatRegister = __m512;
+BILLET_INLINE bool any_of(const __m512d m) {
+  return _mm512_test_epi64_mask(_mm512_castpd_si512(m), _mm512_castpd_si512(m)) != 0;
 }
-BILLET_INLINE Real square_root(const Real x) { return _mm512_maskz_sqrt_pd(0xff, x); }
-#elif BILLET_LANES == 4
-BILLET_INLINE bool any(const Mask m) { return _mm256_movemask_pd(reinterpret_cast<__m256d>(m)) != 0; }
-BILLET_INLINE Real square_root(const Real x) { return _mm256_sqrt_pd(x); }
+BILLET_INLINE bool any_of(const __m512 m) {
+  return _mm512_test_epi32_mask(_mm512_castps_si512(m), _mm512_castps_si512(m)) != 0;
+}
+BILLET_INLINE __m512d root_of(const __m512d x) { return _mm512_maskz_sqrt_pd(0xff, x); }
+BILLET_INLINE __m512 root_of(const __m512 x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
+#elif defined(__AVX__)
+using DoubleRegister = __m256d;
+using FloatRegister = __m256;
+BILLET_INLINE bool any_of(const __m256d m) { return _mm256_movemask_pd(m) != 0; }
+BILLET_INLINE bool any_of(const __m256 m) { return _mm256_movemask_ps(m) != 0; }
+BILLET_INLINE __m256d root_of(const __m256d x) { return _mm256_sqrt_pd(x); }
+BILLET_INLINE __m256 root_of(const __m256 x) { return _mm256_sqrt_ps(x); }
 #else
-BILLET_INLINE bool any(const Mask m) { return _mm_movemask_pd(reinterpret_cast<__m128d>(m)) != 0; }
-BILLET_INLINE Real square_root(const Real x) { return _mm_sqrt_pd(x); }
+using DoubleRegister = __m128d;
+using FloatRegister = __m128;
+BILLET_INLINE bool any_of(const __m128d m) { return _mm_movemask_pd(m) != 0; }
+BILLET_INLINE bool any_of(const __m128 m) { return _mm_movemask_ps(m) != 0; }
+BILLET_INLINE __m128d root_of(const __m128d x) { return _mm_sqrt_pd(x); }
+BILLET_INLINE __m128 root_of(const __m128 x) { return _mm_sqrt_ps(x); }
 #endif
+template <bool> struct RegisterOf;
+template <> struct RegisterOf<false> { using Type = DoubleRegister; };
+template <> struct RegisterOf<true> { using Type = FloatRegister; };
+using Register = RegisterOf<is_single>::Type;
+BILLET_INLINE bool any(const Mask m) { return any_of(reinterpret_cast<Register>(m)); }
+BILLET_INLINE Real square_root(const Real x) { return root_of(x); }
+BILLET_INLINE Number square_root(const Number x) {
+  return static_cast<Number>(is_single ? __builtin_sqrtf(x) : __builtin_sqrt(x));
+}
 #endif
 
-BILLET_INLINE Real broadcast(const double x) { return Real{} + x; }
+BILLET_INLINE Real broadcast(const Number x) { return Real{} + x; }
 BILLET_INLINE Real select(const Mask m, const Real a, const Real b) { return m ? a : b; }
 BILLET_INLINE Real max(const Real a, const Real b) { return a > b ? a : b; }
 BILLET_INLINE Real min(const Real a, const Real b) { return a < b ? a : b; }
 BILLET_INLINE Real abs(const Real a) { return max(a, -a); }
-BILLET_INLINE Real load(const double *p) { return *reinterpret_cast<const Real *>(p); }
-BILLET_INLINE void store(double *p, const Real x) { *reinterpret_cast<Real *>(p) = x; }
+BILLET_INLINE Real load(const Number *p) { return *reinterpret_cast<const Real *>(p); }
+BILLET_INLINE void store(Number *p, const Real x) { *reinterpret_cast<Real *>(p) = x; }
 
-inline double sum_lanes(const Real x) {
-  double sum = 0.;
-  for (std::size_t lane = 0; lane < n_lanes; ++lane)
-    sum += get(x, lane);
-  return sum;
-}
-inline double largest_lane(const Real x) {
-  double largest = get(x, 0);
+inline Number largest_lane(const Real x) {
+  Number largest = get(x, 0);
   for (std::size_t lane = 1; lane < n_lanes; ++lane)
     largest = get(x, lane) > largest ? get(x, lane) : largest;
   return largest;
@@ -72,11 +118,11 @@ inline double largest_lane(const Real x) {
 
 /// 1/k and 1/k!.
 struct SeriesCoefficients {
-  double reciprocal[40] = {}, inverse_factorial[40] = {1.};
+  Number reciprocal[40] = {}, inverse_factorial[40] = {1._r};
   constexpr SeriesCoefficients() {
     for (unsigned int k = 1; k < 40; ++k) {
-      reciprocal[k] = 1. / k;
-      inverse_factorial[k] = inverse_factorial[k - 1] / k;
+      reciprocal[k] = 1._r / static_cast<Number>(k);
+      inverse_factorial[k] = inverse_factorial[k - 1] / static_cast<Number>(k);
     }
   }
 };
@@ -93,43 +139,76 @@ BILLET_INLINE Real from_bits(const Bits bits) {
   return x;
 }
 
-constexpr double two_52 =
-    6755399441055744.; ///< 1.5 · 2⁵²: in x + two_52 the last bits are the integer next to x
+/// How the type keeps a number, and numbers that need it.
+template <class T> struct FormatOf;
+template <> struct FormatOf<double> {
+  static constexpr unsigned int n_fraction = 52; ///< bits
+  static constexpr IntegersOf<double>::Unsigned bias = 1023, root_half = 0x3fe6a09e667f3bcdULL;
+  /// 1.5 · 2⁵²: in x + shift the last bits are the integer next to x.
+  static constexpr double shift = 6755399441055744.;
+  static constexpr IntegersOf<double>::Unsigned shift_bits = 0x4338000000000000ULL;
+  static constexpr IntegersOf<double>::Unsigned inverse_cube_root = 0x553ef0ff289dd796ULL;
+  static constexpr double largest_exponent = 700.;
+  static constexpr unsigned int n_artanh = 10, n_exponential = 14; ///< terms beyond the first
+  static constexpr double ln_2_high = 0.693147180369123816490, ln_2_low = 1.90821492927058770002e-10;
+};
+template <> struct FormatOf<float> {
+  static constexpr unsigned int n_fraction = 23;
+  static constexpr IntegersOf<float>::Unsigned bias = 127, root_half = 0x3f3504f3U;
+  static constexpr float shift = 12582912.F; ///< 1.5 · 2²³
+  static constexpr IntegersOf<float>::Unsigned shift_bits = 0x4b400000U;
+  static constexpr IntegersOf<float>::Unsigned inverse_cube_root = 0x54a2fa8cU;
+  static constexpr float largest_exponent = 80.F;
+  static constexpr unsigned int n_artanh = 5, n_exponential = 7;
+  static constexpr float ln_2_high = 0.693359375F, ln_2_low = -2.12194440e-4F;
+};
+using Format = FormatOf<Number>;
+
+/// k where x = 2ᵏ m with m from √½ to √2, and m.
+BILLET_INLINE Real split(const Real x, Real &m) {
+  constexpr Integer offset = Format::bias + 1;
+  const Bits bits = to_bits(x);
+  const Bits k = ((bits - Format::root_half + (offset << Format::n_fraction)) >> Format::n_fraction) - offset;
+  m = from_bits(bits - (k << Format::n_fraction));
+  return from_bits(k + Format::shift_bits) - Format::shift;
+}
+
+/// ln m = 2 artanh y, y = (m − 1)/(m + 1), |y| ≤ 0.172: what is left out is below 1e-17 of it (float: 2e-11).
+BILLET_INLINE Real double_artanh(const Real y) {
+  const Real z = y * y;
+  Real sum = broadcast(series.reciprocal[2 * Format::n_artanh + 1]);
+  for (unsigned int n = Format::n_artanh; n >= 1; --n)
+    sum = sum * z + series.reciprocal[2 * n - 1];
+  return 2._r * y * sum;
+}
 
 /// ln x of positive x.
 BILLET_INLINE Real logarithm(const Real x) {
-  // x = 2ᵏ m with m from √½ to √2; ln m = 2 artanh y, |y| ≤ 0.172: what is left out is below 1e-17 of it
-  const Bits bits = to_bits(x);
-  const Bits k = ((bits - 0x3fe6a09e667f3bcdULL + (1024ULL << 52)) >> 52) - 1024ULL;
-  const Real exponent = from_bits(k + 0x4338000000000000ULL) - two_52;
-  const Real m = from_bits(bits - (k << 52));
-  const Real y = (m - 1.) / (m + 1.);
-  const Real z = y * y;
-  Real sum = broadcast(1. / 21.);
-  sum = sum * z + 1. / 19.;
-  sum = sum * z + 1. / 17.;
-  sum = sum * z + 1. / 15.;
-  sum = sum * z + 1. / 13.;
-  sum = sum * z + 1. / 11.;
-  sum = sum * z + 1. / 9.;
-  sum = sum * z + 1. / 7.;
-  sum = sum * z + 1. / 5.;
-  sum = sum * z + 1. / 3.;
-  sum = sum * z + 1.;
-  return exponent * 0.693147180559945309417 + 2. * y * sum;
+  Real m;
+  const Real exponent = split(x, m);
+  return exponent * 0.693147180559945309417_r + double_artanh((m - 1._r) / (m + 1._r));
 }
 
-/// exp x; beyond ±700 that of ±700.
+/// ln(1 + x) of x > −1, to the last digits of a small x.
+BILLET_INLINE Real logarithm_of_one_plus(const Real x) {
+  Real m;
+  const Real exponent = split(1._r + x, m);
+  const Mask is_near = exponent == Real{};
+  const Real above = select(is_near, x, m - 1._r);
+  return exponent * 0.693147180559945309417_r + double_artanh(above / (2._r + above));
+}
+
+/// exp x; beyond ±700 (float: ±80) that of it.
 BILLET_INLINE Real exponential(const Real x) {
-  const Real bounded = min(max(x, broadcast(-700.)), broadcast(700.));
-  // x = k ln 2 + r, the logarithm in two parts; |r| ≤ 0.35, what is left out is below 1e-17
-  const Real shifted = bounded * 1.44269504088896340736 + two_52;
-  const Real k = shifted - two_52;
-  const Real r = (bounded - k * 0.693147180369123816490) - k * 1.90821492927058770002e-10;
-  Real sum = broadcast(series.inverse_factorial[14]);
-  for (unsigned int n = 14; n >= 1; --n)
+  const Real bounded = min(max(x, broadcast(-Format::largest_exponent)), broadcast(Format::largest_exponent));
+  // x = k ln 2 + r, the logarithm in two parts; |r| ≤ 0.35, what is left out is below 1e-17 (float: 6e-9)
+  const Real shifted = bounded * 1.44269504088896340736_r + Format::shift;
+  const Real k = shifted - Format::shift;
+  const Real r = (bounded - k * Format::ln_2_high) - k * Format::ln_2_low;
+  Real sum = broadcast(series.inverse_factorial[Format::n_exponential]);
+  for (unsigned int n = Format::n_exponential; n >= 1; --n)
     sum = sum * r + series.inverse_factorial[n - 1];
-  return sum * from_bits((to_bits(shifted) << 52) + (1023ULL << 52));
+  return sum * from_bits((to_bits(shifted) << Format::n_fraction) + (Format::bias << Format::n_fraction));
 }
 
 /// x^{-1/3} of positive x.
@@ -140,95 +219,11 @@ BILLET_INLINE Real inverse_cube_root(const Real x) {
   Bits third = (bits >> 2) + (bits >> 4);
   third += third >> 4;
   third += third >> 8;
-  Real y = from_bits(0x553ef0ff289dd796ULL - third);
-  Real e = 1. - x * y * y * y;
-  y += y * e * (1. / 3. + e * (2. / 9. + e * (14. / 81. + e * (35. / 243.))));
-  e = 1. - x * y * y * y;
-  return y + y * e * (1. / 3. + e * (2. / 9.));
-}
-
-#if BILLET_LANES >= 4
-using Row = double __attribute__((vector_size(32)));
-
-BILLET_INLINE Row load_row(const double *p) { return *reinterpret_cast<const Row *>(p); }
-
-/// x, y, z of four nodes from four rows (x, y, z, unused).
-BILLET_INLINE void transpose(const Row a, const Row b, const Row c, const Row d, Row &x, Row &y, Row &z) {
-  const Row t0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), t1 = __builtin_shufflevector(a, b, 1, 5, 3, 7),
-            t2 = __builtin_shufflevector(c, d, 0, 4, 2, 6), t3 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  x = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
-  y = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
-  z = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
-}
-
-/// The other way.
-BILLET_INLINE void transpose_back(const Row x, const Row y, const Row z, Row row[4]) {
-  const Row zero{};
-  const Row t0 = __builtin_shufflevector(x, y, 0, 4, 2, 6), t1 = __builtin_shufflevector(x, y, 1, 5, 3, 7),
-            t2 = __builtin_shufflevector(z, zero, 0, 4, 2, 6),
-            t3 = __builtin_shufflevector(z, zero, 1, 5, 3, 7);
-  row[0] = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
-  row[1] = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
-  row[2] = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
-  row[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
-}
-#endif
-
-/// p (+ q, if given) of one node of each element.
-template <bool add>
-BILLET_INLINE void gather(const double *p, const double *q, const std::uint32_t *nodes, Real x[3]) {
-#if BILLET_LANES >= 4
-  Row rows[n_lanes];
-  for (std::size_t lane = 0; lane < n_lanes; ++lane) {
-    rows[lane] = load_row(p + 4 * std::size_t{nodes[lane]});
-    if (add)
-      rows[lane] += load_row(q + 4 * std::size_t{nodes[lane]});
-  }
-#if BILLET_LANES == 4
-  transpose(rows[0], rows[1], rows[2], rows[3], x[0], x[1], x[2]);
-#else
-  Row low[3], high[3];
-  transpose(rows[0], rows[1], rows[2], rows[3], low[0], low[1], low[2]);
-  transpose(rows[4], rows[5], rows[6], rows[7], high[0], high[1], high[2]);
-  for (unsigned int i = 0; i < 3; ++i)
-    x[i] = __builtin_shufflevector(low[i], high[i], 0, 1, 2, 3, 4, 5, 6, 7);
-#endif
-#else
-  for (std::size_t lane = 0; lane < n_lanes; ++lane)
-    for (unsigned int i = 0; i < 3; ++i) {
-      const std::size_t k = 4 * std::size_t{nodes[lane]} + i;
-      set(x[i], lane, add ? p[k] + q[k] : p[k]);
-    }
-#endif
-}
-
-/// Subtracts the forces of all nodes, element after element: elements of a batch may share nodes.
-BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t n,
-                           double *forces) {
-#if BILLET_LANES >= 4
-  Row rows[8][n_lanes];
-  for (unsigned int a = 0; a < 8; ++a) {
-#if BILLET_LANES == 4
-    transpose_back(f[a][0], f[a][1], f[a][2], rows[a]);
-#else
-    Row low[3], high[3];
-    for (unsigned int i = 0; i < 3; ++i) {
-      low[i] = __builtin_shufflevector(f[a][i], f[a][i], 0, 1, 2, 3);
-      high[i] = __builtin_shufflevector(f[a][i], f[a][i], 4, 5, 6, 7);
-    }
-    transpose_back(low[0], low[1], low[2], rows[a]);
-    transpose_back(high[0], high[1], high[2], rows[a] + 4);
-#endif
-  }
-  for (std::size_t lane = 0; lane < n; ++lane)
-    for (unsigned int a = 0; a < 8; ++a)
-      *reinterpret_cast<Row *>(forces + 4 * std::size_t{nodes[a * n_lanes + lane]}) -= rows[a][lane];
-#else
-  for (std::size_t lane = 0; lane < n; ++lane)
-    for (unsigned int a = 0; a < 8; ++a)
-      for (unsigned int i = 0; i < 3; ++i)
-        forces[4 * std::size_t{nodes[a * n_lanes + lane]} + i] -= get(f[a][i], lane);
-#endif
+  Real y = from_bits(Format::inverse_cube_root - third);
+  Real e = 1._r - x * y * y * y;
+  y += y * e * (1._r / 3._r + e * (2._r / 9._r + e * (14._r / 81._r + e * (35._r / 243._r))));
+  e = 1._r - x * y * y * y;
+  return y + y * e * (1._r / 3._r + e * (2._r / 9._r));
 }
 
 } // namespace

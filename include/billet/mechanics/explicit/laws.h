@@ -23,7 +23,7 @@ BILLET_INLINE Real dot(const Real a[3], const Real b[3]) { return a[0] * b[0] + 
 
 /// A : B of symmetric tensors.
 BILLET_INLINE Real contract(const Real a[6], const Real b[6]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2. * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2._r * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
 BILLET_INLINE Real determinant(const Real a[6]) {
@@ -79,7 +79,7 @@ struct Map {
     cross(j[2], j[0], cofactor[1]);
     cross(j[0], j[1], cofactor[2]);
     det = dot(j[0], cofactor[0]);
-    inverse_det = 1. / det;
+    inverse_det = 1._r / det;
   }
 
   /// cofᵀ cof = det² j⁻¹ j⁻ᵀ.
@@ -88,6 +88,43 @@ struct Map {
       metric[r] = dot(cofactor[row_of[r]], cofactor[column_of[r]]);
   }
 };
+
+/// Σ_m d_m ∂ξ_m/∂x of vectors d that belong to the element's directions, at a point; l[k][i] is L_ik.
+BILLET_INLINE void compute_gradient(const Map &map, const Real d[3][3], Real l[3][3]) {
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      l[k][i] = map.inverse_det *
+                (d[0][i] * map.cofactor[0][k] + d[1][i] * map.cofactor[1][k] + d[2][i] * map.cofactor[2][k]);
+}
+
+/// M + Mᵀ + M Lᵀ: with M = L (1 + Y) what is added to Y when 1 + Y becomes (1 + L)(1 + Y)(1 + L)ᵀ. As small
+/// as L, to its last digits.
+BILLET_INLINE void compute_change(const Real l[3][3], const Real m[3][3], Real change[6]) {
+  for (unsigned int r = 0; r < 6; ++r) {
+    const unsigned int i = row_of[r], j = column_of[r];
+    change[r] = m[j][i] + m[i][j] + (m[0][i] * l[0][j] + m[1][i] * l[1][j] + m[2][i] * l[2][j]);
+  }
+}
+
+/// L S.
+BILLET_INLINE void multiply(const Real l[3][3], const Real s[6], Real m[3][3]) {
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      m[k][i] = l[0][i] * s[symmetric_index[0][k]] + l[1][i] * s[symmetric_index[1][k]] +
+                l[2][i] * s[symmetric_index[2][k]];
+}
+
+/// Y after a step of gradient L.
+BILLET_INLINE void advance_strain(const Real l[3][3], Real y[6]) {
+  Real m[3][3], change[6];
+  multiply(l, y, m);
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      m[k][i] += l[k][i];
+  compute_change(l, m, change);
+  for (unsigned int k = 0; k < 6; ++k)
+    y[k] += change[k];
+}
 
 /// Largest eigenvalue of a symmetric matrix, from above: Gershgorin's circles.
 BILLET_INLINE Real bound_eigenvalue(const Real a[6]) {
@@ -121,6 +158,8 @@ BILLET_INLINE Real compute_yield_stress(const Material &material, const Real alp
   return material.strength * exponential(material.exponent * logarithm(material.prestrain + alpha));
 }
 
+constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r; ///< of the yield stress
+
 /// Δα > 0 of the lanes that yield, q − m Δα = σ_y(α + Δα); `yield_stress` becomes the new one. With a concave
 /// σ_y Newton's method approaches the root from one side.
 BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctions &functions,
@@ -131,14 +170,16 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
     for (std::size_t lane = 0; lane < n_lanes; ++lane)
       if (get_mask(yields, lane)) {
         double value = 0.;
+        const double unit = material.stress_unit;
         set(delta, lane,
-            functions.harden(material.hardening, get(q, lane), get(m, lane), get(alpha, lane), value));
-        set(yield_stress, lane, value);
+            static_cast<Number>(functions.harden(material.hardening, unit * get(q, lane), unit * get(m, lane),
+                                                 get(alpha, lane), value)));
+        set(yield_stress, lane, static_cast<Number>(value / unit));
       }
     return delta;
   }
   Real excess = select(yields, q - yield_stress, Real{});
-  for (unsigned int iteration = 0; iteration < 50 && any(excess > 4e-15 * q); ++iteration) {
+  for (unsigned int iteration = 0; iteration < 50 && any(excess > consistency_tolerance * q); ++iteration) {
     delta += excess / (m + compute_slope(material, alpha + delta, yield_stress));
     yield_stress = select(yields, compute_yield_stress(material, alpha + delta), yield_stress);
     excess = select(yields, q - m * delta - yield_stress, Real{});
@@ -146,33 +187,54 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
   return delta;
 }
 
+/// Places of a point's plastic numbers. In float α is the sum of two parts: steps add less than the last
+/// digit of the first.
+constexpr unsigned int rest_of_alpha = 1, place_of_yield_stress = is_single ? 2 : 1;
+
+/// α grows.
+BILLET_INLINE void accumulate(const Real delta, Number *history) {
+  const Real alpha = load(history);
+  if constexpr (!is_single) {
+    store(history, alpha + delta);
+    return;
+  }
+  const Real more = load(history + rest_of_alpha * n_lanes) + delta;
+  const Real sum = alpha + more;
+  store(history, sum);
+  store(history + rest_of_alpha * n_lanes, more - (sum - alpha));
+}
+
 /// Where the yield condition is exceeded α grows; returns β = (q − m Δα)/q, or 1. `history` points at α (and
 /// σ_y).
 template <bool is_plastic>
 BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
-                              const Real m, double *history, Mask &yields, Watch &watch) {
+                              const Real m, Number *history, Mask &yields, Watch &watch) {
   watch.plastic_work = Real{};
   if constexpr (!is_plastic)
-    return broadcast(1.);
+    return broadcast(1._r);
   const Real alpha = load(history);
   const bool is_linear = material.hardening_kind == HardeningKind::linear;
-  Real yield =
-      is_linear ? material.yield_stress + material.hardening_modulus * alpha : load(history + n_lanes);
+  Real yield = is_linear ? material.yield_stress + material.hardening_modulus * alpha
+                         : load(history + place_of_yield_stress * n_lanes);
   yields = q > yield;
   if (!any(yields))
-    return broadcast(1.);
+    return broadcast(1._r);
   Real delta{};
   if (is_linear) {
     delta = select(yields, (q - yield) / (m + material.hardening_modulus), delta);
-    watch.plastic_work = delta * (yield + (0.5 * material.hardening_modulus) * delta);
+    watch.plastic_work = delta * (yield + (0.5_r * material.hardening_modulus) * delta);
+    if constexpr (is_single)
+      yield += material.hardening_modulus * delta;
   } else {
     const Real before = yield;
     delta = solve_consistency(material, functions, yields, q, m, alpha, yield);
-    store(history + n_lanes, yield);
-    watch.plastic_work = delta * (0.5 * (before + yield));
+    store(history + place_of_yield_stress * n_lanes, yield);
+    watch.plastic_work = delta * (0.5_r * (before + yield));
   }
-  store(history, alpha + delta);
-  return select(yields, 1. - m * delta / q, broadcast(1.));
+  accumulate(delta, history);
+  if constexpr (is_single) // the same, without the difference
+    return select(yields, yield / q, broadcast(1._r));
+  return select(yields, 1._r - m * delta / q, broadcast(1._r));
 }
 
 /// Coefficients of a polynomial p(X) = p2 X² + p1 X + p0 of a traceless X; X³ = i2 X + i3.
@@ -180,7 +242,7 @@ struct Polynomial {
   Real p2 = {}, p1 = {}, p0 = {};
 
   /// p ← p X + c
-  BILLET_INLINE void step(const Real i2, const Real i3, const double c) {
+  BILLET_INLINE void step(const Real i2, const Real i3, const Number c) {
     const Real top = p2;
     p2 = p1;
     p1 = top * i2 + p0;
@@ -191,42 +253,49 @@ struct Polynomial {
 /// ln(1 + X) by `n` terms of its series.
 template <unsigned int n> BILLET_INLINE Polynomial logarithm_series(const Real i2, const Real i3) {
   Polynomial p;
-  p.p0 = broadcast((n % 2 == 0 ? -1. : 1.) * series.reciprocal[n]);
+  p.p0 = broadcast((n % 2 == 0 ? -1._r : 1._r) * series.reciprocal[n]);
   for (unsigned int k = n - 1; k >= 1; --k)
-    p.step(i2, i3, (k % 2 == 0 ? -1. : 1.) * series.reciprocal[k]);
-  p.step(i2, i3, 0.);
+    p.step(i2, i3, (k % 2 == 0 ? -1._r : 1._r) * series.reciprocal[k]);
+  p.step(i2, i3, 0._r);
   return p;
 }
 
 /// exp(x) and exp(X) by n terms beyond 1: 1 + X/1 (1 + X/2 (1 + ...)).
 template <unsigned int n> BILLET_INLINE Real exponential_series(const Real x) {
-  Real sum = broadcast(1.);
+  Real sum = broadcast(1._r);
   for (unsigned int k = n; k >= 1; --k)
-    sum = 1. + sum * x * series.reciprocal[k];
+    sum = 1._r + sum * x * series.reciprocal[k];
   return sum;
 }
-template <unsigned int n> BILLET_INLINE Polynomial exponential_series(const Real i2, const Real i3) {
+/// `first`: 1, or 0 for exp(X) − 1.
+template <unsigned int n>
+BILLET_INLINE Polynomial exponential_series(const Real i2, const Real i3, const Number first) {
   Polynomial p;
   p.p0 = broadcast(series.inverse_factorial[n]);
   for (unsigned int k = n; k >= 1; --k)
-    p.step(i2, i3, series.inverse_factorial[k - 1]);
+    p.step(i2, i3, k > 1 ? series.inverse_factorial[k - 1] : first);
   return p;
 }
 
-// Eigenvalues of a traceless X are at most √(4 i2/3). Up to 0.02, the small strains of metals, few terms do;
-// up to 0.2 more; beyond that each lane is computed from its eigenvalues. Nine terms leave out 0.02⁹/10 of X,
-// 24 0.2²⁴/25.
-constexpr double small_i2 = 0.75 * 0.02 * 0.02, moderate_i2 = 0.75 * 0.2 * 0.2;
+// Eigenvalues of a traceless X are at most √(4 i2/3). Up to `small`, the strains of metals, few terms do; up
+// to `moderate` more; beyond that each lane is computed from its eigenvalues. In double nine terms leave out
+// 0.02⁹/10 of X, 24 0.2²⁴/25; in float six 0.05⁶/7 = 2e-9, 15 0.35¹⁵/16 = 9e-9.
+constexpr Number small_strain = is_single ? 0.05_r : 0.02_r, moderate_strain = is_single ? 0.35_r : 0.2_r;
+constexpr Number small_i2 = 0.75_r * small_strain * small_strain,
+                 moderate_i2 = 0.75_r * moderate_strain * moderate_strain;
+constexpr unsigned int n_small_logarithm = is_single ? 6 : 9, n_moderate_logarithm = is_single ? 15 : 24,
+                       n_small_exponential = is_single ? 5 : 8, n_large_exponential = is_single ? 24 : 39;
 
 /// dev ln b and, in `mean`, tr ln(s b)/3, where X = s b − 1 with s = 3/tr b.
 BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real x[6], const Real i2,
                                      Real logarithm[6], Real &mean, Mask &failed) {
   const Real i3 = determinant(x);
-  const Polynomial p = __builtin_expect(any(!(i2 <= small_i2)), 0) ? logarithm_series<24>(i2, i3)
-                                                                   : logarithm_series<9>(i2, i3);
+  const Polynomial p = __builtin_expect(any(!(i2 <= small_i2)), 0)
+                           ? logarithm_series<n_moderate_logarithm>(i2, i3)
+                           : logarithm_series<n_small_logarithm>(i2, i3);
   Real x2[6];
   square(x, x2);
-  const Real shift = p.p2 * i2 * (2. / 3.); // tr X² = 2 i2
+  const Real shift = p.p2 * i2 * (2._r / 3._r); // tr X² = 2 i2
   mean = p.p0 + shift;
   for (unsigned int k = 0; k < 6; ++k)
     logarithm[k] = p.p2 * x2[k] + p.p1 * x[k] - (k < 3 ? shift : Real{});
@@ -240,57 +309,115 @@ BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real 
           sb[k] = get(x[k], lane) + (k < 3 ? 1. : 0.);
         if (!functions.logarithm(sb, result, lane_mean))
           set_mask(failed, lane);
-        set(mean, lane, lane_mean);
+        set(mean, lane, static_cast<Number>(lane_mean));
         for (unsigned int k = 0; k < 6; ++k)
-          set(logarithm[k], lane, result[k]);
+          set(logarithm[k], lane, static_cast<Number>(result[k]));
       }
 }
 
-/// Hencky: history H with b_e = j H jᵀ up to a factor, which dev ln b_e does not see. dev τ = G dev ln b_e.
+/// Elastic strain at a point, as the history of float kernels has it: Y = b_e − 1 up to a factor of b_e.
+struct Strain {
+  Real y[6];
+
+  BILLET_INLINE void load_from(const Number *history) {
+    for (unsigned int k = 0; k < 6; ++k)
+      y[k] = load(history + k * n_lanes);
+  }
+
+  BILLET_INLINE void store_to(Number *history) const {
+    for (unsigned int k = 0; k < 6; ++k)
+      store(history + k * n_lanes, y[k]);
+  }
+
+  /// After a step of displacements d, which belong to the element's directions; `before` is the map there.
+  BILLET_INLINE void advance(const Map &before, const Real d[3][3], const Number *history) {
+    Real l[3][3];
+    compute_gradient(before, d, l);
+    load_from(history);
+    advance_strain(l, y);
+  }
+
+  BILLET_INLINE Real mean() const { return (y[0] + y[1] + y[2]) * (1._r / 3._r); }
+};
+
+/// Hencky: dev τ = G dev ln b_e, which does not see a factor of b_e.
 struct Hencky {
   static constexpr unsigned int n_tensor = 6;
 
+  /// `x`: 3 b_e/tr b_e − 1. Returns where it flows; β is in `watch`. `plastic` points at α.
+  template <bool is_plastic>
+  BILLET_INLINE static Mask respond(const Material &material, const LaneFunctions &functions, const Real x[6],
+                                    const Real hourglass, Number *plastic, Real log_b[6], Real &mean,
+                                    Real dev_tau[6], Watch &watch) {
+    const Real i2 = 0.5_r * contract(x, x);
+    compute_logarithm(functions, x, i2, log_b, mean, watch.failed);
+
+    const Real own = (1.5_r * material.shear * material.shear) * contract(log_b, log_b);
+    const Real q = square_root(own + hourglass);
+    Mask yields{};
+    const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3._r * material.shear),
+                                             plastic, yields, watch);
+    watch.mises = max(watch.mises, beta * q);
+    watch.distortion = beta * beta * own * (1._r / (6._r * material.shear));
+    watch.share = beta;
+    const Real factor = beta * material.shear;
+    for (unsigned int k = 0; k < 6; ++k)
+      dev_tau[k] = factor * log_b[k];
+    return yields;
+  }
+
+  /// History H with b_e = j H jᵀ.
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, const Map &map,
-                                   const Real, const Real hourglass, double *history, Real dev_tau[6],
+                                   const Real, const Real hourglass, Number *history, Real dev_tau[6],
                                    Watch &watch) {
     Real h[6], x[6];
     for (unsigned int k = 0; k < 6; ++k)
       h[k] = load(history + k * n_lanes);
     push(map.j, h, x);
-    const Real s = 3. / (x[0] + x[1] + x[2]);
+    const Real s = 3._r / (x[0] + x[1] + x[2]);
     for (unsigned int k = 0; k < 6; ++k)
-      x[k] = s * x[k] - (k < 3 ? 1. : 0.);
-    const Real i2 = 0.5 * contract(x, x);
+      x[k] = s * x[k] - (k < 3 ? 1._r : 0._r);
     Real log_b[6], mean;
-    compute_logarithm(functions, x, i2, log_b, mean, watch.failed);
-
-    const Real own = (1.5 * material.shear * material.shear) * contract(log_b, log_b);
-    const Real q = square_root(own + hourglass);
-    Mask yields{};
-    const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3. * material.shear),
-                                             history + 6 * n_lanes, yields, watch);
-    watch.mises = max(watch.mises, beta * q);
-    watch.distortion = beta * beta * own * (1. / (6. * material.shear));
-    watch.share = beta;
-    const Real factor = beta * material.shear;
-    for (unsigned int k = 0; k < 6; ++k)
-      dev_tau[k] = factor * log_b[k];
+    const Mask yields = respond<is_plastic>(material, functions, x, hourglass, history + 6 * n_lanes, log_b,
+                                            mean, dev_tau, watch);
     if (is_plastic && any(yields))
-      flow(map, yields, s, beta, log_b, mean, history);
+      flow(map, yields, s, watch.share, log_b, mean, history);
+  }
+
+  /// The same from the strain, which it puts into the history.
+  template <bool is_plastic>
+  BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, Strain &strain,
+                                   const Real hourglass, Number *history, Real dev_tau[6], Watch &watch) {
+    const Real third = strain.mean();
+    const Real s = 1._r / (1._r + third);
+    Real x[6], log_b[6], mean;
+    for (unsigned int k = 0; k < 6; ++k)
+      x[k] = s * (strain.y[k] - (k < 3 ? third : Real{}));
+    const Mask yields = respond<is_plastic>(material, functions, x, hourglass, history + 6 * n_lanes, log_b,
+                                            mean, dev_tau, watch);
+    if (is_plastic && any(yields))
+      flow(yields, watch.share, log_b, strain);
+    strain.store_to(history);
+  }
+
+  /// exp(Y) by few terms or many.
+  BILLET_INLINE static Polynomial exponentiate(const Real i2, const Real i3, const Number first,
+                                               const bool is_small) {
+    return __builtin_expect(is_small, 1) ? exponential_series<n_small_exponential>(i2, i3, first)
+                                         : exponential_series<n_large_exponential>(i2, i3, first);
   }
 
   /// H = j⁻¹ b_e j⁻ᵀ after the return: s b_e = exp(mean) exp(β dev ln b_e).
   BILLET_INLINE static void flow(const Map &map, const Mask yields, const Real s, const Real beta,
-                                 const Real log_b[6], const Real mean, double *history) {
+                                 const Real log_b[6], const Real mean, Number *history) {
     Real y[6], y2[6], b[6];
     for (unsigned int k = 0; k < 6; ++k)
       y[k] = beta * log_b[k];
     square(y, y2);
-    const Real i2 = 0.5 * (y2[0] + y2[1] + y2[2]), i3 = determinant(y);
+    const Real i2 = 0.5_r * (y2[0] + y2[1] + y2[2]), i3 = determinant(y);
     const bool is_small = !any(!(i2 <= small_i2));
-    const Polynomial p =
-        __builtin_expect(is_small, 1) ? exponential_series<8>(i2, i3) : exponential_series<39>(i2, i3);
+    const Polynomial p = exponentiate(i2, i3, 1._r, is_small);
     const Real exp_mean =
         __builtin_expect(is_small, 1) ? exponential_series<5>(mean) : exponential_series<39>(mean);
     const Real scale = exp_mean / s * map.inverse_det * map.inverse_det;
@@ -301,15 +428,54 @@ struct Hencky {
     for (unsigned int k = 0; k < 6; ++k)
       store(history + k * n_lanes, select(yields, h[k], load(history + k * n_lanes)));
   }
+
+  /// b_e = exp(β dev ln b_e).
+  BILLET_INLINE static void flow(const Mask yields, const Real beta, const Real log_b[6], Strain &strain) {
+    Real y[6], y2[6];
+    for (unsigned int k = 0; k < 6; ++k)
+      y[k] = beta * log_b[k];
+    square(y, y2);
+    const Real i2 = 0.5_r * (y2[0] + y2[1] + y2[2]), i3 = determinant(y);
+    const Polynomial p = exponentiate(i2, i3, 0._r, !any(!(i2 <= small_i2)));
+    for (unsigned int k = 0; k < 6; ++k)
+      strain.y[k] = select(yields, p.p2 * y2[k] + p.p1 * y[k] + (k < 3 ? p.p0 : Real{}), strain.y[k]);
+  }
 };
 
-/// Simo's neo-Hookean law: b̄_e = J^{-2/3} j H jᵀ, det b̄_e = 1, dev τ = G dev b̄_e.
+/// Simo's neo-Hookean law: dev τ = G dev b̄_e, det b̄_e = 1.
 struct NeoHookean {
   static constexpr unsigned int n_tensor = 6;
 
+  /// `dev_tau`: of the trial state, G dev b̄_e, becomes that after the return but for the factor β where there
+  /// is flow. Returns where there is; `own`: 3/2 dev τ : dev τ of the trial state.
+  template <bool is_plastic>
+  BILLET_INLINE static Mask respond(const Material &material, const LaneFunctions &functions,
+                                    const Real dev_tau[6], const Real mean_bar, const Real hourglass,
+                                    Number *plastic, Real &own, Watch &watch) {
+    own = 1.5_r * contract(dev_tau, dev_tau);
+    const Real q = square_root(own + hourglass);
+    Mask yields{};
+    const Real beta = return_map<is_plastic>(material, functions, q, (3._r * material.shear) * mean_bar,
+                                             plastic, yields, watch);
+    // The bound of the tangent takes 2 G; what tr b̄_e/3 adds to it is put into the stress.
+    watch.mises = max(watch.mises, beta * q + (material.shear * (2._r / 3._r)) * (mean_bar - 1._r));
+    watch.share = beta;
+    return yields;
+  }
+
+  /// Where there is no flow.
+  BILLET_INLINE static void store_energy(const Material &material, const Real dev_tau[6], const Real mean_bar,
+                                         const Real own, Watch &watch) {
+    const Number flexibility = 1._r / material.shear;
+    const Real i2 = (flexibility * flexibility / 3._r) * own;
+    const Real i3 = (flexibility * flexibility * flexibility) * determinant(dev_tau);
+    watch.distortion = compute_distortion(material, mean_bar, i2, i3);
+  }
+
+  /// History H with b̄_e = J^{-2/3} j H jᵀ.
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, const Map &map,
-                                   const Real J, const Real hourglass, double *history, Real dev_tau[6],
+                                   const Real J, const Real hourglass, Number *history, Real dev_tau[6],
                                    Watch &watch) {
     Real h[6], b[6];
     for (unsigned int k = 0; k < 6; ++k)
@@ -317,51 +483,68 @@ struct NeoHookean {
     push(map.j, h, b);
     const Real root = inverse_cube_root(J);
     const Real scale = root * root;
-    const Real mean = (b[0] + b[1] + b[2]) * (1. / 3.);
+    const Real mean = (b[0] + b[1] + b[2]) * (1._r / 3._r);
     for (unsigned int k = 0; k < 6; ++k)
       dev_tau[k] = (material.shear * scale) * (b[k] - (k < 3 ? mean : Real{}));
-    const Real own = 1.5 * contract(dev_tau, dev_tau);
-    const Real q = square_root(own + hourglass);
-    Mask yields{};
     const Real mean_bar = scale * mean; // tr b̄_e / 3
-    const Real beta = return_map<is_plastic>(material, functions, q, (3. * material.shear) * mean_bar,
-                                             history + 6 * n_lanes, yields, watch);
-    // The bound of the tangent takes 2 G; what tr b̄_e/3 adds to it is put into the stress.
-    watch.mises = max(watch.mises, beta * q + (material.shear * (2. / 3.)) * (mean_bar - 1.));
-    watch.share = beta;
+    Real own;
+    const Mask yields = respond<is_plastic>(material, functions, dev_tau, mean_bar, hourglass,
+                                            history + 6 * n_lanes, own, watch);
     if (is_plastic && any(yields)) {
       for (unsigned int k = 0; k < 6; ++k)
-        dev_tau[k] *= beta;
-      flow(material, map, yields, scale, mean_bar, beta, dev_tau, history, watch);
-    } else {
-      const double flexibility = 1. / material.shear;
-      const Real i2 = (flexibility * flexibility / 3.) * own;
-      const Real i3 = (flexibility * flexibility * flexibility) * determinant(dev_tau);
-      watch.distortion = compute_distortion(material, mean_bar, i2, i3);
-    }
+        dev_tau[k] *= watch.share;
+      flow(material, map, yields, scale, mean_bar, watch.share, dev_tau, history, watch);
+    } else
+      store_energy(material, dev_tau, mean_bar, own, watch);
+  }
+
+  /// The same from the strain, which it puts into the history.
+  template <bool is_plastic>
+  BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, Strain &strain,
+                                   const Real hourglass, Number *history, Real dev_tau[6], Watch &watch) {
+    // b̄_e = (1 + Y)/det(1 + Y)^{1/3}
+    const Real *y = strain.y;
+    const Real trace = y[0] + y[1] + y[2];
+    const Real minors = y[0] * y[1] + y[1] * y[2] + y[2] * y[0] - (y[3] * y[3] + y[4] * y[4] + y[5] * y[5]);
+    const Real det = 1._r + (trace + (minors + determinant(y)));
+    watch.failed |= !(det > 0._r);
+    const Real scale = inverse_cube_root(det), mean = trace * (1._r / 3._r);
+    for (unsigned int k = 0; k < 6; ++k)
+      dev_tau[k] = (material.shear * scale) * (y[k] - (k < 3 ? mean : Real{}));
+    const Real mean_bar = scale * (1._r + mean);
+    Real own;
+    const Mask yields = respond<is_plastic>(material, functions, dev_tau, mean_bar, hourglass,
+                                            history + 6 * n_lanes, own, watch);
+    if (is_plastic && any(yields)) {
+      for (unsigned int k = 0; k < 6; ++k)
+        dev_tau[k] *= watch.share;
+      flow(material, yields, dev_tau, strain, watch);
+    } else
+      store_energy(material, dev_tau, mean_bar, own, watch);
+    strain.store_to(history);
   }
 
   /// ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e: x³ − 1 = i2 x − i3, without the
   /// difference of numbers next to 1.
   BILLET_INLINE static Real compute_distortion(const Material &material, const Real x, const Real i2,
                                                const Real i3) {
-    return (1.5 * material.shear) * (i2 * x - i3) / (x * (x + 1.) + 1.);
+    return (1.5_r * material.shear) * (i2 * x - i3) / (x * (x + 1._r) + 1._r);
   }
 
   /// b̄_e = dev τ/G + x 1 with the x that makes det b̄_e = 1: x³ − i2 x + i3 − 1 = 0. In H nothing but a
   /// multiple of j⁻¹ j⁻ᵀ is added.
   BILLET_INLINE static void flow(const Material &material, const Map &map, const Mask yields,
                                  const Real scale, const Real mean_bar, const Real beta,
-                                 const Real dev_tau[6], double *history, Watch &watch) {
-    const double flexibility = 1. / material.shear;
-    const Real i2 = (0.5 * flexibility * flexibility) * contract(dev_tau, dev_tau);
+                                 const Real dev_tau[6], Number *history, Watch &watch) {
+    const Number flexibility = 1._r / material.shear;
+    const Real i2 = (0.5_r * flexibility * flexibility) * contract(dev_tau, dev_tau);
     const Real i3 = (flexibility * flexibility * flexibility) * determinant(dev_tau);
-    Real x = 1. + i2 * (1. / 3.) - i3 * (1. / 3.), correction;
+    Real x = 1._r + i2 * (1._r / 3._r) - i3 * (1._r / 3._r), correction;
     unsigned int iteration = 0;
     do {
-      correction = (x * (x * x - i2) + i3 - 1.) / (3. * x * x - i2);
+      correction = (x * (x * x - i2) + i3 - 1._r) / (3._r * x * x - i2);
       x -= correction;
-    } while (any(abs(correction) > 1e-9) && ++iteration < 20);
+    } while (any(abs(correction) > 1e-9_r) && ++iteration < 20);
     watch.distortion = compute_distortion(material, x, i2, i3);
     const Real share = (x - beta * mean_bar) / scale * map.inverse_det * map.inverse_det;
     Real metric[6];
@@ -370,6 +553,24 @@ struct NeoHookean {
       const Real h = load(history + k * n_lanes);
       store(history + k * n_lanes, select(yields, beta * h + share * metric[k], h));
     }
+  }
+
+  /// b̄_e = dev τ/G + (1 + z) 1, the same with z: z (3 + z (3 + z)) − i2 (1 + z) + i3 = 0.
+  BILLET_INLINE static void flow(const Material &material, const Mask yields, const Real dev_tau[6],
+                                 Strain &strain, Watch &watch) {
+    const Number flexibility = 1._r / material.shear;
+    const Real i2 = (0.5_r * flexibility * flexibility) * contract(dev_tau, dev_tau);
+    const Real i3 = (flexibility * flexibility * flexibility) * determinant(dev_tau);
+    Real z = (i2 - i3) * (1._r / 3._r), correction;
+    unsigned int iteration = 0;
+    do {
+      correction =
+          (z * (3._r + z * (3._r + z)) - i2 * (1._r + z) + i3) / (3._r * (1._r + z) * (1._r + z) - i2);
+      z -= correction;
+    } while (any(abs(correction) > 1e-5_r) && ++iteration < 20);
+    watch.distortion = compute_distortion(material, 1._r + z, i2, i3);
+    for (unsigned int k = 0; k < 6; ++k)
+      strain.y[k] = select(yields, flexibility * dev_tau[k] + (k < 3 ? z : Real{}), strain.y[k]);
   }
 };
 
@@ -381,27 +582,23 @@ struct Hypoelastic {
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions,
                                    const Map &middle, const Real delta[3][3], const Real hourglass,
-                                   double *history, Real dev_tau[6], Watch &watch) {
-    Real l[3][3]; // l[k][i] = ΔL_ik = Σ_m Δ_im cof_km / det
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-        l[k][i] =
-            middle.inverse_det * (delta[0][i] * middle.cofactor[0][k] + delta[1][i] * middle.cofactor[1][k] +
-                                  delta[2][i] * middle.cofactor[2][k]);
+                                   Number *history, Real dev_tau[6], Watch &watch) {
+    Real l[3][3]; // ΔL
+    compute_gradient(middle, delta, l);
     rotate(l, history, dev_tau);
-    const Real mean = (l[0][0] + l[1][1] + l[2][2]) * (1. / 3.);
+    const Real mean = (l[0][0] + l[1][1] + l[2][2]) * (1._r / 3._r);
     for (unsigned int k = 0; k < 3; ++k)
-      dev_tau[k] += (2. * material.shear) * (l[k][k] - mean);
+      dev_tau[k] += (2._r * material.shear) * (l[k][k] - mean);
     for (unsigned int k = 3; k < 6; ++k)
       dev_tau[k] += material.shear * (l[column_of[k]][row_of[k]] + l[row_of[k]][column_of[k]]);
 
-    const Real own = 1.5 * contract(dev_tau, dev_tau);
+    const Real own = 1.5_r * contract(dev_tau, dev_tau);
     const Real q = square_root(own + hourglass);
     Mask yields{};
-    const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3. * material.shear),
+    const Real beta = return_map<is_plastic>(material, functions, q, broadcast(3._r * material.shear),
                                              history + 5 * n_lanes, yields, watch);
     watch.mises = max(watch.mises, beta * q);
-    watch.distortion = beta * beta * own * (1. / (6. * material.shear));
+    watch.distortion = beta * beta * own * (1._r / (6._r * material.shear));
     watch.share = beta;
     if (is_plastic)
       for (unsigned int k = 0; k < 6; ++k)
@@ -412,7 +609,7 @@ struct Hypoelastic {
       store(history + (k - 1) * n_lanes, dev_tau[k]);
   }
 
-  BILLET_INLINE static void rotate(const Real l[3][3], const double *history, Real dev_tau[6]) {
+  BILLET_INLINE static void rotate(const Real l[3][3], const Number *history, Real dev_tau[6]) {
     Real s[6];
     s[0] = load(history);
     s[1] = load(history + n_lanes);
@@ -420,19 +617,26 @@ struct Hypoelastic {
     for (unsigned int k = 3; k < 6; ++k)
       s[k] = load(history + (k - 1) * n_lanes);
     // W is the cross product with w; R = 1 + (W + W²/2)/(1 + w²/4).
-    const Real w[3] = {0.5 * (l[1][2] - l[2][1]), 0.5 * (l[2][0] - l[0][2]), 0.5 * (l[0][1] - l[1][0])};
+    const Real w[3] = {0.5_r * (l[1][2] - l[2][1]), 0.5_r * (l[2][0] - l[0][2]), 0.5_r * (l[0][1] - l[1][0])};
     const Real w2 = dot(w, w);
-    const Real a = 1. / (1. + 0.25 * w2);
+    const Real a = 1._r / (1._r + 0.25_r * w2);
     Real r[3][3];
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
-        r[k][i] = (0.5 * a) * (w[i] * w[k] - (i == k ? w2 : Real{})) + (i == k ? 1. : 0.);
+        r[k][i] = (0.5_r * a) * (w[i] * w[k] - (i == k ? w2 : Real{})) + (i == k && !is_single ? 1._r : 0._r);
     for (unsigned int k = 0; k < 3; ++k) {
       const unsigned int i = (k + 1) % 3, m = (k + 2) % 3;
       r[i][m] += a * w[k]; // W_mi = w_k, W_im = −w_k
       r[m][i] -= a * w[k];
     }
-    push(r, s, dev_tau);
+    if constexpr (is_single) { // r is R − 1: what a small rotation changes is small, to its last digits
+      Real m[3][3], change[6];
+      multiply(r, s, m);
+      compute_change(r, m, change);
+      for (unsigned int k = 0; k < 6; ++k)
+        dev_tau[k] = s[k] + change[k];
+    } else
+      push(r, s, dev_tau);
   }
 };
 

@@ -16,25 +16,26 @@ namespace one_point {
 constexpr unsigned int volume = 0, inverse_det = 1, mean_bound = 2, hourglass_bound = 3;
 constexpr unsigned int beta = 4;    ///< J̄_k = Σ_m m β_mk over the modes a and b: 3 m + k
 constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
-// History: that of the last call, ĥ_0, then the point's.
+constexpr unsigned int modes = 28;  ///< of the reference positions, in float
+// History: that of the last call, ĥ_0 (in float ĥ itself), then the point's.
 constexpr unsigned int hourglass = last::n, point = hourglass + 12;
 } // namespace one_point
 
 /// Stress-like numbers of the hourglass strains `h` (of b_1, b_2, b_3, c, in the element's own directions),
 /// per volume, and the energy per volume.
 struct HourglassModuli {
-  double plane, coupling; ///< E/(1 − ν²)/3, and ν times that
-  double shear, axial;    ///< G/3, E/9
-  double bending_bound;   ///< E/(1 − ν)/3
+  Number plane, coupling; ///< E/(1 − ν²)/3, and ν times that
+  Number shear, axial;    ///< G/3, E/9
+  Number bending_bound;   ///< E/(1 − ν)/3
 
   explicit HourglassModuli(const Material &material) {
-    const double K = material.bulk, G = material.shear;
-    const double E = 9. * K * G / (3. * K + G), nu = (3. * K - 2. * G) / (6. * K + 2. * G);
-    plane = E / (1. - nu * nu) / 3.;
+    const Number K = material.bulk, G = material.shear;
+    const Number E = 9._r * K * G / (3._r * K + G), nu = (3._r * K - 2._r * G) / (6._r * K + 2._r * G);
+    plane = E / (1._r - nu * nu) / 3._r;
     coupling = nu * plane;
-    shear = G / 3.;
-    axial = E / 9.;
-    bending_bound = E / (1. - nu) / 3.;
+    shear = G / 3._r;
+    axial = E / 9._r;
+    bending_bound = E / (1._r - nu) / 3._r;
   }
 
   /// Bending stretches two edges linearly along the third direction; torsion shears linearly.
@@ -53,7 +54,7 @@ struct HourglassModuli {
     s[2][2] = g13 * ratio[4] + g23 * ratio[5];
     Real energy{};
     for (unsigned int m = 0; m < 4; ++m)
-      energy += 0.5 * dot(h[m], s[m]);
+      energy += 0.5_r * dot(h[m], s[m]);
     return energy;
   }
 
@@ -69,7 +70,7 @@ struct HourglassModuli {
 };
 
 /// Columns of J̄.
-BILLET_INLINE void compute_mean(const Modes &modes, const double *constants, Real columns[3][3]) {
+BILLET_INLINE void compute_mean(const Modes &modes, const Number *constants, Real columns[3][3]) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i) {
       Real sum{};
@@ -85,31 +86,81 @@ struct HourglassTrial {
   Real density; ///< energy per reference volume, the scene's factor counted
 };
 
-BILLET_INLINE void compute_hourglass(const Material &material, const HourglassModuli &moduli, const Modes &x,
-                                     const Map &map, const double *constants, const double *history,
-                                     HourglassTrial &trial) {
+/// Maps of the mean deformation.
+struct MeanMotion {
+  Map now, before; ///< `before` the step, in float
+  Real d[3][3];    ///< columns of J̄ less those before the step, where they are asked
+  Real J;          ///< but for small changes
+};
+
+template <bool with_step>
+BILLET_INLINE void compute_mean_motion(const Motion &motion, const Number *constants, MeanMotion &mean) {
+  compute_mean(motion.x, constants, mean.now.j);
+  mean.now.complete();
+  mean.J = mean.now.det * load(constants + one_point::inverse_det * n_lanes);
+  if constexpr (with_step || is_single)
+    compute_mean(motion.delta, constants, mean.d);
+  if constexpr (is_single) {
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+        mean.before.j[k][i] = mean.now.j[k][i] - mean.d[k][i];
+    mean.before.complete();
+  }
+}
+
+/// det J̄ less that before the step, as small as the step.
+BILLET_INLINE Real compute_change(const MeanMotion &mean) {
+  Real middle[3];
+  cross(mean.d[1], mean.now.j[2], middle);
+  return dot(mean.d[0], mean.now.cofactor[0]) +
+         (dot(mean.before.j[0], middle) + dot(mean.d[2], mean.before.cofactor[2]));
+}
+
+/// In float from the step: ĉ ← ĉ + J̄⁻¹ {Δ(b_1, b_2, b_3, c) − ΔJ̄ ĉ}, and so ĥ, which the history has.
+BILLET_INLINE void compute_hourglass(const Material &material, const HourglassModuli &moduli,
+                                     const Motion &motion, const MeanMotion &mean, const Number *constants,
+                                     Number *history, HourglassTrial &trial) {
   for (unsigned int k = 0; k < 6; ++k)
     trial.ratio[k] = load(constants + (one_point::ratios + k) * n_lanes);
   for (unsigned int m = 0; m < 4; ++m)
-    for (unsigned int k = 0; k < 3; ++k) {
-      trial.c[m][k] = map.inverse_det * dot(map.cofactor[k], x.m[3 + m]);
-      trial.h[m][k] = trial.c[m][k] - load(history + (one_point::hourglass + 3 * m + k) * n_lanes);
-    }
+    if constexpr (is_single) {
+      Real b[3], c[3], y[3];
+      for (unsigned int i = 0; i < 3; ++i)
+        b[i] = motion.x.m[3 + m][i] - motion.delta.m[3 + m][i];
+      for (unsigned int k = 0; k < 3; ++k)
+        c[k] = mean.before.inverse_det * dot(mean.before.cofactor[k], b);
+      for (unsigned int i = 0; i < 3; ++i)
+        y[i] = motion.delta.m[3 + m][i] - (mean.d[0][i] * c[0] + mean.d[1][i] * c[1] + mean.d[2][i] * c[2]);
+      for (unsigned int k = 0; k < 3; ++k) {
+        const Real change = mean.now.inverse_det * dot(mean.now.cofactor[k], y);
+        Number *strain = history + (one_point::hourglass + 3 * m + k) * n_lanes;
+        trial.c[m][k] = c[k] + change;
+        trial.h[m][k] = load(strain) + change;
+        store(strain, trial.h[m][k]);
+      }
+    } else
+      for (unsigned int k = 0; k < 3; ++k) {
+        trial.c[m][k] = mean.now.inverse_det * dot(mean.now.cofactor[k], motion.x.m[3 + m]);
+        trial.h[m][k] = trial.c[m][k] - load(history + (one_point::hourglass + 3 * m + k) * n_lanes);
+      }
   trial.density = material.hourglass_stiffness * moduli.respond(trial.h, trial.ratio, trial.s);
 }
 
 /// Plastic flow leaves the `share` of the hourglass strains' elastic part that it leaves of the point's
-/// stress, (M33): ĥ_0 takes the rest.
-BILLET_INLINE void flow(const Real share, double *history, HourglassTrial &trial) {
-  if (!any(share < 1.))
+/// stress, (M33): ĥ_0 takes the rest, where the history has that.
+BILLET_INLINE void flow(const Real share, Number *history, HourglassTrial &trial) {
+  if (!any(share < 1._r))
     return;
-  const Real lost = 1. - share;
+  const Real lost = 1._r - share;
   trial.density *= share * share;
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int k = 0; k < 3; ++k) {
-      double *shift = history + (one_point::hourglass + 3 * m + k) * n_lanes;
-      store(shift, load(shift) + lost * trial.h[m][k]);
+      Number *shift = history + (one_point::hourglass + 3 * m + k) * n_lanes;
+      if constexpr (!is_single)
+        store(shift, load(shift) + lost * trial.h[m][k]);
       trial.h[m][k] *= share;
+      if constexpr (is_single)
+        store(shift, trial.h[m][k]);
       trial.s[m][k] *= share;
     }
 }
@@ -118,7 +169,7 @@ BILLET_INLINE void flow(const Real share, double *history, HourglassTrial &trial
 /// stiffness.
 BILLET_INLINE Real add_hourglass(const Material &material, const HourglassModuli &moduli,
                                  const HourglassTrial &hourglass, const Map &map, const Real metric[6],
-                                 const Real eigenvalue, const double *constants, Modes &forces,
+                                 const Real eigenvalue, const Number *constants, Modes &forces,
                                  Real mean_forces[3][3]) {
   const Real total = material.hourglass_stiffness * load(constants + one_point::volume * n_lanes);
   const Real factor = total * map.inverse_det;
@@ -135,26 +186,29 @@ BILLET_INLINE Real add_hourglass(const Material &material, const HourglassModuli
         mean_forces[k][i] -= t * c[k];
     }
   }
-  return total * moduli.bound(metric, eigenvalue, hourglass.ratio) * (1. + c2 + square_root(h2) * (2. + c2)) *
-         load(constants + one_point::hourglass_bound * n_lanes);
+  return total * moduli.bound(metric, eigenvalue, hourglass.ratio) *
+         (1._r + c2 + square_root(h2) * (2._r + c2)) * load(constants + one_point::hourglass_bound * n_lanes);
 }
 
 template <class Law, bool is_plastic>
-BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &functions, const Modes &delta,
-                               const double *constants, const Real J, const Real hourglass, const Map &map,
-                               double *history, Real dev_tau[6], Watch &watch) {
+BILLET_INLINE void update_mean(const Material &material, const LaneFunctions &functions,
+                               const MeanMotion &mean, const Real hourglass, Number *history, Real dev_tau[6],
+                               Watch &watch) {
   if constexpr (is_rate_form<Law>) {
-    Real d[3][3];
-    compute_mean(delta, constants, d);
     Map middle;
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
-        middle.j[k][i] = map.j[k][i] - 0.5 * d[k][i];
+        middle.j[k][i] = mean.now.j[k][i] - 0.5_r * mean.d[k][i];
     middle.complete();
-    watch.failed |= !(middle.det > 0.);
-    Law::template update<is_plastic>(material, functions, middle, d, hourglass, history, dev_tau, watch);
+    watch.failed |= !(middle.det > 0._r);
+    Law::template update<is_plastic>(material, functions, middle, mean.d, hourglass, history, dev_tau, watch);
+  } else if constexpr (is_single) {
+    Strain strain;
+    strain.advance(mean.before, mean.d, history);
+    Law::template update<is_plastic>(material, functions, strain, hourglass, history, dev_tau, watch);
   } else
-    Law::template update<is_plastic>(material, functions, map, J, hourglass, history, dev_tau, watch);
+    Law::template update<is_plastic>(material, functions, mean.now, mean.J, hourglass, history, dev_tau,
+                                     watch);
 }
 
 template <class Law, bool is_plastic>
@@ -163,26 +217,31 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
                                            const std::size_t batch, Totals &totals, Result &result) {
   const Layout &layout = elements.layout;
   const std::uint32_t *nodes = elements.nodes + batch * 8 * n_lanes;
-  const double *constants = elements.constants + batch * layout.n_constants * n_lanes;
-  double *history = elements.history + batch * layout.n_history * n_lanes;
+  const Number *constants = elements.constants + batch * layout.n_constants * n_lanes;
+  Number *history = elements.history + batch * layout.n_history * n_lanes;
 
-  Modes x, delta;
-  gather_modes<true>(elements.reference_positions, step.displacements, nodes, x);
-  if constexpr (is_rate_form<Law>)
-    gather_increment(step, nodes, delta);
-  Map map;
-  compute_mean(x, constants, map.j);
-  map.complete();
-  const Real J = map.det * load(constants + one_point::inverse_det * n_lanes);
+  Motion motion;
+  gather_motion<is_rate_form<Law>>(elements, step, nodes, constants + one_point::modes * n_lanes, motion);
+  MeanMotion mean;
+  compute_mean_motion<is_rate_form<Law>>(motion, constants, mean);
+  const Map &map = mean.now;
+  const Real J = mean.J;
   const Real reference_volume = load(constants + one_point::volume * n_lanes);
-  Real stress[6], metric[6];
   Watch watch;
-  double *point_history = history + one_point::point * n_lanes;
+  VolumeChange volume;
+  if constexpr (is_single) {
+    watch.failed |= !(mean.before.det > 0._r);
+    const Real scale = reference_volume * load(constants + one_point::inverse_det * n_lanes);
+    volume = add_volume(scale * compute_change(mean), reference_volume, history);
+  } else
+    volume = compare_volume(reference_volume * J, J, history);
+  Real stress[6], metric[6];
+  Number *point_history = history + one_point::point * n_lanes;
   const HourglassModuli moduli(material);
   HourglassTrial hourglass;
-  compute_hourglass(material, moduli, x, map, constants, history, hourglass);
-  update_mean<Law, is_plastic>(material, functions, delta, constants, J,
-                               (6. * material.shear) * hourglass.density, map, point_history, stress, watch);
+  compute_hourglass(material, moduli, motion, mean, constants, history, hourglass);
+  update_mean<Law, is_plastic>(material, functions, mean, (6._r * material.shear) * hourglass.density,
+                               point_history, stress, watch);
   if constexpr (is_plastic)
     flow(watch.share, history, hourglass);
   map.compute_metric(metric);
@@ -191,9 +250,8 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   const Real eigenvalue = bound_eigenvalue(metric);
   const Real omega = reference_volume * eigenvalue * load(constants + one_point::mean_bound * n_lanes);
 
-  const Real mean_tau = material.bulk * logarithm(J);
-  const Real volume = reference_volume * J;
-  const Damping damping = compute_viscosity(material, volume, history, step.inverse_dt);
+  const Real mean_tau = material.bulk * volume.logarithm_of_J;
+  const Damping damping = compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));
   store(history + last::omega * n_lanes, omega);
   const Real factor = reference_volume * map.inverse_det, pressure = mean_tau + J * damping.pressure;
   for (unsigned int k = 0; k < 6; ++k)
@@ -211,14 +269,14 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
         forces.m[m][i] += mean_forces[k][i] * load(constants + (one_point::beta + 3 * m + k) * n_lanes);
   const std::size_t first = batch * n_lanes;
   const std::size_t n = count_elements(elements, first);
-  scatter_modes(forces, nodes, n, step.forces);
+  scatter_modes(forces, nodes, n, step);
 
-  const Real modulus = max_modulus(material) + 4. * abs(mean_tau) + 3. * watch.mises;
+  const Real modulus = max_modulus(material) + 4._r * abs(mean_tau) + 3._r * watch.mises;
   const Real elastic = watch.distortion + compute_dilatation_energy(material, mean_tau);
   const Energies energies{reference_volume * elastic, reference_volume * watch.plastic_work, damping.work,
                           reference_volume * hourglass.density};
   totals.add(n, bound_rate(modulus * omega + hourglass_bound, damping.rate * J * omega), energies);
-  const Mask bad = watch.failed | !(map.det > 0. && map.det < 1e300);
+  const Mask bad = watch.failed | !(map.det > 0._r && map.det < finite_bound);
   if (__builtin_expect(any(bad), 0))
     note_failure(bad, first, result);
 }

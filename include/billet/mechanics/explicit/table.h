@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// No guard: the one file of each instruction set includes it once, after BILLET_LANES and BILLET_KERNEL_TABLE
-// (the name of its table in kernel.h) are defined.
+// No guard: the one file of each instruction set and type of number includes it once, after BILLET_LANES,
+// BILLET_SINGLE and BILLET_KERNEL_TABLE (the name of its table in kernel.h) are defined.
 #include "billet/mechanics/explicit/eight_point.h"
 #include "billet/mechanics/explicit/one_point.h"
 
 namespace billet::explicit_kernels {
 
-const KernelTable BILLET_KERNEL_TABLE = {
+const KernelTable<Number> BILLET_KERNEL_TABLE = {
     n_lanes,
     {{{advance_eight_point<Hencky, false>, advance_eight_point<Hencky, true>},
       {advance_eight_point<NeoHookean, false>, advance_eight_point<NeoHookean, true>},
