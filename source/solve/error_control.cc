@@ -209,13 +209,22 @@ ErrorControl::Estimate ErrorControl::estimate() const {
   return {steps_ / work_, penetration_ / work_, iterations_ / work_};
 }
 
+void ErrorControl::save(StateWriter &writer, const std::string &name, const Forces &forces) {
+  std::vector<double> numbers;
+  for (const auto &force : forces)
+    numbers.insert(numbers.end(), force.begin_raw(), force.end_raw());
+  writer.write(name, numbers);
+}
+
+ErrorControl::Forces ErrorControl::load(const StateReader &reader, const std::string &name) {
+  const std::vector<double> numbers = reader.read(name);
+  Forces forces;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    forces.push_back(Force({numbers[i], numbers[i + 1], numbers[i + 2]}));
+  return forces;
+}
+
 void ErrorControl::save(StateWriter &writer) const {
-  const auto pack = [&writer](const std::string &name, const Forces &forces) {
-    std::vector<double> numbers;
-    for (const auto &force : forces)
-      numbers.insert(numbers.end(), force.begin_raw(), force.end_raw());
-    writer.write(name, numbers);
-  };
   writer.write("errors", {start_,
                           time_,
                           last_force_,
@@ -241,18 +250,11 @@ void ErrorControl::save(StateWriter &writer) const {
                           static_cast<double>(penetration_interval_),
                           is_little_ ? 1. : 0.,
                           part_});
-  pack("errors by steps", slopes_);
-  pack("errors of forces", errors_);
+  save(writer, "errors by steps", slopes_);
+  save(writer, "errors of forces", errors_);
 }
 
 void ErrorControl::load(const StateReader &reader) {
-  const auto unpack = [&reader](const std::string &name) {
-    const std::vector<double> numbers = reader.read(name);
-    Forces forces;
-    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
-      forces.push_back(dealii::Tensor<1, 3>({numbers[i], numbers[i + 1], numbers[i + 2]}));
-    return forces;
-  };
   const std::vector<double> state = reader.read("errors");
   start_ = state.at(0);
   time_ = state.at(1);
@@ -279,8 +281,8 @@ void ErrorControl::load(const StateReader &reader) {
   penetration_interval_ = static_cast<unsigned int>(state.at(22));
   is_little_ = state.at(23) > 0.;
   part_ = state.at(24);
-  slopes_ = unpack("errors by steps");
-  errors_ = unpack("errors of forces");
+  slopes_ = load(reader, "errors by steps");
+  errors_ = load(reader, "errors of forces");
 }
 
 } // namespace billet

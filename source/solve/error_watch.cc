@@ -159,12 +159,26 @@ void ErrorWatch::after_failure() {
 void ErrorWatch::save(StateWriter &writer) const {
   errors_.save(writer);
   writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
+  // Between two steps that are compared with one: that one, too.
+  writer.write("comparison",
+               {probe_length_, probe_end_, last_residual_, probe_.newton.force, probe_.penetration});
+  ErrorControl::save(writer, "probed forces", probe_.forces);
+  ErrorControl::save(writer, "without penetration", probe_.without_penetration);
 }
 
 void ErrorWatch::load(const StateReader &reader) {
   errors_.load(reader);
   allow_penetration();
   n_iterations_ = static_cast<unsigned int>(reader.read("iterations of measurements").at(0));
+  const std::vector<double> comparison = reader.read("comparison");
+  probe_length_ = comparison.at(0);
+  probe_end_ = comparison.at(1);
+  last_residual_ = comparison.at(2);
+  probe_.newton.force = comparison.at(3);
+  probe_.penetration = comparison.at(4);
+  probe_.forces = ErrorControl::load(reader, "probed forces");
+  probe_.without_penetration = ErrorControl::load(reader, "without penetration");
+  demand_accuracy(probe_length_ > 0.);
 }
 
 } // namespace billet

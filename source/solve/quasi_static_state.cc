@@ -30,6 +30,12 @@ void QuasiStatic::save(StateWriter &writer) const {
   save_nodal(writer, "support forces", nodes, support_forces_n_);
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
+  if (probe_ && probe_->time > state_.time)
+    writer.in("probe", [&] {
+      writer.write("time", {probe_->time});
+      writer.write("offsets", probe_->offsets);
+      save_nodal(writer, "displacements", nodes, probe_->displacements);
+    });
   if (motion_) {
     writer.write("kinetic energy", {state_.energies.kinetic});
     save_nodal(writer, "contact forces", nodes, contact_forces_n_);
@@ -141,6 +147,12 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
       if (balance.at(3) != 0.)
         motion_->damp_contact(contact_forces_n_); // the next step begins with that anew
     }
+    if (report.is_exact && reader.has("probe"))
+      reader.in("probe", [&] {
+        probe_ =
+            std::make_unique<ProbedState>(ProbedState{reader.number("time"), u_n_, reader.read("offsets")});
+        load_nodal(reader, "displacements", nodes, probe_->displacements);
+      });
     const std::vector<double> scales = reader.read("scales");
     lasting_scale_ = scales.at(0);
     has_lost_pace_ = scales.at(1) != 0.;

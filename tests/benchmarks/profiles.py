@@ -66,7 +66,8 @@ def without_time(changes, path):
     entries = {**read_entries(path), **{key: value for key, value in changes.items() if value is not None}}
     end = float(entries.get("Time stepping/End time", 1))
     steps = {} if entries.get("Time stepping/Scheme") == "explicit" else {
-        f"Time stepping/{name} step": repr(1e-7 * end) for name in ("Initial", "Smallest", "Largest")}
+        f"Time stepping/{name} step": repr(1e-7 * end) for name in (
+            ("Initial",) if entries.get("Time stepping/Step control") == "fixed" else ("Initial", "Smallest", "Largest"))}
     return {**changes, **steps, "Time stepping/End time": repr(1e-7 * end), "Time stepping/Stops": None}
 
 

@@ -88,7 +88,7 @@ my %base = (block => $block, impact => $impact, aimed => $block, drop => read_te
 my %every = (block => 'set Every steps = 1', impact => 'set Interval = 0.1e-3', aimed => 'set Every steps = 1',
   drop => 'set Every steps = 1');
 # With a target error, what was measured so far goes on, too.
-my %extra = (block => '', impact => ' & Output: Interval = 0.1e-3', drop => ' & Target error = 1 % & Time stepping: End time = 0.1e-3',
+my %extra = (block => '', impact => ' & Output: Interval = 0.1e-3', drop => ' & Target error = 1 % & Time stepping: End time = 0.1e-3 & + subsection Solver\n set Force tolerance = 1e-10\nend',
   aimed => ' & Target error = 1 % & Time stepping: - Initial step & Time stepping: - Largest step');
 for my $which ('block', 'impact', 'aimed', 'drop')
 {
@@ -116,7 +116,8 @@ for my $which ('block', 'impact', 'aimed', 'drop')
     copy_folder("${which}2.whole", "${which}3");
     scene('other_ranks.prm', $base{$which}, "Output: Folder = ${which}3$extra{$which}", "$every{$which}\\nset Keep = 100");
     runs(0, on(1, '--restart', "${which}3/checkpoint_00001.h5", 'other_ranks.prm'));
-    return largest_difference("${which}2.whole/history.csv", "${which}3/history.csv", '^time$', 'force', 'travel');
+    my $forces = $which eq 'drop' ? 'force_[yz]' : 'force'; # along x there is nothing but round-off
+    return largest_difference("${which}2.whole/history.csv", "${which}3/history.csv", '^time$', $forces, 'travel');
   } if @launcher;
 }
 for my $types (['double', 'float'], ['float', 'double'])
@@ -258,7 +259,7 @@ my @refused = (
   ['an empty file', spoiled('empty.h5', sub { $_[0] = '' }), '', 'is no checkpoint of billet;'],
   ['cut short', spoiled('short.h5', sub { $_[0] = substr $_[0], 0, length($_[0]) - 100 }), '', 'is cut short: \d+ of \d+ bytes are there;'],
   ['a flipped bit', spoiled('flipped.h5', sub { substr($_[0], length($_[0]) / 2, 1) ^= "\x10" }), '', 'is damaged: its checksum does not fit;'],
-  ['another format', spoiled('format.h5', sub { $_[0] =~ s/format 2/format 9/ }), '', 'has format 9, this program reads format 2;'],
+  ['another format', spoiled('format.h5', sub { $_[0] =~ s/format 3/format 9/ }), '', 'has format 9, this program reads format 3;'],
   ['another version', spoiled('version.h5', sub { $_[0] =~ s/program \d/program 7/ }), '', 'was written by billet 7\S+, this is billet \S+;'],
   ['another mesh', $good, 'Mesh: Arguments = 2, 2, 2 : 0, 0, 0 : 2, 1, 2 : true', "does not fit this scene: its body 'block' has 4 elements, here it has 8"],
   ['another shape', $good, 'Mesh: Arguments = 2, 1, 2 : 0, 0, 0 : 2, 1.1, 2 : true', "does not fit this scene: its body 'block' has another mesh"],

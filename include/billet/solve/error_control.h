@@ -7,6 +7,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace billet {
@@ -69,6 +70,8 @@ public:
 
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
+  static void save(StateWriter &writer, const std::string &name, const Forces &forces);
+  static Forces load(const StateReader &reader, const std::string &name);
 
 private:
   double force_scale() const;
