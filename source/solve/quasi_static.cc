@@ -57,10 +57,6 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
       body_contacts_.back()->check_overlap();
   }
-  has_friction_ = std::any_of(scene.pairs().begin(), scene.pairs().end(),
-                              [](const ContactPair &pair) { return pair.has_friction(); }) ||
-                  std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(),
-                              [](const BodyPair &pair) { return pair.has_friction(); });
   state_.body_pair_loads.resize(body_contacts_.size());
   if (body_contacts_.empty()) // else when it is known who touches whom
     build_matrix();

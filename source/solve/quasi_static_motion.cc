@@ -137,9 +137,7 @@ void QuasiStatic::choose_contact_damping() {
   if (!motion_)
     return;
   bare_forces_n_ = support_forces_n_;
-  if (has_friction_)
-    damp_contact();
-  else if (motion_->damps_contact() && contact_forces_n_.l2_norm() == 0.)
+  if (motion_->damps_contact() && contact_forces_n_.l2_norm() == 0.)
     motion_->release_contact();
   else if (motion_->damps_contact())
     damp_contact();

@@ -225,7 +225,6 @@ private:
   // largest energy so far.
   double contact_balance_ = 0., contact_taken_ = 0., largest_energy_ = 0.;
   bool has_told_taken_ = false;
-  bool has_friction_ = false; ///< any pair
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
 
   double time_ = 0.;     ///< end of the step that is tried
