@@ -20,8 +20,7 @@ namespace {
 
 using Path = SceneFile::Path;
 
-/// Schemes for which a row counts; statics with and without materials, or friction, whose answer depends on
-/// the steps.
+/// Schemes for which a row counts; statics with and without materials, or friction, that depend on the path.
 constexpr unsigned int statics_with_path = 1, statics_without_path = 8, implicit_dynamics = 2,
                        explicit_dynamics = 4, statics = statics_with_path | statics_without_path,
                        implicit = statics | implicit_dynamics;
@@ -60,10 +59,8 @@ constexpr std::array<Row, 19> rows = {{
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
     {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.9", "0.4", "0.9"},
     // Elements and laws. A target error leaves the elements to the scene, as it does the mesh; the law with
-    // the
-    // final instantaneous rotation differs from the multiplicative one by less than a thousandth where
-    // elastic
-    // strains are small.
+    // the final instantaneous rotation differs from the multiplicative one by less than a thousandth where
+    // elastic strains are small.
     {explicit_dynamics, "Bodies", "Element", "one point", "", ""},
     {explicit_dynamics, "Materials", "Kinematics", "hypoelastic", "", "hypoelastic"},
 }};

@@ -67,16 +67,28 @@ double QuasiStatic::find_spring_round_off() const {
          (discretization_.centre().norm() + discretization_.radius());
 }
 
-void QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
-                                        const std::vector<double> &errors) {
-  // An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's.
-  constexpr double slow = 0.25, wanted = 0.1; // Bertsekas, Constrained Optimization, 1982, sec. 2.2.5
+std::vector<double> QuasiStatic::stiffening_left() const {
   std::vector<double> room;
   for (const auto &contact : contacts_)
     room.push_back(contact.stiffening_left());
   for (const auto &contact : body_contacts_)
     room.push_back(contact->stiffening_left());
   dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
+  return room;
+}
+
+void QuasiStatic::stiffen(const std::size_t contact, const double factor) {
+  if (contact < contacts_.size())
+    contacts_[contact].stiffen(factor);
+  else
+    body_contacts_[contact - contacts_.size()]->stiffen(factor);
+}
+
+void QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
+                                        const std::vector<double> &errors) {
+  // An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's.
+  constexpr double slow = 0.25, wanted = 0.1; // Bertsekas, Constrained Optimization, 1982, sec. 2.2.5
+  const std::vector<double> room = stiffening_left();
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double left = errors[i] / before[i];
@@ -85,22 +97,14 @@ void QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
     const double factor =
         left < 1. ? std::min(room[i], left / (1. - left) * (1. - wanted) / wanted) : room[i];
     is_stiffer = true;
-    if (i < contacts_.size())
-      contacts_[i].stiffen(factor);
-    else
-      body_contacts_[i - contacts_.size()]->stiffen(factor);
+    stiffen(i, factor);
   }
   if (is_stiffer)
     spring_round_off_ = find_spring_round_off();
 }
 
 std::string QuasiStatic::soften_augmented_contacts() {
-  std::vector<double> room;
-  for (const auto &contact : contacts_)
-    room.push_back(contact.stiffening_left());
-  for (const auto &contact : body_contacts_)
-    room.push_back(contact->stiffening_left());
-  dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
+  const std::vector<double> room = stiffening_left();
   std::ostringstream note;
   for (std::size_t i = 0; i < room.size(); ++i) {
     if (!(room[i] < 1.))
@@ -109,10 +113,7 @@ std::string QuasiStatic::soften_augmented_contacts() {
     if ((is_tool ? scene_.pairs()[contacts_[i].pair()].penetration_tolerance
                  : scene_.body_pairs()[i - contacts_.size()].penetration_tolerance) == 0.)
       continue;
-    if (is_tool)
-      contacts_[i].stiffen(room[i]);
-    else
-      body_contacts_[i - contacts_.size()]->stiffen(room[i]);
+    stiffen(i, room[i]);
     note << "The penalty of contact pair '"
          << (is_tool ? scene_.pairs()[contacts_[i].pair()].name
                      : body_contacts_[i - contacts_.size()]->name())

@@ -123,8 +123,7 @@ private:
   /// What contact takes in the step at its end, less what springs then store and friction dissipates; < 0: it
   /// makes energy. Collective.
   double contact_loss(double t) const;
-  /// Steps with friction, which has no potential, are damped by (I6); others, once damped, until contacts
-  /// have opened.
+  /// Once damped by (I6) steps stay so until contacts have opened.
   void choose_contact_damping();
   void damp_contact();
   bool contact_makes_energy(double t, NewtonReport &report);
@@ -169,6 +168,10 @@ private:
   std::vector<double> augmentation_errors() const;
   /// The largest of them. Collective.
   double augmentation_error() const;
+  /// Of each contact, tools first: how many times as stiff its penalties may become. Collective.
+  std::vector<double> stiffening_left() const;
+  /// The penalties of one of these contacts.
+  void stiffen(std::size_t contact, double factor);
   /// Makes the penalties of contacts stiffer whose errors fell by little since `before`. Collective.
   void stiffen_slow_contacts(const std::vector<double> &before, const std::vector<double> &errors);
   /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that. Empty if there are
