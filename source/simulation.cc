@@ -343,12 +343,18 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
   const ErrorControl::Estimate estimate = watch.control().estimate();
   ErrorReport result;
   result.of_what = "forces";
+  result.is_known = watch.control().has_forces();
   result.sources = {
       {"steps", estimate.steps,
        "try a smaller 'Largest step' or 'Initial step': no step is taken back for its error, and "
        "where contacts come and go their estimate is on the safe side"},
       {"penetrations", estimate.penetration,
-       "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error"},
+       watch.controls_penetration()
+           ? "what they are at the start, and where much begins to touch at once, is known afterwards only: "
+             "try "
+             "a smaller 'Initial step', or a 'Penetration tolerance' of your own in every pair"
+           : "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error in all "
+             "pairs"},
       {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
   result.costs = {{"steps taken", report.step},
                   {"Newton iterations", report.total_iterations},
@@ -433,8 +439,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
     if (report.newton.converged) {
       control.accept(static_cast<unsigned int>(report.newton.hardest), problem.time_error());
-      if (watch)
+      if (watch) {
         watch->after_step(control, report.length, report.newton);
+        outputs.progress.warn(watch->take_note(control));
+      }
       if (errors) {
         const double factor = errors->step_factor();
         errors->add(control.time(), problem.state().energies);

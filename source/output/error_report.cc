@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -22,6 +23,11 @@ std::string ErrorReport::describe() const {
   const auto percent = [](const double part) { return 100. * part; };
   if (target > 0.)
     text << "Target error " << percent(target) << " %: ";
+  if (!is_known) {
+    text << "nothing is believed, since there were no " << of_what
+         << " that errors could be parts of: of a tool, between two bodies or, without these, of supports";
+    return text.str();
+  }
   text << "believed error " << percent(total()) << " % of the " << of_what << " (";
   for (const auto &source : sources)
     text << (&source == sources.data() ? "" : ", ") << source.name << " " << percent(source.error) << " %";
@@ -37,6 +43,8 @@ std::string ErrorReport::describe() const {
   }
   text << "\nThe mesh is not part of this. Stresses jump between elements by " << percent(stress_jumps)
        << " % in the mean: what a finer mesh would smooth";
+  if (target > 0. && stress_jumps > target)
+    text << ". That is more than the target: run a finer mesh, too, to see what it changes";
   return text.str();
 }
 
@@ -46,9 +54,10 @@ void ErrorReport::write(const std::string &folder) const {
   file << "quantity,value\n";
   if (target > 0.)
     file << "target," << target << "\n";
-  file << "error," << total() << "\n";
+  const auto believed = [this](const double error) { return is_known ? error : std::nan(""); };
+  file << "error," << believed(total()) << "\n";
   for (const auto &source : sources)
-    file << source.name << "," << source.error << "\n";
+    file << source.name << "," << believed(source.error) << "\n";
   file << "stress jumps," << stress_jumps << "\n";
   file.precision(12);
   for (const auto &[what, value] : costs)

@@ -36,7 +36,7 @@ struct Row {
 
 // The table. 'balanced' is the default of every parameter. What each profile costs, and how far it is off:
 // scripts/benchmarks profiles; the target error: doc/results/target-error.md.
-constexpr std::array<Row, 19> rows = {{
+constexpr std::array<Row, 22> rows = {{
     // Steps: fast ones follow the iterations alone and may be long; accurate ones follow their error.
     {statics_with_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.04 T"},
     {statics_without_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.1 T"},
@@ -44,6 +44,9 @@ constexpr std::array<Row, 19> rows = {{
     {statics_with_path, "Time stepping", "Largest step", "0.2 T", "0.02 T", "0.1 T"},
     {statics_without_path, "Time stepping", "Largest step", "0.2 T", "0.02 T", "0.2 T"},
     {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.5 E"},
+    {implicit_dynamics, "Time stepping", "Initial step", "", "", "0.01 T"},
+    {implicit_dynamics, "Time stepping", "Smallest step", "", "", "1e-7 T"},
+    {implicit_dynamics, "Time stepping", "Largest step", "", "", "0.1 T"},
     {implicit_dynamics, "Implicit dynamics", "Error tolerance", "1e-2", "1e-4", "0.1 E"},
     {implicit, "Time stepping", "Few iterations", "8", "", "8"},
     {implicit, "Time stepping", "Many iterations", "14", "", "14"},
@@ -112,6 +115,9 @@ std::vector<Path> paths_of(const std::string &section, const SceneFile &file) {
     paths.push_back({section});
   return paths;
 }
+
+// What single precision leaves of the forces, and some more.
+constexpr double least_target_of_float = 1e-5;
 
 // Targets from here on let rates of stress take the place of Hencky's law: doc/results/profiles.md.
 constexpr double least_target_of_rates = 1e-3;
@@ -213,6 +219,34 @@ void check_contradictions(const SceneFile &file, const double target) {
   }
 }
 
+/// Penetrations are controlled in all pairs at once, or not at all; and what a scene changes in its physics
+/// no estimate knows.
+void check_what_is_estimated(const SceneFile &file, const double target) {
+  const auto refuse = [&file](const Path &path, const std::string &key, const std::string &allowed) {
+    throw InputError(file.where(path, key) + ": '" + key + "' in '" + join(path) + "': found '" +
+                     file.value(path, key, "") + "', allowed is " + allowed);
+  };
+  const std::vector<Path> pairs = paths_of("Contact pairs", file);
+  const std::string tolerance = "Penetration tolerance";
+  const auto is_set = [&](const Path &pair) { return file.is_set(pair, tolerance); };
+  const auto one = std::find_if(pairs.begin(), pairs.end(), is_set);
+  if (scheme_of(file) != explicit_dynamics && one != pairs.end() &&
+      !std::all_of(pairs.begin(), pairs.end(), is_set))
+    refuse(*one, tolerance,
+           std::string("a number in every contact pair or in none, since there is a '") + target_key +
+               "', which chooses those of all pairs or of none");
+  const Path dynamics = {"Explicit dynamics"};
+  if (scheme_of(file) != explicit_dynamics)
+    return;
+  if (number_in(file.value(dynamics, "Mass scaling step", "0"), 0.) > 0.)
+    refuse(dynamics, "Mass scaling step",
+           std::string("none beside a '") + target_key + "': what added mass changes no estimate knows");
+  if (target < least_target_of_float && file.value(dynamics, "Number type", "double") == "float")
+    refuse(dynamics, "Number type",
+           std::string("double beside a '") + target_key + "' below " + print(least_target_of_float) +
+               ": single precision leaves up to a millionth of the forces");
+}
+
 } // namespace
 
 void declare_presets(dealii::ParameterHandler &prm) {
@@ -252,8 +286,10 @@ double read_target_error(const SceneFile &file) {
 
 std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file) {
   const double target = read_target_error(file);
-  if (target > 0.)
+  if (target > 0.) {
     check_contradictions(file, target);
+    check_what_is_estimated(file, target);
+  }
   const std::string profile = file.value({}, profile_key, "balanced");
   const unsigned int scheme = scheme_of(file);
   const Evaluation evaluate(file, target);
@@ -266,10 +302,6 @@ std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile
     if (text.empty() || (row.schemes & scheme) == 0)
       continue;
     const std::vector<Path> paths = paths_of(row.section, file);
-    // Penetrations are controlled in all pairs at once, or not at all.
-    if (target > 0. && std::string(row.key) == "Penetration tolerance" &&
-        std::any_of(paths.begin(), paths.end(), [&](const Path &path) { return file.is_set(path, row.key); }))
-      continue;
     for (const auto &path : paths) {
       if (file.is_set(path, row.key) || !fits(row, path, file, target))
         continue;

@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -65,6 +66,23 @@ Expression::Expression(const std::string &text, const Variables variables,
   }
 }
 
+namespace {
+
+/// In programs in which floating-point exceptions are trapped: what a scene's text makes of its numbers is
+/// the scene's, and is told.
+class WithoutTraps {
+public:
+  WithoutTraps() { std::feholdexcept(&environment_); }
+  ~WithoutTraps() { std::fesetenv(&environment_); }
+  WithoutTraps(const WithoutTraps &) = delete;
+  WithoutTraps &operator=(const WithoutTraps &) = delete;
+
+private:
+  std::fenv_t environment_{};
+};
+
+} // namespace
+
 void Expression::parse(const double t) const {
   std::map<std::string, double> constants{{"pi", dealii::numbers::PI}};
   uses_amplitudes_ = false;
@@ -87,7 +105,10 @@ double Expression::value(const double t, const dealii::Point<3> &position) const
       parser_->set_time(t);
     parsed_time_ = t;
   }
-  const double value = parser_->value(position);
+  const double value = [&] {
+    const WithoutTraps quiet;
+    return parser_->value(position);
+  }();
   if (!std::isfinite(value)) {
     std::ostringstream message;
     message << origin_ << ": '" << text_ << "' is " << value << " at time " << t

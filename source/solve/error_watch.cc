@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace billet {
 
@@ -59,7 +60,7 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
       // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
       // surface about the square root of their number times theirs.
       residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
-      measures_steps_(depends_on_steps(scene)),
+      end_time_(scene.parameters().time_stepping.end_time), measures_steps_(depends_on_steps(scene)),
       measures_penetration_(scene.parameters().target_error > 0. &&
                             !(scene.pairs().empty() && scene.body_pairs().empty())),
       controls_penetration_(may_choose_penetration(scene.parameters())),
@@ -154,6 +155,23 @@ void ErrorWatch::after_failure() {
     errors_.miss_measurement(probe_length_, true);
   probe_length_ = 0.;
   demand_accuracy(false);
+}
+
+std::string ErrorWatch::take_note(const StepControl &control) {
+  constexpr double very_many = 2000., many_more = 10.;
+  if (control.is_finished() || !(control.next_step() > 0.) || probe_length_ > 0.)
+    return "";
+  const double to_come = (end_time_ - control.time()) / control.next_step();
+  if (to_come < std::max(very_many, many_more * told_steps_))
+    return "";
+  told_steps_ = to_come;
+  std::ostringstream text;
+  text.precision(2);
+  text << "The error that is allowed takes steps of " << control.next_step() << " by now, " << to_come
+       << " more of them if that goes on: try a larger 'Target error' or 'Error tolerance' unless that is "
+          "what "
+          "it is worth";
+  return text.str();
 }
 
 void ErrorWatch::save(StateWriter &writer) const {

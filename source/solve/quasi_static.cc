@@ -526,7 +526,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     compute_residual(accepted, residual);
     if (is_probing_ || !is_accurate(report) || contact_makes_energy(t, report))
       return report;
-    penetration_ = augmentation_error();
+    penetration_ = find_penetration();
     commit(t);
     has_lost_pace_ = has_lost_pace_ || !stopping.empty();
     for (const std::size_t tool : stopping)

@@ -55,6 +55,19 @@ double QuasiStatic::augmentation_error() const {
   return error;
 }
 
+double QuasiStatic::find_penetration() const {
+  constexpr double unit = 1e-5; // facet sizes: the tightest tolerance that a target error sets
+  double of_penalties = 0.;
+  for (const auto &contact : contacts_)
+    if (scene_.pairs()[contact.pair()].penetration_tolerance == 0.)
+      of_penalties = std::max(of_penalties, contact.penetration());
+  for (std::size_t i = 0; i < body_contacts_.size(); ++i)
+    if (scene_.body_pairs()[i].penetration_tolerance == 0.)
+      of_penalties = std::max(of_penalties, body_contacts_[i]->penetration());
+  return std::max(augmentation_error(),
+                  dealii::Utilities::MPI::max(of_penalties, discretization_.communicator()) / unit);
+}
+
 double QuasiStatic::find_spring_round_off() const {
   double spring = 0.;
   for (const auto &contact : contacts_)

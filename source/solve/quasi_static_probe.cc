@@ -8,13 +8,19 @@
 
 namespace billet {
 
+bool QuasiStatic::has_forces_of_contacts() const {
+  const auto &pairs = scene_.body_pairs();
+  return !contacts_.empty() ||
+         std::any_of(pairs.begin(), pairs.end(), [](const auto &pair) { return !pair.is_self_contact; });
+}
+
 std::vector<dealii::Tensor<1, 3>> QuasiStatic::forces() const {
   std::vector<dealii::Tensor<1, 3>> result;
   for (const auto &load : state_.tool_loads)
     result.push_back(load.force);
   for (const auto &load : state_.body_pair_loads)
     result.push_back(load.force);
-  if (contacts_.empty() && body_contacts_.empty()) // what its supports exert is all that there is
+  if (!has_forces_of_contacts())
     result.push_back(dealii::Tensor<1, 3>({support_forces_n_.l2_norm(), 0., 0.}));
   return result;
 }
@@ -25,7 +31,7 @@ std::vector<dealii::Tensor<1, 3>> QuasiStatic::trial_forces() const {
     result[contact.tool()] += contact.compute_load().force;
   for (const auto &contact : body_contacts_)
     result.push_back(contact->compute_load().force);
-  if (contacts_.empty() && body_contacts_.empty())
+  if (!has_forces_of_contacts())
     result.push_back(dealii::Tensor<1, 3>({support_forces_.l2_norm(), 0., 0.}));
   return result;
 }
@@ -43,7 +49,7 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
   if (probe.newton.converged) {
     probe.forces = trial_forces();
     probe_ = std::make_unique<ProbedState>(ProbedState{t, trial_, offsets_});
-    probe.penetration = augmentation_error();
+    probe.penetration = find_penetration();
     if (measures_penetration && !(contacts_.empty() && body_contacts_.empty())) {
       Vector displacements = trial_;
       std::vector<double> offsets = offsets_;
@@ -61,7 +67,7 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
         // What is left of the penetrations goes on like this: a geometric series.
         constexpr double most_left = 0.8;
         const double left =
-            probe.penetration > 0. ? std::min(most_left, augmentation_error() / probe.penetration) : 0.;
+            probe.penetration > 0. ? std::min(most_left, find_penetration() / probe.penetration) : 0.;
         probe.without_penetration = trial_forces();
         for (std::size_t i = 0; i < probe.forces.size(); ++i)
           probe.without_penetration[i] +=

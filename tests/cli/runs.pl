@@ -231,6 +231,19 @@ check 'a target error that is missed is told', sub {
     . ' & Time stepping: Largest step = 0.5 & top on die: Penetration tolerance = 1e-6');
   return $said =~ /^The target was not reached: steps make most of the error; try a smaller 'Largest step'/m ? '' : "says $said";
 };
+check 'penalties alone are measured, too', sub {
+  my $scene = "$fixed & Time stepping: Initial step = 0.002";
+  my $exact = billet("$scene & top on die: Penetration tolerance = 1e-5");
+  for my $penalty (1, 10) {
+    my $folder = billet("Target error = 0.1 % & $open & top on die: Penetration tolerance = 0"
+      . " & top on die: Normal penalty = $penalty");
+    my %table = map { (split /,/)[0, 1] } split /\n/, read_text("$folder/believed_error.csv");
+    my $error = abs(force($folder, 'die') / force($exact, 'die') - 1.);
+    return "believes $table{penetrations} at $penalty E/h where it is $error" unless $table{penetrations} > $error / 2;
+    return "says $said" unless $said =~ /^The target was not reached: /m;
+  }
+  return '';
+};
 check 'an explicit target error', sub {
   my $folder = billet('Target error = 3 %', base => $impact);
   return $said =~ /^Target error 3 %: believed error .* of the energies \(steps .* %, penetrations .* %\); cost: \d+ steps taken, /m ? '' : "says $said";

@@ -19,6 +19,7 @@ struct ErrorReport {
 
   std::string of_what;         ///< that the errors are parts of: forces, energies
   double target = 0.;          ///< 0: none was asked for
+  bool is_known = true;        ///< whether there was something that errors can be parts of
   std::vector<Source> sources; ///< that are estimated
   double stress_jumps = 0.;    ///< see stress_jumps()
   std::vector<std::pair<std::string, double>> costs;

@@ -66,6 +66,8 @@ public:
   };
   /// Of all steps so far.
   Estimate estimate() const;
+  /// Whether there have been forces that errors can be parts of.
+  bool has_forces() const { return work_ > 0.; }
   unsigned int n_measurements() const { return n_measurements_; }
 
   void save(StateWriter &writer) const;

@@ -6,6 +6,8 @@
 #include "billet/solve/quasi_static.h"
 #include "billet/solve/step_control.h"
 
+#include <string>
+
 namespace billet {
 
 /// Lets an ErrorControl choose the steps of a static scene, and how deep contacts may go in: makes the
@@ -28,6 +30,10 @@ public:
   void after_failure();
 
   const ErrorControl &control() const { return errors_; }
+  /// Whether it chooses how deep contacts may go in; else the scene does.
+  bool controls_penetration() const { return controls_penetration_; }
+  /// What users should know before the end: that very many steps are to come; empty: nothing new.
+  std::string take_note(const StepControl &control);
   /// Iterations of all measurements.
   unsigned int n_iterations() const { return n_iterations_; }
 
@@ -43,6 +49,7 @@ private:
   QuasiStatic &problem_;
   ErrorControl errors_;
   double residual_factor_; ///< of a force, over that of the residual
+  double end_time_;
   bool measures_steps_, measures_penetration_, controls_penetration_;
   double accuracy_of_measurements_; ///< residuals of steps that are compared, over those of others
   QuasiStatic::Probe probe_;
@@ -50,6 +57,7 @@ private:
   double probe_end_ = 0.;
   double last_residual_ = 0.;
   unsigned int n_iterations_ = 0;
+  double told_steps_ = 0.; ///< so many to come have been told
 };
 
 } // namespace billet

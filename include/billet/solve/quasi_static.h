@@ -37,7 +37,7 @@ public:
   struct Probe {
     NewtonReport newton;
     std::vector<dealii::Tensor<1, 3>> forces; ///< at its end, as forces()
-    /// Largest, before augmentation, as part of the 'Penetration tolerance'.
+    /// Largest, before augmentation, as penetration().
     double penetration = 0.;
     std::vector<dealii::Tensor<1, 3>>
         without_penetration; ///< the same without; empty if that is not measured
@@ -45,10 +45,11 @@ public:
   /// Tries the step to `t`, and leaves the state as it is. The next steps up to `t` begin their iterations
   /// from what it found.
   Probe probe(double t, double previous_step, bool measures_penetration);
-  /// Of the tools and of pairs of bodies at the last accepted step; without either, the norm of the forces of
-  /// supports.
+  /// Of the tools and of pairs of bodies at the last accepted step; without either, or with pairs of a body
+  /// with itself only, whose forces cancel out, the norm of the forces of supports.
   std::vector<dealii::Tensor<1, 3>> forces() const;
-  /// Of the last accepted step: the deepest, as part of the 'Penetration tolerance', or 0 if there is none.
+  /// Of the last accepted step: the deepest, as part of the 'Penetration tolerance', or of 1e-5 facets in
+  /// pairs without one.
   double penetration() const { return penetration_; }
   /// Tractions are augmented where penetrations are above so many times what pairs ask for.
   void set_penetration_allowed(const double factor) { penetration_allowed_ = factor; }
@@ -168,6 +169,10 @@ private:
   std::vector<double> augmentation_errors() const;
   /// The largest of them. Collective.
   double augmentation_error() const;
+  /// That, and the depth in pairs that are not augmented: see penetration(). Collective.
+  double find_penetration() const;
+  /// Whether any can be other than zero: a body's on itself cannot.
+  bool has_forces_of_contacts() const;
   /// Of each contact, tools first: how many times as stiff its penalties may become. Collective.
   std::vector<double> stiffening_left() const;
   /// The penalties of one of these contacts.
