@@ -212,7 +212,7 @@ check "the profile $_->[0] is told, and what the scene sets stays", sub {
   my $folder = billet("Profile = $profile & Time stepping: - Largest step");
   return $said =~ /^Profile $profile: .*$tells/m && $said !~ /Initial step =/
     ? near('force', force($folder, 'die'), force($reference, 'die'), 0.05) : "says $said";
-} for ['fast', 'Time stepping \/ Largest step = 0\.2, .*Solver \/ Force tolerance = 1e-3'],
+} for ['fast', 'Time stepping \/ Largest step = 0\.1, .*Solver \/ Force tolerance = 3e-3'],
       ['accurate', 'Time stepping \/ Largest step = 0\.1, Time stepping \/ Error tolerance = 1e-3, .*Contact pairs \/ top on die \/ Penetration tolerance = 1e-3'];
 check "a target error is kept and told on $_ ranks", sub {
   my $folder = billet("Target error = 3 percent & $open", ranks => $_);
