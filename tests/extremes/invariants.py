@@ -203,6 +203,12 @@ class Invariants(unittest.TestCase):
         self.about(lambda r: must.same(r, make()), make, lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 1),
                    lambda r: r.history["ram.force_z"].__setitem__(2, 1.001), lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
 
+    def test_same_in_other_units(self):
+        make = lambda: made_up("upset", history={**force("ram", z=1.0), "total_iterations": 15.0, "total_cuts": 0.0})  # noqa: E731
+        base = made_up("upset", history={**force("ram", z=1.0), "total_iterations": 14.0, "total_cuts": 0.0})
+        self.about(lambda r: must.same(r, base, count="nearly"), make, lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 1),
+                   lambda r: r.history.update(total_cuts=r.history["total_cuts"] + 1), lambda r: r.history.update(step=r.history["step"] + 1))
+
     def test_nothing_is_not_right(self):
         self.assertFalse(must.Finding("", math.nan, 1.0).holds)
         self.assertEqual(must.part(0.0, 0.0), 0.0)
@@ -271,6 +277,15 @@ class Words(unittest.TestCase):
 
 
 SPIN = "i=0; while [ $i -lt {0} ]; do i=$((i + 1)); done"
+
+
+class Told(unittest.TestCase):
+    def test_units(self):
+        def record(value, **errors):
+            return {"parameters": ["units"], "values": [value], "errors": {f"as many: {k}": e for k, e in errors.items()}}
+        records = [record("m, N", step=0.0, total_iterations=1.0), record("um, N", step=0.0, total_iterations=0.0), record("2^20 stresses", step=0.0)]
+        self.assertEqual(report.units(records), "Of 2 scenes in other units 1 takes as many steps, cuts and iterations, 1 one iteration more or less; "
+                         "of 1 in units that differ by powers of 2, 1.")
 
 
 class Running(unittest.TestCase):

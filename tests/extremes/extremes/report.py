@@ -112,6 +112,20 @@ def programs(records, ours):
             + ", ".join(f"{n} {o}" for o, n in Counter(r["outcome"] for r in records if r["program"] != ours).most_common()) + ".")
 
 
+def units(records):
+    """In words: how many take another number of iterations in other units."""
+    named, exact = [], []
+    for r in records:
+        if r["parameters"] == ["units"] and "errors" in r:
+            differs = any(error for name, error in r["errors"].items() if name.startswith("as many"))
+            (exact if re.search(r"2\^|powers", str(r["values"][0])) else named).append(differs)
+    if not named or not exact:
+        return ""
+    same = named.count(False)
+    return (f"Of {len(named)} scenes in other units {same} take{'s' * (same == 1)} as many steps, cuts and iterations, {named.count(True)} one iteration more or "
+            f"less; of {len(exact)} in units that differ by powers of 2, {exact.count(False)}.")
+
+
 def steps(record):
     return f", {record['steps']:.0f} steps" if "steps" in record else ""
 
@@ -143,7 +157,7 @@ def write(records, folder, planned=0, program=""):
              "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
              f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
              + slow(records),
-             programs(records, program),
+             " ".join(said for said in (units(records), programs(records, program)) if said),
              table(["", *outcomes, "scenes"], [["all", *[whole[o] for o in outcomes], len(records)]]
                    + [[kind, *[sum(r["base"] in bases and r["outcome"] == o for r in records) for o in outcomes],
                        sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),
