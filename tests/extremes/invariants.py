@@ -3,13 +3,17 @@
 closed forms against their limits; frames there and back; messages; the plan."""
 
 import math
+import tempfile
 import unittest
+import unittest.mock
+from pathlib import Path
 
 import numpy
 
 import modules  # noqa: F401
-from extremes import closed_forms, invariants as must, messages, plan, prm, scenes
+from extremes import closed_forms, invariants as must, messages, plan, prm, report, scenes
 from extremes.results import Result, in_base_units, upright
+from extremes.runner import Runner
 
 
 def grid(n, low, high):
@@ -199,6 +203,12 @@ class Invariants(unittest.TestCase):
         self.about(lambda r: must.same(r, make()), make, lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 1),
                    lambda r: r.history["ram.force_z"].__setitem__(2, 1.001), lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
 
+    def test_same_in_other_units(self):
+        make = lambda: made_up("upset", history={**force("ram", z=1.0), "total_iterations": 15.0, "total_cuts": 0.0})  # noqa: E731
+        base = made_up("upset", history={**force("ram", z=1.0), "total_iterations": 14.0, "total_cuts": 0.0})
+        self.about(lambda r: must.same(r, base, count="nearly"), make, lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 1),
+                   lambda r: r.history.update(total_cuts=r.history["total_cuts"] + 1), lambda r: r.history.update(step=r.history["step"] + 1))
+
     def test_nothing_is_not_right(self):
         self.assertFalse(must.Finding("", math.nan, 1.0).holds)
         self.assertEqual(must.part(0.0, 0.0), 0.0)
@@ -264,6 +274,82 @@ class Words(unittest.TestCase):
             self.assertLessEqual(set(case.changes), set(scenes.KNOBS), case.name)
             if case.like is not None:
                 self.assertLessEqual(set(case.like), set(scenes.KNOBS), case.name)
+
+
+SPIN = "i=0; while [ $i -lt {0} ]; do i=$((i + 1)); done"
+
+
+class Told(unittest.TestCase):
+    def test_units(self):
+        def record(value, **errors):
+            return {"parameters": ["units"], "values": [value], "errors": {f"as many: {k}": e for k, e in errors.items()}}
+        records = [record("m, N", step=0.0, total_iterations=1.0), record("um, N", step=0.0, total_iterations=0.0), record("2^20 stresses", step=0.0)]
+        self.assertEqual(report.units(records), "Of 2 scenes in other units 1 takes as many steps, cuts and iterations, 1 one iteration more or less; "
+                         "of 1 in units that differ by powers of 2, 1.")
+
+
+class Running(unittest.TestCase):
+    """Programs that are not billet."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def runner(self, *lines, **limits):
+        program = self.folder / "program"
+        program.write_text("\n".join(["#!/bin/bash", "mkdir results; echo step > results/history.csv", *lines]) + "\n")
+        program.chmod(0o755)
+        return Runner(program, self.folder / "runs", **limits)
+
+    def outcome(self, *lines, **limits):
+        return self.runner(*lines, **limits).run(plan.Case("upset", {}, (), ()))
+
+    def test_slow_is_not_hung(self):
+        # Longer altogether than a step may take; each is told.
+        steps = f"for s in $(seq 500); do {SPIN.format(2000)}; echo $s >> results/history.csv; done; echo 'scene.prm: at step 1: try another' >&2; exit 3"
+        found = self.outcome(steps, patience=0.5, at_most=300)
+        self.assertEqual(found["outcome"], "failed", found)
+        self.assertGreater(found["processor seconds"], 1.0)
+        found = self.outcome(steps, patience=0.5, at_most=0.7)
+        self.assertEqual(found["outcome"], "hung")
+        self.assertRegex(found["reason"], "not finished after 0.7 s of the processor, and [1-9][0-9]* rows")
+
+    def test_hung(self):
+        found = self.outcome("while :; do echo much; done", patience=0.3)
+        self.assertEqual(found["outcome"], "hung")
+        self.assertIn("no step was accepted in 0.3 s of the processor, after 0 rows", found["reason"])
+        self.assertEqual(self.outcome("sleep 100", patience=0.1)["outcome"], "hung")
+
+    def test_round_off_is_capped(self):
+        case = plan.Case("upset", {}, (), ())
+        for says, balanced, right in ((0.0, 0.005, False), (0.006, 0.005, True), (0.5, 0.009, True), (0.5, 0.011, False)):
+            runner = self.runner()
+            work = self.folder / "work"
+            work.mkdir(exist_ok=True)
+            (work / "stdout").write_text(f"Round-off leaves {says} of the forces, try\n" if says else "")
+            setup = scenes.make("upset", {})
+            setup.checks = [lambda r: [must.Finding("equilibrium", balanced, 1e-5)]]
+            with unittest.mock.patch.object(Result, "read", return_value=made_up("upset")):
+                verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
+            self.assertEqual(verdict["outcome"], "right" if right else "wrong", (says, balanced))
+
+    def test_other_programs(self):
+        runner = self.runner("exit 1")
+        record = runner.run(plan.Case("upset", {}, (), ()))
+        self.assertFalse(runner.stale(record))
+        other = self.runner("exit 2")
+        self.assertTrue(other.stale(record))
+        ours = {**record, "program": other.program_hash}
+        self.assertEqual(report.programs([ours], other.program_hash), "All of them ran with one and the same program.")
+        said = report.programs([ours, record, record], other.program_hash)
+        self.assertIn("1 scene ran with the program as it is, 2 with one other state", said)
+        self.assertIn("2 crashed", said)
+
+    def test_slow_ones_are_told(self):
+        records = [{"name": "a/b", "outcome": "right", "seconds": 57.0, "steps": 13000.0}, {"name": "c/d", "outcome": "right", "seconds": 1.0}]
+        self.assertIn("1 took more than 30 s of the processor: `a/b` (57 s, right, 13000 steps).", report.slow(records))
+        self.assertIn("None took more than 30 s", report.slow(records[1:]))
 
 
 if __name__ == "__main__":

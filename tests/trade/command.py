@@ -141,6 +141,7 @@ class TestCommand(unittest.TestCase):
             self.assertEqual(found[key]["status"], status, key)
             self.assertEqual((found[key]["error"], found[key]["on_front"], found[key]["chosen"]), ("", "0", "0"), key)
         self.assertIn("no convergence", found["tangent", "continuum"]["reason"])
+        self.assertEqual(found["tangent", "continuum"]["work"], str(4 * (3 * 4 + 20 + 2 * 4)))  # with the iterations of the step that failed
 
         # The choice: the least work among those whose error and the uncertainty stay within 4 %.
         good = [row for row in points if row["status"] == "ok" and max(float(row["difference"]), uncertainty) + uncertainty <= 0.04]
@@ -202,7 +203,15 @@ class TestCommand(unittest.TestCase):
             (["--outputs", "strain", "--knobs", "predictor"], "the strain profile wants a --line"),
             (["--outputs", "rebound", "--knobs", "predictor"], "nothing rebounds in a static scene"),
             (["--force", "die.force_x", "--knobs", "predictor"], "the history has no column 'die.force_x'; it has die.force_z"),
-            (["--target", "much"], "found 'much', allowed is an error > 0"),
+            (["--target", "much"], "--target: found 'much', allowed is an error > 0"),
+            (["--target", "0"], "--target: found '0', allowed is an error > 0"),
+            (["--mesh", "abc"], "--mesh: found 'abc', allowed is a number > 0"),
+            (["--knobs", "penalty=abc"], "the knob 'penalty': found 'abc', allowed is a number > 0"),
+            (["--product", "mesh=1", "steps=0"], "the knob 'steps': found '0', allowed is a number > 0"),
+            (["--outputs", "force=0"], "--outputs: force: found '0', allowed is a weight > 0"),
+            (["--reference-mesh", "1,x"], "--reference-mesh: found 'x', allowed is factors > 0"),
+            (["--time-limit", "0"], "--time-limit: found 0, allowed are seconds > 0"),
+            (["--outputs", "strain", "--line", "0,0 to 1,1"], "--line: found '0,0 to 1,1'"),
             (["--target", "200%"], "--target: found '200%', allowed is an error below 100 %"),
             (["--combine"], "--combine wants a --target"),
             (["--reference-mesh", "1,2,3"], "--reference-mesh: found '1,2,3', allowed are at least two factors in one ratio"),
@@ -215,10 +224,14 @@ class TestCommand(unittest.TestCase):
         ]
         for arguments, expected in cases:
             with self.subTest(arguments):
+                before = len(Path(os.environ["FAKE_LOG"]).read_text().splitlines()) if Path(os.environ["FAKE_LOG"]).exists() else 0
                 code, said = self.said(*arguments, "--repeat", "1") if "--repeat" not in arguments else self.said(*arguments)
                 self.assertEqual(code, 2, said)
                 self.assertIn("billet-trade: ", said)
                 self.assertIn(expected, said)
+                # Refused before anything runs, but for columns, which the scene's own history tells.
+                after = len(Path(os.environ["FAKE_LOG"]).read_text().splitlines()) if Path(os.environ["FAKE_LOG"]).exists() else 0
+                self.assertLessEqual(after - before, "--force" in arguments or arguments[:1] == ["--knobs"], arguments)
         self.assertEqual(self.said(scene="nowhere.prm"), (2, "billet-trade: nowhere.prm: there is no such scene file\n"))
         (self.folder / "wrong.prm").write_text("set Speed = 1\n")
         self.assertEqual(self.said(scene="wrong.prm")[1], "billet-trade: billet refuses the scene:\nbillet: wrong.prm:1: 'Speed': "
@@ -237,6 +250,23 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("tangent: contact tangent\n    exact, consistent, continuum, symmetrised lower\n", done.stdout)
         self.assertIn("facets overlap, planed, bilinear, mean gap: no bodies touch each other", done.stdout)
+
+    def test_time_that_is_too_short(self):
+        done = self.trade("--set", "Solver/Line search=none", "--knobs", "predictor", "--repeat", "1", "--folder", "late", "--time-limit", "1")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("its centre was not done in the 1 s of --time-limit (at time 0: a longer --time-limit", done.stderr)
+
+    def test_errors_that_cancel(self):
+        """Long steps take away what a coarse mesh adds: it must not be chosen."""
+        done = self.trade("--knobs", "mesh=0.5", "steps=40", "--set", "Solver/Linear solver=MUMPS", "--set", "Time stepping/Largest step=0.33333333333333", "--outputs",
+                          "force", "--repeat", "1", "--target", "4%", "--cost", "work", "--folder", "cancels")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = {(row["knob"], row["value"]): row for row in self.rows("cancels/trade")}
+        coarse = found["mesh", "0.5"]
+        self.assertLess(float(coarse["difference_force"]), 0.015)
+        self.assertGreater(float(coarse["error_to_rank_by"]), 0.04)
+        self.assertEqual((coarse["chosen"], found["steps", "40"]["chosen"]), ("0", "1"))
+        self.assertIn("Not to be relied on", done.stdout)
 
     def test_reference_that_fails(self):
         done = self.trade("--set", "Solver/Contact tangent=continuum", "--knobs", "predictor", "--repeat", "1", "--folder", "fails")

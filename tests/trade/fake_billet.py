@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Stands for billet: a bar of Layers elements, whose force and shape are off by 0.3 h² + 0.2 Δt + 0.05 / k from F = 1 + t, so that
+"""Stands for billet: a bar of Layers elements, whose force and shape are off by 0.3 h² ± 0.2 Δt + 0.05 / k from F = 1 + t, so that
 limit and errors are known. Some values fail, each in its own way. Each run adds a line to the file $FAKE_LOG; where that
 has $FAKE_INTERRUPT lines the sweep is interrupted as by Ctrl-C."""
 
@@ -112,7 +112,8 @@ def run(scene):
         return next((v for path, v in scene.items() if path.split("/")[-1] == key), default)
     n, step, penalty = int(get("Layers", 4)), float(get("Largest step", 0.1)), float(get("Normal penalty", 10))
     tangent = get("Contact tangent", "automatic")
-    error = 0.3 / n**2 + 0.2 * step + 0.05 / penalty
+    # Long steps make forces larger, or with one of the solvers smaller.
+    error = 0.3 / n**2 + (-0.2 if get("Linear solver", "automatic") == "MUMPS" else 0.2) * step + 0.05 / penalty
     if tangent == "symmetrised lower":
         error += 0.5  # converges, to forces that are half as large again
     end = 0.4 if tangent == "continuum" else 1.0
@@ -128,6 +129,8 @@ def run(scene):
     rows += [f"{i},{t:.15g},{step},3,1e-9,{3 * i},0,2,{(1 + t) * (1 + error):.15g},{depth},{t},0" for i, t in enumerate(times, 1)]
     (results / "history.csv").write_text("\n".join(rows) + "\n")
     if end < 1:
+        # Three in each accepted step, and twenty more.
+        print("".join(f"         iteration {i % 20 + 1:2}  force 1e-3  energy 1e-5  step length 1\n" for i in range(3 * len(times) + 20)))
         print("billet: scene.prm: at time 0.4 Newton's method does not converge: no convergence", file=sys.stderr)
         return 3
     pvtu(results / "fields_00001", n, 0.1 * (1 + error))

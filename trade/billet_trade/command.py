@@ -68,7 +68,8 @@ def parse(arguments):
     add("--largest-drift", type=float, default=0.05, help="of the energy balance of dynamic scenes (0.05)")
     add("--largest-penetration", type=float, default=0.5, help="in facet sizes (0.5)")
     add("--locked", type=float, default=0.2, help="forces larger by this part in the mean are those of locking (0.2)")
-    add("--largest-error", type=float, default=1.0, help="(1)")
+    add("--soft", type=float, default=0.2, help="forces smaller by this part in the mean are those of too soft a contact (0.2)")
+    add("--largest-error", type=float, default=0.5, help="beyond which a run is of no use; of the reference, too (0.5)")
     group = parser.add_argument_group("where to")
     add = group.add_argument
     add("--folder", help="where runs are kept (results/trade/SCENE)")
@@ -88,6 +89,12 @@ def parse(arguments):
     if options.reference_mesh == GIVEN and any(k.partition("=")[0] == "mesh" for k in (options.knobs or []) + sum(options.product, [])):
         raise TradeError("--reference-mesh given: the mesh cannot be a knob then")
     options.target = read_error(options.target)
+    if "strain" in read_outputs(options.outputs) and not options.line:
+        raise TradeError("--outputs: the strain profile wants a --line 'x, y, z to x, y, z'")
+    if options.line:
+        results.Profile(options.line, options.profile)  # says what is wrong with it
+    if not options.time_limit > 0:
+        raise TradeError(f"--time-limit: found {options.time_limit:g}, allowed are seconds > 0")
     return options
 
 
@@ -95,7 +102,7 @@ def read_error(text):
     if text is None:
         return None
     cleaned = text.replace("percent", "%").strip()
-    value = knobs.number(cleaned.rstrip("% "), "an error > 0, such as 1% or 0.01") * (0.01 if "%" in cleaned else 1.0)
+    value = knobs.number(cleaned.rstrip("% "), "an error > 0, such as 1% or 0.01", "--target") * (0.01 if "%" in cleaned else 1.0)
     if value >= 1:
         raise TradeError(f"--target: found '{text}', allowed is an error below 100 %, such as 1% or 0.01")
     return value
@@ -118,7 +125,7 @@ def read_outputs(text):
         name, equals, weight = part.partition("=")
         if name not in ("force", "strain", "shape", "rebound"):
             raise TradeError(f"--outputs: found '{name}', allowed are force, strain, shape, rebound, each with =WEIGHT if need be")
-        weights[name] = knobs.number(weight, "a weight > 0") if equals else 1.0
+        weights[name] = knobs.number(weight, "a weight > 0", f"--outputs: {name}") if equals else 1.0
     return weights
 
 
@@ -129,7 +136,7 @@ def pilot(scene, options):
     scene = scene.changed(read_settings("--set", options.set))
     if options.mesh:
         try:
-            scene = scene.changed(knobs.make_mesh(scene, knobs.number(options.mesh)))
+            scene = scene.changed(knobs.make_mesh(scene, knobs.number(options.mesh, option="--mesh")))
         except knobs.CannotTurn as why:
             raise TradeError(f"--mesh: {why}") from None
     if options.until:
@@ -165,7 +172,7 @@ class Candidates:
 
     def changes(self, knob, argument):
         """Of one value; raises CannotTurn with the reason."""
-        changes = knob.make(self.scene, argument)
+        changes = knob.turned(self.scene, argument)
         # Where one number is taken the others are; what is out of range the run itself tells.
         kind = (knob.name, tuple(changes)) if is_number(argument) else None
         if kind is None or kind not in self.taken:
@@ -185,8 +192,25 @@ class Candidates:
                 self.left_out.setdefault(knob.name, {})[argument] = str(why)
         return found
 
+    def _ask(self):
+        """The program about all that values() will want to know, several at a time: what it says is kept."""
+        scenes, kinds = [self.scene], set()
+        for knob in self.knobs:
+            for argument in knob.arguments:
+                try:
+                    changes = knob.turned(self.scene, argument)
+                except knobs.CannotTurn:
+                    continue
+                kind = (knob.name, tuple(changes)) if is_number(argument) else None
+                if kind is None or kind not in kinds:
+                    kinds.add(kind)
+                    scenes.append(self.scene.changed(changes))
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            list(pool.map(self.runner.check, scenes))
+
     def possible(self):
         """[(knob, values)] of knobs with something to turn: values that differ from the scene, and not from each other."""
+        self._ask()
         found = []
         for knob in self.knobs:
             values = self.values(knob)
@@ -215,7 +239,7 @@ class Candidates:
             label = ", ".join(f"{knob.name} {argument}" for knob, argument in zip(product, arguments))
             try:
                 for knob, argument in zip(product, arguments):
-                    more = knob.make(changed, argument)
+                    more = knob.turned(changed, argument)
                     changes.update(more)
                     changed = changed.changed(more)
                 _, why, _ = self.runner.check(changed)
@@ -332,6 +356,14 @@ class Work:
 
 # --- outputs -----------------------------------------------------------------------------------------------------
 
+def refuse_outputs(weights, scene):
+    """What the scene cannot have, before anything runs."""
+    if "rebound" in weights and not scene.is_dynamic:
+        raise TradeError("--outputs: nothing rebounds in a static scene")
+    if "force" in weights and not scene.names("Tools") and not scene.names("Contact pairs"):
+        raise TradeError("--outputs: the scene has no tool and no pair of bodies, hence no force")
+
+
 def make_outputs(options, scene, centre):
     """The outputs that count, and their weights."""
     weights = read_outputs(options.outputs)
@@ -346,14 +378,10 @@ def make_outputs(options, scene, centre):
             columns = [c.strip() for c in options.force.split(",")] if options.force else None
             found.append(results.Force(centre, scene, columns, options.window))
         elif name == "strain":
-            if not options.line:
-                raise TradeError("--outputs: the strain profile wants a --line 'x, y, z to x, y, z'")
             found.append(results.Profile(options.line, options.profile))
         elif name == "shape":
             found.append(results.Shape(centre))
         else:
-            if not scene.is_dynamic:
-                raise TradeError("--outputs: nothing rebounds in a static scene")
             found.append(results.Rebound(centre, scene))
     return found, weights
 
@@ -365,9 +393,11 @@ def combine(sweep, candidates, run):
     if chosen is None:
         return tried
     cheaper = {}
+    if sweep.is_blind:
+        return tried
     for knob, points in sweep.curves().items():
         good = [p for p in points if p.is_good and sweep.is_cheaper(p)
-                and p.error <= max(sweep.target, 1.5 * max(sweep.base.error, sweep.uncertainty)) and knob != chosen.curve]
+                and sweep.ranked(p) <= max(sweep.target, 1.5 * max(sweep.ranked(sweep.base), sweep.uncertainty)) and knob != chosen.curve]
         if good:
             cheaper[knob] = min(good, key=sweep.cost_of)
     best = chosen
@@ -435,10 +465,12 @@ def sweep_over(options, runner, scene, elements, file, arguments):
     plan = Plan(scene, runner.elements, options.reference_mesh, options.reference_steps, settings)
     if runner.check(plan.centre)[1]:
         raise TradeError(f"--reference: billet refuses the reference's centre: {runner.check(plan.centre)[1]}")
-    read_outputs(options.outputs)
+    refuse_outputs(read_outputs(options.outputs), scene)
     base = report.Point("", "as written", {}, scene, is_base=True)
     started = time.monotonic()
     base.result = runner.run(scene)
+    if base.result.status == "ok":
+        make_outputs(options, scene, base.result)  # before all else runs: it may have no such column, or nothing that yields
     scene.first_step = base.result.first_step
     candidates = Candidates(scene, runner, options)
     points = [base] + candidates.points()
@@ -459,7 +491,7 @@ def sweep_over(options, runner, scene, elements, file, arguments):
     else:
         outputs, weights = [], {}
     reference = Reference(plan, reference_results, outputs)
-    limits = report.Limits(options.largest_drift, options.largest_penetration, options.locked, options.largest_error)
+    limits = report.Limits(options.largest_drift, options.largest_penetration, options.locked, options.soft, options.largest_error)
 
     def judge(point):
         point.work = report.work_of(point.result, runner.elements(point.scene), scene.is_explicit)
@@ -468,14 +500,14 @@ def sweep_over(options, runner, scene, elements, file, arguments):
     for point in points:
         point.result = work.result(found, point.scene)
         judge(point)
-    sweep = report.Sweep(points, reference, outputs, weights, scene, options.cost, options.target)
+    sweep = report.Sweep(points, reference, outputs, weights, scene, options.cost, options.target, limits.error)
 
     if options.combine:
         def run(point):
             point.result = work.result(work.run([(point.label, point.scene, options.repeat)], 1), point.scene)
             judge(point)
         tried = combine(sweep, candidates, run)
-        sweep = report.Sweep(points + tried, reference, outputs, weights, scene, options.cost, options.target)
+        sweep = report.Sweep(points + tried, reference, outputs, weights, scene, options.cost, options.target, limits.error)
 
     write(sweep, plan, reference_results, options, runner, scene, file, arguments)
     print(f"({clock(time.monotonic() - started)})", file=sys.stderr)

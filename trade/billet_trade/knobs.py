@@ -4,7 +4,7 @@ scene cannot use has none to make. Whether the program takes a change it says it
 
 import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from . import TradeError
 
@@ -19,7 +19,13 @@ class Knob:
     meaning: str
     arguments: list
     make: object  # (scene, argument as text) -> changes; raises CannotTurn
-    expensive: bool = field(default=False)
+
+    def turned(self, scene, argument):
+        """make(), whose complaints about the argument name the knob."""
+        try:
+            return self.make(scene, argument)
+        except TradeError as error:
+            raise TradeError(f"the knob '{self.name}': {error}") from None
 
 
 KNOBS = {}
@@ -32,13 +38,13 @@ def knob(name, meaning, *arguments):
     return keep
 
 
-def number(text, allowed="a number > 0"):
+def number(text, allowed="a number > 0", option=""):
     try:
         value = float(text)
     except ValueError:
         value = math.nan
     if not (value > 0.0 and math.isfinite(value)):
-        raise TradeError(f"found '{text}', allowed is {allowed}")
+        raise TradeError(f"{option}{': ' if option else ''}found '{text}', allowed is {allowed}")
     return value
 
 

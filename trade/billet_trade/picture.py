@@ -18,11 +18,19 @@ COSTS = (lambda p: p.seconds, lambda p: p.work)
 
 
 def draw(sweep, file, title):
+    figure = picture_of(sweep, title)
+    figure.savefig(file, dpi=110)
+    pyplot.close(figure)
+
+
+def picture_of(sweep, title):
+    """Points whose errors cancel stand at the error that they are ranked by, their values in brackets."""
     curves = sweep.curves()
     figure, panels = pyplot.subplots(1, 2, figsize=(12.0, 5.6), sharey=True)
     good = [p for p in sweep.points if p.is_good]
     u = sweep.uncertainty
-    top, bottom = limits([max(p.error, u) for p in good] + ([sweep.target] if sweep.target else []), u)
+    error = sweep.ranked
+    top, bottom = limits([max(error(p), u) for p in good] + ([sweep.target] if sweep.target else []), u)
     failed = [p for p in sweep.points if not p.is_good]
     band = top * (top / bottom) ** 0.05 if failed else top
     ceiling = top * (top / bottom) ** 0.10 if failed else top
@@ -32,18 +40,19 @@ def draw(sweep, file, title):
         axes.axhspan(bottom, u, color="0.5", alpha=0.16, lw=0)
         if sweep.target:
             axes.axhline(sweep.target, color="0.25", lw=0.9, ls=(0, (5, 3)))
-        draw_front(axes, good, cost, u, bottom, ceiling)
+        if not sweep.is_blind:
+            draw_front(axes, good, cost, error, u, ceiling)
         for i, (name, points) in enumerate(curves.items()):
-            draw_curve(axes, points, cost, u, COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)], name)
+            draw_curve(axes, points, cost, error, u, COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)], name)
             bad = [p for p in points if not p.is_good and cost(p) > 0]
             axes.plot([cost(p) for p in bad], [band] * len(bad), "x", color=COLOURS[i % len(COLOURS)], ms=8, mew=2.2, zorder=5)
         base = sweep.base
         if base.is_good:
-            axes.plot(cost(base), max(base.error, u), "*", color="black", ms=15, mec="white", mew=0.8, zorder=8, label="as written")
+            axes.plot(cost(base), max(error(base), u), "*", color="black", ms=15, mec="white", mew=0.8, zorder=8, label="as written")
         elif cost(base) > 0:
             axes.plot(cost(base), band, "x", color="black", ms=10, mew=2.6, zorder=8, label="as written")
         if sweep.chosen:
-            axes.plot(cost(sweep.chosen), max(sweep.chosen.error, u), "o", ms=19, mfc="none", mec="#c00000", mew=2.0, zorder=9)
+            axes.plot(cost(sweep.chosen), max(error(sweep.chosen), u), "o", ms=19, mfc="none", mec="#c00000", mew=2.0, zorder=9)
             axes.plot([], [], "o", ms=10, mfc="none", mec="#c00000", mew=1.6, label=f"chosen: {sweep.chosen.label}")
         axes.set(xscale="log", yscale="log", xlabel=label, ylim=(bottom, ceiling))
         wide(axes, [cost(p) for p in sweep.points if cost(p) > 0])
@@ -68,13 +77,14 @@ def draw(sweep, file, title):
                        color="0.25", va="bottom", ha="right"))
     figure.suptitle(title, fontsize=12, x=0.01, ha="left")
     handles, labels = panels[0].get_legend_handles_labels()
-    figure.tight_layout(rect=(0, 0, 0.83, 1.0), w_pad=1.0)
     labels = ["\n".join(textwrap.wrap(label, 26)) for label in labels]
-    figure.legend(handles, labels, loc="center left", bbox_to_anchor=(0.83, 0.52), fontsize=8.5, frameon=False, labelspacing=0.55)
+    legend = figure.legend(handles, labels, loc="center right", bbox_to_anchor=(0.995, 0.52), fontsize=8.5, frameon=False, labelspacing=0.55)
+    # The panels get what the legend leaves, whatever its words.
+    box = legend.get_window_extent(figure.canvas.get_renderer())
+    figure.tight_layout(rect=(0, 0, box.x0 / figure.bbox.width, 1.0), w_pad=1.0)
     for axes, cost in zip(panels, COSTS):
         name_points(axes, sweep, cost, u, band, notes)
-    figure.savefig(file, dpi=110)
-    pyplot.close(figure)
+    return figure
 
 
 def cost_text(cost, _):
@@ -96,27 +106,27 @@ def wide(axes, costs):
     axes.set_xlim(middle / reach, middle * reach)
 
 
-def draw_front(axes, points, cost, u, bottom, ceiling):
+def draw_front(axes, points, cost, error, u, ceiling):
     from .measure import pareto_front
-    front = [points[i] for i in pareto_front([cost(p) for p in points], [p.error for p in points], u)]
+    front = [points[i] for i in pareto_front([cost(p) for p in points], [error(p) for p in points], u)]
     if not front:
         return
     # All that is dominated lies to the right of and above this staircase.
     x, y = [cost(front[0])], [ceiling]
     for p, following in zip(front, front[1:] + [None]):
         x += [cost(p), cost(following) if following else 1e30]
-        y += [max(p.error, u)] * 2
+        y += [max(error(p), u)] * 2
     axes.plot(x, y, color="0.72", lw=5, solid_joinstyle="miter", zorder=1, label="Pareto front")
 
 
-def draw_curve(axes, points, cost, u, colour, marker, name):
+def draw_curve(axes, points, cost, error, u, colour, marker, name):
     good = [p for p in points if p.is_good]
     are_numbers = all(is_number(p.value) for p in points)
     if are_numbers:  # words have no order to follow
-        axes.plot([cost(p) for p in good], [max(p.error, u) for p in good], "-", color=colour, lw=1.3, alpha=0.85, zorder=3)
+        axes.plot([cost(p) for p in good], [max(error(p), u) for p in good], "-", color=colour, lw=1.3, alpha=0.85, zorder=3)
     for told in (True, False):
-        some = [p for p in good if (p.error >= u) == told]
-        axes.plot([cost(p) for p in some], [max(p.error, u) for p in some], marker, ls="none", color=colour, ms=6, zorder=4,
+        some = [p for p in good if (error(p) >= u) == told]
+        axes.plot([cost(p) for p in some], [max(error(p), u) for p in some], marker, ls="none", color=colour, ms=6, zorder=4,
                   mfc=colour if told else "white", mew=1.3)
     axes.plot([], [], marker + ("-" if are_numbers else ""), color=colour, ms=6, label=name)
 
@@ -137,12 +147,13 @@ def name_points(axes, sweep, cost, u, band, notes):
     front = set(map(id, sweep.front))
     points = sorted((p for p in sweep.points if p.is_good and not p.is_base), key=lambda p: id(p) not in front)
     colours = {name: COLOURS[i % len(COLOURS)] for i, name in enumerate(sweep.curves())}
-    spots = [pixels((cost(p), max(p.error, u))) for p in sweep.points if p.is_good]
+    spots = [pixels((cost(p), max(sweep.ranked(p), u))) for p in sweep.points if p.is_good]
     scale = axes.figure.dpi / 72
     failed = [p for p in sweep.points if not p.is_good and not p.is_base and cost(p) > 0]
     spots += [pixels((cost(p), band)) for p in failed]
     for p in points + failed:
-        text, at = (p.value, max(p.error, u)) if p.is_good else (f"{p.value}: {p.status}", band)
+        value = f"({p.value})" if id(p) in sweep.cancelled else p.value
+        text, at = (value, max(sweep.ranked(p), u)) if p.is_good else (f"{p.value}: {p.status}", band)
         x, y = pixels((cost(p), at))
         width, height = 4.3 * scale * len(text), 8.0 * scale
         for dx, dy in ((-6 - width, -4), (6, -4)) if not p.is_good else ((6, 4), (6, -11), (-6 - width, 4), (-6 - width, -11), (-0.5 * width, 8), (-0.5 * width, -15)):

@@ -30,7 +30,7 @@ def mesh_factors(scene, wanted, count):
     """The wanted ones, which must have one ratio and hold 1; else 1, 2, 4 where count(changes) elements are affordable, or
     else those of 0.5, 1, 2 that the mesh allows."""
     if wanted:
-        factors = sorted(knobs.number(f, "factors > 0, such as 0.5,1,2") for f in wanted.split(","))
+        factors = sorted(knobs.number(f, "factors > 0, such as 0.5,1,2", "--reference-mesh") for f in wanted.split(","))
         ratios = [b / a for a, b in zip(factors, factors[1:])]
         if 1.0 not in factors or not ratios or max(ratios) > 1.001 * min(ratios) or min(ratios) <= 1:
             raise TradeError(f"--reference-mesh: found '{wanted}', allowed are at least two factors in one ratio, 1 among them")
@@ -130,6 +130,9 @@ class Reference:
         by_scene = {scene.text: result for (_, scene), result in zip(plan.runs(), results)}
         centre = by_scene[plan.centre.text]
         self.remarks = []
+        if centre.status == "out of time":
+            raise TradeError(f"the reference could not be made: its centre was not done in the {centre.limit:g} s of --time-limit "
+                             f"({centre.reason})", 3)
         if centre.status != "ok":
             raise TradeError(f"the reference could not be made: its centre {centre.status} ({centre.reason}). "
                              "--reference-steps with a larger number, or --reference 'path=value', may help", 3)
@@ -150,6 +153,7 @@ class Reference:
                                  f"'{axis.name}': {'; '.join(self.remarks)}", 3)
             sequences[axis.name] = (axis, low, found[low:high + 1])
         self.values, self.uncertainty, self.rows = {}, {}, []
+        self._mesh_errors = {}  # {mesh: {output: error of this mesh alone}}
         for output in outputs:
             self._extrapolate(output, plan, sequences, centre, by_scene[plan.cross.text])
 
@@ -187,3 +191,21 @@ class Reference:
             self.remarks.append(f"the run off all axes {cross.status}: whether they add up is not known")
         self.rows.append([output.name, "off all axes", "", [], None, None, off / scale])
         self.values[output.name], self.uncertainty[output.name] = total, uncertainty / scale
+        for axis, low, levels in sequences.values():
+            limit = next(found for other, _, found in limits if other is axis)
+            for (_, scene), (_, result) in zip(axis.levels[low:], levels) if axis.name == "mesh" else []:
+                self._mesh_errors.setdefault(mesh_of(scene), {})[output.name] = output.norm(values(result) - limit.values) / scale
+
+    def mesh_alone(self, scene):
+        """{output: error} that the scene's mesh makes where all else is converged; None where the reference has no such mesh."""
+        return self._mesh_errors.get(mesh_of(scene))
+
+    def uncertainty_by_axis(self):
+        """[(output, axis, uncertainty)]."""
+        return [(row[0], row[1], row[6]) for row in self.rows if not math.isnan(row[6])]
+
+
+def mesh_of(scene):
+    """What the scene says of its meshes, however it writes it."""
+    return tuple(sorted((path, "".join(value.split())) for path, value in scene.entries.items()
+                        if "/Mesh/" in path and value != scene.default(path)))

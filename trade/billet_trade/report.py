@@ -3,6 +3,7 @@
 
 import csv
 import math
+import re
 import statistics
 from dataclasses import dataclass, field
 
@@ -15,7 +16,8 @@ class Limits:
     drift: float = 0.05         # of the energy balance, dynamic scenes
     penetration: float = 0.5    # of a facet
     locked: float = 0.2         # how much larger the mean force is than the reference's
-    error: float = 1.0
+    soft: float = 0.2           # how much smaller
+    error: float = 0.5          # beyond which a run is of no use; a reference that is known no better judges nothing
 
 
 @dataclass
@@ -52,11 +54,24 @@ def work_of(result, elements, is_explicit):
     return elements * (result.steps if is_explicit else result.newton + result.linear)
 
 
+# What makes a reference better, by what is least known of it.
+ADVICE = {
+    "mesh": "Finer meshes of the reference (--reference-mesh 1,2,4) tell more; --reference-mesh given leaves the mesh out of the errors.",
+    "step": "More steps of the reference (--reference-steps N) tell more.",
+    "penalty": "A stiffer penalty of the reference (--reference 'Contact pairs/NAME/Normal penalty=VALUE') tells more.",
+    "penetration tolerance": "A smaller one in the reference (--reference 'Contact pairs/NAME/Penetration tolerance=VALUE') tells more.",
+    "": "A finer one (--reference-mesh, --reference-steps) tells more.",
+}
 WORK = {True: "element updates (elements × steps)", False: "element iterations (elements × (Newton + linear iterations))"}
 
 
+def uncertainty_of(reference, outputs, weights):
+    return measure.weighted_mean([reference.uncertainty[o.name] for o in outputs], [weights[o.name] for o in outputs])
+
+
 def judge(point, outputs, weights, reference, scene, limits):
-    """Fills in errors and status. What failed has no error: nothing that failed looks good."""
+    """Fills in errors and status. What failed has no error: nothing that failed looks good. By a reference that is itself
+    known no better than a useless run nobody is judged."""
     result = point.result
     point.status, point.reason = result.status, result.reason
     if result.status != "ok":
@@ -68,11 +83,18 @@ def judge(point, outputs, weights, reference, scene, limits):
         failures.append(("drifted", f"the energies fail to balance by {percent(result.drift)}"))
     if result.penetration > limits.penetration:
         failures.append(("pierced", f"nodes are {number(result.penetration)} facets deep"))
-    for output in outputs:
-        if output.name == "force" and output.excess(result, reference.values["force"]) > limits.locked:
-            failures.append(("locked", f"forces are {percent(output.excess(result, reference.values['force']))} too large in the mean"))
-    if not error <= limits.error:
-        failures.append(("useless", f"the error is {percent(error)}"))
+    if uncertainty_of(reference, outputs, weights) <= limits.error:
+        for output in outputs:
+            if output.name != "force":
+                continue
+            excess = output.excess(result, reference.values["force"])
+            if excess > limits.locked:
+                failures.append(("locked", f"forces are {percent(excess)} too large in the mean"))
+            elif excess < -limits.soft:
+                failures.append(("soft", f"forces are {percent(-excess)} too small in the mean" + (
+                    f", nodes {number(result.penetration, 2)} facets deep" if result.penetration > 0 else "")))
+        if not error <= limits.error:
+            failures.append(("useless", f"the error is {percent(error)}"))
     if failures:
         point.status, point.reason = failures[0][0], "; ".join(reason for _, reason in failures)
     else:
@@ -111,23 +133,47 @@ def table(head, rows):
 class Sweep:
     """All points, the reference they are measured against, and what follows."""
 
-    def __init__(self, points, reference, outputs, weights, scene, cost, target):
+    def __init__(self, points, reference, outputs, weights, scene, cost, target, useless=Limits.error):
+        """`useless`: the error beyond which a run is of no use; a reference that is known no better ranks nothing."""
         self.points, self.reference, self.outputs, self.weights = points, reference, outputs, weights
         self.scene, self.cost, self.target = scene, cost, target
-        self.uncertainty = measure.weighted_mean([reference.uncertainty[o.name] for o in outputs],
-                                                 [weights[o.name] for o in outputs])
+        self.uncertainty = uncertainty_of(reference, outputs, weights)
+        self.is_blind = not self.uncertainty <= useless
         self.base = next(p for p in points if p.is_base)
         good = [p for p in points if p.is_good]
-        costs, errors = [self.cost_of(p) for p in good], [p.error for p in good]
+        self._find_cancellations(good)
+        costs, errors = [self.cost_of(p) for p in good], [self.ranked(p) for p in good]
         self.noise = 0.0 if cost == "work" else timing_noise([p.result.seconds for p in good])
-        self.front = [good[i] for i in measure.pareto_front(costs, errors, self.uncertainty)]
+        self.front = [] if self.is_blind else [good[i] for i in measure.pareto_front(costs, errors, self.uncertainty)]
         self.chosen = None
-        if target is not None:
+        if target is not None and not self.is_blind:
             i = measure.cheapest_within(costs, errors, self.uncertainty, target, self.noise, [p.work for p in good])
             self.chosen = None if i is None else good[i]
 
     def cost_of(self, point):
         return point.seconds if self.cost == "seconds" else point.work
+
+    def _find_cancellations(self, good):
+        """{point: (error, by what)} of points that seem better than their meshes let them be, by more than the uncertainty:
+        than the error of the mesh alone, which the reference knows of its own meshes, or than a point with a finer mesh and all
+        else the same. Errors of opposite sign take each other away there, which another scene need not do."""
+        self.cancelled = {}
+        for p in good:
+            known = []
+            alone = self.reference.mesh_alone(p.scene)
+            if alone:
+                known.append((measure.weighted_mean([alone[o.name] for o in self.outputs], [self.weights[o.name] for o in self.outputs]),
+                              "which its mesh alone makes"))
+            known += [(q.error, f"that of `{q.label}`, on a finer mesh") for q in good
+                      if q.result.elements > p.result.elements and but_the_mesh(q) == but_the_mesh(p)]
+            # errors within the uncertainty are told apart by nothing
+            known = [(error, by) for error, by in known if error > self.uncertainty and error - p.error > self.uncertainty]
+            if known:
+                self.cancelled[id(p)] = max(known)
+
+    def ranked(self, point):
+        """The error that a choice may rest on."""
+        return max(point.error, self.cancelled.get(id(point), (0.0, ""))[0])
 
     def curves(self):
         """{knob: points}, each point once."""
@@ -138,7 +184,7 @@ class Sweep:
         return found
 
     def _floored(self, point):
-        return max(point.error, self.uncertainty)
+        return max(self.ranked(point), self.uncertainty)
 
     def is_cheaper(self, point):
         """Than the scene as written, beyond what timings scatter."""
@@ -182,14 +228,16 @@ class Sweep:
             f"{number(ratio, 2)} times the cost" if ratio > 1.05 else "about the same cost")
 
     def say(self, point):
-        return f"`{point.label}`: error {error_text(point.error, self.uncertainty)}, {self.times(point)}"
+        return f"`{point.label}`: error {error_text(self.ranked(point), self.uncertainty)}, {self.times(point)}"
 
     def words(self):
         """What came out, in sentences."""
         base, said = self.base, []
         u = self.uncertainty
-        if base.is_good:
-            said.append(f"The scene as it is written has an error of {error_text(base.error, u)}; it takes {number(base.seconds)} "
+        if self.is_blind:
+            said.append(self.blindness())
+        elif base.is_good:
+            said.append(f"The scene as it is written has an error of {error_text(self.ranked(base), u)}; it takes {number(base.seconds)} "
                         f"core-seconds and {big(base.work)} {WORK[self.scene.is_explicit]}.")
             buys = self.purchases()
             better = [best for _, best, _ in buys if best]
@@ -218,23 +266,35 @@ class Sweep:
             if idle:
                 said.append(f"Only the cost, not the result, changes with {', '.join(f'`{k}`' for k in idle)}.")
         else:
-            said.append(f"The scene as it is written {base.status}: {base.reason}.")
+            said.append(f"The scene as it is written is no good: {base.status}, {base.reason}.")
         failed = [p for p in self.points if not p.is_good and not p.is_base]
         if failed:
             said.append("Failed: " + "; ".join(f"`{p.label}` {p.status}" + (f" ({short(p.reason)})" if p.reason else "") for p in failed) + ".")
+        if self.cancelled and not self.is_blind:
+            said.append("Not to be relied on, since errors of opposite sign take each other away: " + "; ".join(
+                f"`{p.label}`, off by {error_text(p.error, u)} where {percent(self.ranked(p))} would be expected, {self.cancelled[id(p)][1]}"
+                for p in self.points if id(p) in self.cancelled) + ". They count with the larger error, and stand in brackets.")
         if self.target is not None:
             said.append(self.choice())
         return said
+
+    def blindness(self):
+        worst = max(self.reference.uncertainty_by_axis(), key=lambda row: row[2])
+        return (f"**The reference is known to {percent(self.uncertainty)} only, so that nothing can be said of errors, and no run is ranked.** Most of that is of "
+                f"{worst[0]}, from the {worst[1]} ({percent(worst[2])}). {ADVICE.get(worst[1], ADVICE[''])} --until PART and --outputs, too, may choose "
+                "what is known better.")
 
     def choice(self):
         target, u = self.target, self.uncertainty
         if self.chosen:
             return (f"**Within {percent(target)}, the reference's uncertainty included, the cheapest is {self.say(self.chosen)}** "
                     f"({number(self.chosen.seconds)} core-seconds).")
+        if self.is_blind:
+            return f"**No choice within {percent(target)}.**"
         if u >= target:
             return (f"**No choice within {percent(target)}: the reference itself is known to {percent(u)} only.** A finer one "
                     "(--reference-mesh, --reference-steps) can tell more.")
-        best = min((p for p in self.points if p.is_good), key=lambda p: p.error, default=None)
+        best = min((p for p in self.points if p.is_good), key=self.ranked, default=None)
         return (f"**Nothing tried is within {percent(target)}, the reference's uncertainty of {percent(u)} included.** " + (
             f"Nearest comes {self.say(best)}." if best else "Every run failed."))
 
@@ -245,13 +305,17 @@ class Sweep:
         rows = []
         for p in self.points:
             r = p.result
-            marks = ["front"] * (id(p) in front) + ["**chosen**"] * (p is self.chosen)
+            marks = ["front"] * (id(p) in front) + ["**chosen**"] * (p is self.chosen) + ["errors cancel"] * (id(p) in self.cancelled)
             rows.append([p.curve if not p.is_base else "–", p.value, r.elements or "–", r.steps,
                          *([] if self.scene.is_explicit else [r.newton, r.linear, r.cuts]), big(p.work), number(r.core_seconds),
-                         error_text(p.error, u) if p.is_good else f"**{p.status}**",
+                         self._told(p) if p.is_good else f"**{p.status}**",
                          *(error_text(p.errors[o.name], self.reference.uncertainty[o.name]) if p.errors else "–" for o in self.outputs),
                          number(r.penetration, 2), percent(r.drift), ", ".join(marks)])
         return rows
+
+    def _told(self, point):
+        told = error_text(point.error, self.uncertainty)
+        return f"({told})" if id(point) in self.cancelled else told
 
     def head(self):
         return ["knob", "value", "elements", "steps", *([] if self.scene.is_explicit else ["Newton", "linear", "cuts"]),
@@ -269,7 +333,7 @@ class Sweep:
         for knob, best, keep in self.purchases():
             def cell(p):
                 ratio = self.cost_of(p) / self.cost_of(base)
-                return f"{p.value}: {error_text(p.error, self.uncertainty)} at {number(ratio, 2)}"
+                return f"{p.value}: {error_text(self.ranked(p), self.uncertainty)} at {number(ratio, 2)}"
             rows.append([knob, cell(best) if best else "–", cell(keep) if keep else "–"])
         return table(["knob", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"], rows)
 
@@ -284,8 +348,8 @@ class Sweep:
                   "ranks, start-up and output included; " + ("median of " + self.timed() + (f", which differ by {percent(self.noise)} (median)" if self.noise and any(
                       len(p.result.seconds) > 1 for p in self.points) else "") + "."), *remarks]
         parts += ["## What each knob buys", "The others as they are written; an error below the reference's uncertainty counts as that.",
-                  self.bought_table()] if self.base.is_good else []
-        parts += ["## All runs", "Failed runs have no error. Penetration: the deepest, in facet sizes. Drift: the largest of the energy "
+                  self.bought_table()] if self.base.is_good and not self.is_blind else []
+        parts += ["## All runs", "Failed runs have no error; in brackets: errors that cancel. Penetration: the deepest, in facet sizes. Drift: the largest of the energy "
                   "balance, over the largest sum of energies.", table(self.head(), self.rows()),
                   "## The reference", f"Uncertainty: {uncertainty}; of the weighted mean {percent(self.uncertainty)}. No error below it is told. Differences "
                   "are those of neighbours.", self.reference_table()]
@@ -306,20 +370,26 @@ class Sweep:
             out = csv.writer(stream, lineterminator="\n")
             out.writerow(["kind", "knob", "value", "status", "reason", "elements", "steps", "newton_iterations", "linear_iterations", "cuts",
                           "work", "core_seconds", "timed", "error", "difference", "uncertainty", *(f"{kind}_{n}" for n in names for kind in ("difference", "uncertainty")),
-                          "penetration_over_facet", "energy_drift", "on_front", "chosen", "changes"])
+                          "penetration_over_facet", "energy_drift", "on_front", "chosen", "error_to_rank_by", "changes"])
 
-            def line(kind, knob, value, status, reason, r, work, error, errors, on_front, chosen, changes):
+            def line(kind, knob, value, status, reason, r, work, error, errors, on_front, chosen, ranked, changes):
                 out.writerow([kind, knob, value, status, short(reason), r.elements, r.steps, r.newton, r.linear, r.cuts, plain(work),
                               plain(r.core_seconds), len(r.seconds), plain(max(error, self.uncertainty) if error == error else error), plain(error), plain(self.uncertainty),
-                              *(plain(v) for n in names for v in (errors.get(n, math.nan), self.reference.uncertainty[n])), plain(r.penetration), plain(r.drift), int(on_front), int(chosen),
+                              *(plain(v) for n in names for v in (errors.get(n, math.nan), self.reference.uncertainty[n])), plain(r.penetration), plain(r.drift), int(on_front), int(chosen), plain(ranked),
                               " ; ".join(f"{k} = {'' if v is None else v}" for k, v in changes.items())])
 
             for p in self.points:
                 line("scene" if p.is_base else "sweep", "" if p.is_base else p.curve, p.value, p.status, p.reason, p.result, p.work,
-                     p.error, p.errors, id(p) in front, p is self.chosen, p.changes)
+                     p.error, p.errors, id(p) in front, p is self.chosen,
+                     max(self.ranked(p), self.uncertainty) if p.is_good else math.nan, p.changes)
             for label, result in reference_runs:
                 line("reference", "reference", label, result.status, result.reason, result,
-                     work_of(result, result.elements, self.scene.is_explicit), math.nan, {}, False, False, {})
+                     work_of(result, result.elements, self.scene.is_explicit), math.nan, {}, False, False, math.nan, {})
+
+
+def but_the_mesh(point):
+    """A point's scene without its meshes."""
+    return {path: value for path, value in point.scene.entries.items() if "/Mesh/" not in path}
 
 
 def timing_noise(timings):
@@ -333,5 +403,7 @@ def plain(value):
 
 
 def short(text):
+    """Its first sentence, or what stands before a list of details."""
     text = " ".join(text.split())
-    return text if len(text) <= 120 else text[:117].rstrip() + "..."
+    first = re.match(r"(.+?)(?:\.(?= [A-Z])|\.?$)", text).group(1) if text else ""
+    return first if len(first) <= 400 else first[:first.rindex(" ", 0, 397)].rstrip(",;:") + " ..."

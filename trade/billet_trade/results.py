@@ -15,14 +15,14 @@ from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 from . import TradeError, measure
 
-FORMAT = 1  # of what is kept; another one makes runs anew
+FORMAT = 2  # of what is kept; another one makes runs anew
 SAMPLES = 2000  # of an explicit history
 FACES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 
 
 def output_settings(scene):
     """What a measured run writes: its history, and fields at the start and the end."""
-    changes = {"Output/Folder": "results", "Output/Format": "vtu", "Output/Every steps": 0, "Output/Verbosity": "quiet",
+    changes = {"Output/Folder": "results", "Output/Format": "vtu", "Output/Every steps": 0, "Output/Verbosity": "iterations",
                "Output/Stress": "false"}
     if scene.number("Output/Interval") > 0:
         changes["Output/Interval"] = 0
@@ -32,6 +32,17 @@ def output_settings(scene):
     if scene.is_explicit:
         changes["Output/History interval"] = f"{scene.end_time / SAMPLES:.9g}"
     return changes
+
+
+def iterations_told(said):
+    """Newton iterations that a log of verbosity `iterations` names: with those of a step that failed for good, which no history has."""
+    return len(re.findall(r"^ +iteration +\d+ ", said, re.MULTILINE))
+
+
+def explicit_steps_told(reason):
+    """How many explicit steps a run did until it failed; 0: it does not say."""
+    found = re.search(r" after (\d+) steps", reason)
+    return int(found.group(1)) if found else 0
 
 
 # --- what is kept of a run ---------------------------------------------------------------------------------------
@@ -103,7 +114,7 @@ def failure(code, said, time):
     reason = re.sub(r"\s+", " ", re.sub(r"-{40,}.*?-{40,}", "", said, flags=re.DOTALL)).strip()
     reason = re.sub(r"^billet: ", "", reason)
     if code is None:
-        return "out of time", f"at time {time:.3g}"
+        return "out of time", f"at time {time:.3g}: a longer --time-limit, or a smaller pilot (--mesh, --until), may do"
     if code == 2:
         return "refused", reason
     if code == 3:
@@ -123,8 +134,11 @@ def collect(folder, code, limit):
 
     last = float(last_of("time"))
     status, reason = failure(code, (folder / "stderr").read_text(), last)
-    kept = {"status": status, "reason": reason[:500], "code": code, "limit": limit, "time": last,
-            "steps": int(last_of("step")), "newton": int(last_of("total_iterations")), "cuts": int(last_of("total_cuts")),
+    kept = {"status": status, "reason": reason[:2000], "code": code, "limit": limit, "time": last,
+            "steps": max(int(last_of("step")), explicit_steps_told(reason)),
+            "newton": int(last_of("total_iterations")) if status == "ok" else max(
+                int(last_of("total_iterations")), iterations_told((folder / "stdout").read_text(errors="replace"))),
+            "cuts": int(last_of("total_cuts")),
             "linear": int(numpy.sum(history.get("linear_iterations", 0))),
             "first_step": float(lengths[0]) if len(lengths) else 0.0,
             "drift": largest_drift(history), "penetration": math.nan, "facet": math.nan, "elements": 0}

@@ -35,6 +35,7 @@ def parse(arguments):
     p.add_argument("--outcome", choices=OUTCOMES, action="append", help="scenes that have come out so")
     p.add_argument("--fixed", action="store_true", help="the few that the tests run; exit code 1 if one is neither right, nor refused or failed with a reason")
     p.add_argument("--again", action="store_true", help="run what is kept once more")
+    p.add_argument("--stale", action="store_true", help="run what is kept of another program once more")
     p.add_argument("--list", action="store_true", help="name the scenes, and what became of them, and run none")
     p.add_argument("--keep", action="store_true", help="keep the scene files of what is right, too")
     p.add_argument("--part", metavar="I/N", help="every N-th scene from the I-th on, to share the work: 1/2 and 2/2")
@@ -82,9 +83,13 @@ def perform(options):
         for case in cases:
             print(f"{(runner.kept(case) or {}).get('outcome', '-'):10} {case.name}")
         return 0
-    todo = [] if options.kept else [case for case in cases if options.again or runner.kept(case) is None]
+    kept = {case.name: runner.kept(case) for case in cases}
+    stale = {name for name, record in kept.items() if record and runner.stale(record)}
+    todo = [] if options.kept else [case for case in cases if options.again or kept[case.name] is None or options.stale and case.name in stale]
     if len(todo) < len(cases) and not options.kept:
         print(f"{len(cases) - len(todo)} of {len(cases)} scenes are kept in {runner.folder}")
+    if stale and not options.stale and not options.again:
+        print(f"{len(stale)} of them ran with another program than {runner.program}: --stale runs them once more")
     begin = time.monotonic()
     for done, case in enumerate(todo, 1):
         record = runner.run(case)
@@ -100,7 +105,7 @@ def perform(options):
     counts = Counter(record["outcome"] for record in records)
     print(", ".join(f"{counts[outcome]} {outcome}" for outcome in OUTCOMES if counts[outcome]) + f"; {len(records)} scenes")
     if options.report:
-        report.write(records, Path(options.report), len(cases))
+        report.write(records, Path(options.report), len(cases), runner.program_hash)
     if options.fixed:
         return 1 if any(counts[outcome] for outcome in BAD) else 0
     return 0

@@ -12,7 +12,7 @@ from matplotlib import pyplot  # noqa: E402
 from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
-from .runner import OUTCOMES  # noqa: E402
+from .runner import AT_MOST, OUTCOMES, PATIENCE  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
 COLOURS = {"right": "#4c9f70", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
@@ -99,7 +99,51 @@ def reasons(records, outcome):
     return sorted(found.items(), key=lambda item: -len(item[1]))
 
 
-def write(records, folder, planned=0):
+def programs(records, ours):
+    """In words: which programs the outcomes are of; `ours`: the one that is named now."""
+    count = Counter(r["program"] for r in records)
+    if set(count) == {ours}:
+        return "All of them ran with one and the same program."
+    now = count.pop(ours, 0)
+    others = ", ".join(f"{n} with {name}" for name, n in count.most_common())
+    other = sum(count.values())
+    return (f"{now} scene{'s' * (now != 1)} ran with the program as it is" + f", {other} with {'one other state' if len(count) == 1 else f'{len(count)} other states'} "
+            f"of it and are kept from then ({others}; `--stale` runs these once more). Of those with others "
+            + ", ".join(f"{n} {o}" for o, n in Counter(r["outcome"] for r in records if r["program"] != ours).most_common()) + ".")
+
+
+def units(records):
+    """In words: how many take another number of iterations in other units."""
+    named, exact = [], []
+    for r in records:
+        if r["parameters"] == ["units"] and "errors" in r:
+            differs = any(error for name, error in r["errors"].items() if name.startswith("as many"))
+            (exact if re.search(r"2\^|powers", str(r["values"][0])) else named).append(differs)
+    if not named or not exact:
+        return ""
+    same = named.count(False)
+    return (f"Of {len(named)} scenes in other units {same} take{'s' * (same == 1)} as many steps, cuts and iterations, {named.count(True)} one iteration more or "
+            f"less; of {len(exact)} in units that differ by powers of 2, {exact.count(False)}.")
+
+
+def steps(record):
+    return f", {record['steps']:.0f} steps" if "steps" in record else ""
+
+
+def slow(records):
+    """In words: what took longer than hung runs are given for a step."""
+    took = sorted(((r.get("processor seconds", r["seconds"]), r) for r in records), key=lambda pair: -pair[0])
+    long = [(s, r) for s, r in took if s > PATIENCE]
+    if not took:
+        return ""
+    if not long:
+        return f"None took more than {PATIENCE:g} s of the processor; the longest, `{took[0][1]['name']}`, {took[0][0]:.0f} s."
+    return (f"{len(long)} took more than {PATIENCE:g} s of the processor: " + ", ".join(
+        f"`{r['name']}` ({s:.0f} s, {r['outcome']}{steps(r)})"
+        for s, r in long[:20]) + ".")
+
+
+def write(records, folder, planned=0, program=""):
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
     outcomes = [o for o in OUTCOMES if any(r["outcome"] == o for r in records)]
@@ -111,7 +155,9 @@ def write(records, folder, planned=0):
              "out, and that the same scene in other units takes as many steps and iterations, and turned in space gives the same.",
              "*right*: all of that holds. *doubtful*: it does not, and the log says that the energies fail to balance, and what to do. "
              "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
-             "*wrong*, *crashed*, *hung* (30 s and more): what must not be.",
+             f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
+             + slow(records),
+             " ".join(said for said in (units(records), programs(records, program)) if said),
              table(["", *outcomes, "scenes"], [["all", *[whole[o] for o in outcomes], len(records)]]
                    + [[kind, *[sum(r["base"] in bases and r["outcome"] == o for r in records) for o in outcomes],
                        sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),

@@ -8,10 +8,10 @@ import os
 import re
 import resource
 import shutil
-import signal
 import subprocess
 import time
 import traceback
+from pathlib import Path
 
 from . import invariants, messages, prm
 from .results import Result
@@ -25,19 +25,43 @@ DOUBT = re.compile(r"^.*the energies fail to balance by .*$", re.MULTILINE)
 # What the log says that rounding leaves of the forces: as much of them need not balance.
 ROUND_OFF = re.compile(r"^Round-off leaves (\S+) of the forces", re.MULTILINE)
 BALANCES = ("equilibrium", "no force across", "pushes")
+ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
 BEYOND_DOUBT = ("finite", "comes to its end", "elements inside out", "friction cone", "no tension", "yield condition",
                 "plastic strain >= 0", "energy ledger")
+
+
+# Seconds of the processor: hung is what accepts no step in the first, or does not end in the second.
+PATIENCE, AT_MOST = 30.0, 300.0
+
+
+def processor_seconds(pid):
+    """Of a process and those of its session that run; 0 where it has gone."""
+    total = 0
+    for file in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            text = file.read_text()
+        except OSError:
+            continue
+        fields = text[text.rindex(")") + 2:].split()  # from the third one on: names may have blanks
+        if int(fields[3]) == pid or file.parent.name == str(pid):
+            total += sum(int(f) for f in fields[11:15])
+    return total / os.sysconf("SC_CLK_TCK")
 
 
 def slug(name):
     return re.sub(r"[^\w.=+-]+", "_", name)[:100] + "-" + hashlib.sha256(name.encode()).hexdigest()[:8]
 
 
+def rows(history):
+    return max(history.read_text().count("\n") - 1, 0) if history.exists() else 0
+
+
 class Runner:
     """`folder`: kept/ has a JSON file for each case; work/ is where a scene runs; scenes/ has those that are not right."""
 
-    def __init__(self, program, folder, keep_all=False):
+    def __init__(self, program, folder, keep_all=False, patience=PATIENCE, at_most=AT_MOST):
         self.program, self.folder, self.keep_all = program, folder, keep_all
+        self.patience, self.at_most = patience, at_most
         for name in ("kept", "scenes", "work"):
             (folder / name).mkdir(parents=True, exist_ok=True)
         self.program_hash = hashlib.sha256(program.read_bytes()).hexdigest()[:12]
@@ -48,6 +72,10 @@ class Runner:
             return json.loads((self.folder / "kept" / (slug(case.name) + ".json")).read_text())
         except (OSError, ValueError):
             return None
+
+    def stale(self, record):
+        """Whether this outcome is of another program than ours."""
+        return record["program"] != self.program_hash
 
     def run(self, case):
         """Its outcome, kept."""
@@ -69,20 +97,20 @@ class Runner:
         setup = make(case.base, case.changes)
         text = prm.text(setup.sections)
         work = self.folder / "work" / slug(case.name)
-        told = self._execute(text, work, case.limit)
+        told = self._execute(text, work)
         scene = self.folder / "scenes" / (slug(case.name) + ".prm")
         scene.unlink(missing_ok=True)
-        verdict = self._verdict(case, setup, work, told)
+        verdict = {**self._verdict(case, setup, work, told), "processor seconds": round(told[3], 3)}
         if verdict["outcome"] not in ("right", "refused") or self.keep_all:
             scene.write_text(f"# {case.name}: {verdict['outcome']}. {' '.join(verdict['reason'].split())[:300]}\n" + text)
         shutil.rmtree(work, ignore_errors=True)
         return verdict
 
     def _verdict(self, case, setup, work, told):
-        code, stderr = told
+        code, stderr, hung, _ = told
         said = messages.reason(stderr)
-        if code is None:
-            return {"outcome": "hung", "reason": f"not finished after {case.limit:g} s of the processor"}
+        if hung:
+            return {"outcome": "hung", "reason": hung}
         if code in (2, 3):
             lacks = messages.lacks(code, said)
             if lacks:
@@ -98,7 +126,7 @@ class Runner:
                 return {"outcome": "wrong", "reason": "this one runs, and the one that it is compared with does not"}
             found += invariants.same(result, other, case.loose, case.count)
         log = (work / "stdout").read_text(errors="replace")
-        rounded = max((float(part) for part in ROUND_OFF.findall(log)), default=0.0)
+        rounded = min(max((float(part) for part in ROUND_OFF.findall(log)), default=0.0), ROUND_OFF_AT_MOST)
         found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f for f in found]
         told = DOUBT.search(log)
         broken = [str(f) for f in found if not f.holds]
@@ -115,34 +143,51 @@ class Runner:
         if key not in self._references:
             setup = make(case.base, case.like)
             work = self.folder / "work" / slug(f"{case.base} {key[1]} as reference")
-            code, _ = self._execute(prm.text(setup.sections), work, case.limit)
+            code, _, _, _ = self._execute(prm.text(setup.sections), work)
             self._references[key] = Result.read(setup, work / "results") if code == 0 else None
             shutil.rmtree(work, ignore_errors=True)
         return self._references[key]
 
-    def _execute(self, text, work, limit):
-        """Exit code (None: out of time) and what was said on standard error."""
+    def _execute(self, text, work):
+        """Exit code, what was said on standard error, why it was given up ('': it was not), and seconds of the processor."""
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
 
         def bounded():
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-            resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 5))
+            # should nobody be left to watch it
+            resource.setrlimit(resource.RLIMIT_CPU, (int(self.at_most) + 60, int(self.at_most) + 70))
 
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         with open(work / "stdout", "w") as out, open(work / "stderr", "w") as err:
             process = subprocess.Popen([str(self.program), "scene.prm"], cwd=work, stdout=out, stderr=err, preexec_fn=bounded,
                                        start_new_session=True, env={**os.environ, **ALONE, "TMPDIR": str(work)})
             try:
-                code = process.wait(10 * limit)  # the machine may have more to do
+                hung = self._watch(process, work / "results" / "history.csv")
+            finally:
+                if process.poll() is None:
+                    process.kill()
+                    process.wait()
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        return process.returncode, (work / "stderr").read_text(errors="replace"), hung, spent
+
+    def _watch(self, process, history):
+        """Waits for its end, or until it is worth no more waiting: says why. A step is accepted when the history grows."""
+        size, last, last_seen, begin = -1, 0.0, time.monotonic(), time.monotonic()
+        while True:
+            try:
+                process.wait(0.02 * self.patience)
+                return ""
             except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-                code = None
-            except BaseException:
-                process.kill()
-                process.wait()
-                raise
-        if code == -signal.SIGXCPU:
-            code = None
-        return code, (work / "stderr").read_text(errors="replace")
+                pass
+            spent, now = processor_seconds(process.pid), time.monotonic()
+            grown = history.stat().st_size if history.exists() else 0
+            if grown != size:
+                size, last, last_seen = grown, spent, now
+            # The machine may have more to do: on its clock there is ten times as much.
+            if spent > last + self.patience or now > last_seen + 10 * self.patience:
+                return f"no step was accepted in {self.patience:g} s of the processor, after {rows(history)} rows of the history"
+            if spent > self.at_most or now > begin + 10 * self.at_most:
+                return f"not finished after {self.at_most:g} s of the processor, and {rows(history)} rows of the history"

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What runs are judged to be, what they are ranked by, what is said of them, and the picture, on points that are made up."""
+
+import math
+import unittest
+
+import modules  # noqa: F401  finds the next one
+from billet_trade import picture, report
+from billet_trade.scene import Scene
+
+DEFAULTS = "subsection Bodies\nsubsection (name of a body)\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n"
+SCENE = Scene("subsection Bodies\nsubsection bar\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n", DEFAULTS)
+
+
+class Result:
+    """`force`: as part of the reference's."""
+
+    def __init__(self, force=1.0, elements=4, seconds=1.0, status="ok", penetration=0.01, drift=0.0, reason=""):
+        self.force, self.elements, self.core_seconds, self.seconds = force, elements, seconds, [seconds, seconds]
+        self.status, self.reason, self.penetration, self.drift = status, reason, penetration, drift
+        self.steps = self.newton = 10
+        self.linear = self.cuts = 0
+
+
+class Force:
+    name, meaning = "force", "a part"
+
+    def error(self, result, reference):
+        return abs(result.force - reference)
+
+    def excess(self, result, reference):
+        return result.force / reference - 1
+
+
+class Reference:
+    """`meshes`: {layers: error of that mesh alone}."""
+
+    def __init__(self, uncertainty=0.01, meshes=None):
+        self.values, self.uncertainty = {"force": 1.0}, {"force": uncertainty}
+        self.meshes = meshes or {}
+        self.rows, self.remarks = [["force", "mesh", "", [], None, None, uncertainty]], []
+
+    def mesh_alone(self, scene):
+        error = self.meshes.get(scene.get("Bodies/bar/Mesh/Layers"))
+        return None if error is None else {"force": error}
+
+    def uncertainty_by_axis(self):
+        return [("force", "mesh", self.uncertainty["force"])]
+
+
+def point(curve, value, changes=None, **result):
+    changes = changes or {}
+    return report.Point(curve, value, changes, SCENE.changed(changes), Result(**result), is_base=not curve)
+
+
+def layers(n, **more):
+    return {"Bodies/bar/Mesh/Layers": str(n), **more}
+
+
+def sweep(points, reference, target=None):
+    for p in points:
+        p.work = p.result.elements * 10.0
+        report.judge(p, [Force()], {"force": 1.0}, reference, SCENE, report.Limits())
+    return report.Sweep(points, reference, [Force()], {"force": 1.0}, SCENE, "work", target)
+
+
+class Judging(unittest.TestCase):
+    def test_marks(self):
+        points = [point("", "as written"), point("penalty", "0.001", force=0.05, elements=1, penetration=0.098), point("penalty", "0.1", force=0.79, elements=1),
+                  point("penalty", "0.2", force=0.81, elements=2), point("element", "full", force=1.21), point("element", "other", force=1.19),
+                  point("penalty", "0.01", force=1.0, penetration=0.6)]
+        s = sweep(points, Reference())
+        self.assertEqual([p.status for p in points], ["ok", "soft", "soft", "ok", "locked", "ok", "pierced"])
+        self.assertEqual(points[1].reason, "forces are 95 % too small in the mean, nodes 0.098 facets deep; the error is 95 %")
+        self.assertTrue(math.isnan(points[1].error))
+        # The cheapest of all are on no front.
+        self.assertEqual([p.value for p in s.front], ["0.2", "as written"])
+        self.assertIn("`penalty = 0.001` soft (forces are 95 % too small", " ".join(s.words()))
+        shape = Force()
+        shape.name = "shape"
+        other = point("mass scaling", "8", force=1.51)
+        reference = Reference()
+        reference.values["shape"] = 1.0
+        reference.uncertainty["shape"] = 0.01
+        report.judge(other, [shape], {"shape": 1.0}, reference, SCENE, report.Limits())
+        self.assertEqual(other.status, "useless")
+
+    def test_reference_that_is_not_known(self):
+        points = [point("", "as written", force=2.0), point("penalty", "10", force=0.3)]
+        s = sweep(points, Reference(0.8), 0.05)
+        self.assertEqual([p.status for p in points], ["ok", "ok"])
+        self.assertEqual((s.front, s.chosen), ([], None))
+        said = " ".join(s.words())
+        self.assertIn("The reference is known to 80 % only", said)
+        self.assertIn("--reference-mesh 1,2,4", said)
+        self.assertNotIn("as it is written", said)
+        self.assertIn("No choice within 5 %", said)
+        self.assertNotIn("What each knob buys", s.page("", "", [], ""))
+        # Nor does one that nothing is known of.
+        self.assertTrue(sweep([point("", "as written")], Reference(math.nan)).is_blind)
+
+    def test_reasons_are_whole_sentences(self):
+        reason = ("scene.prm: the step from time 0 to 1e-06 failed after 0 accepted steps and 18 cuts: given up after 20 iterations, since at their pace 60 will not do; "
+                  "the largest residual is in body 'blank' at (38.4833, 46.7199, -2.4e-10). The step cannot be cut below 'Smallest step' = 1e-06: try a softer penalty")
+        self.assertEqual(report.short(reason), reason[:reason.index(". The step")])
+        self.assertEqual(report.short(""), "")
+        self.assertEqual(report.short("inside out."), "inside out")
+        self.assertLessEqual(len(report.short("much " * 200)), 400)
+
+
+class Cancellation(unittest.TestCase):
+    def points(self):
+        # The mesh takes 3 % away, long steps add 2.5 %: together they seem to be right.
+        return [point("", "as written", force=1.025, elements=8), point("mesh", "0.5", layers(2), force=0.995, elements=2),
+                point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.004, elements=16),
+                point("mesh 0.5 × steps", "80", layers(2, **{"Time stepping/Largest step": "0.01"}), force=0.97, elements=3)]
+
+    def test_finer_mesh_with_all_else_the_same(self):
+        points = self.points()
+        s = sweep(points, Reference(0.01), 0.02)
+        self.assertEqual(list(s.cancelled), [id(points[1])])
+        self.assertAlmostEqual(s.ranked(points[1]), 0.025)
+        self.assertIs(s.chosen, points[2])
+        said = " ".join(s.words())
+        self.assertIn("Not to be relied on, since errors of opposite sign take each other away: `mesh = 0.5`, off by < 1 % where 2.5 % would be expected, that of `as written`", said)
+        self.assertIn("errors cancel", s.page("", "", [], ""))
+        self.assertIn("Most accuracy is bought by `steps = 80`", said)
+
+    def test_mesh_alone(self):
+        points = self.points()
+        s = sweep(points, Reference(0.01, {"2": 0.035}), 0.02)
+        self.assertAlmostEqual(s.ranked(points[1]), 0.035)
+        self.assertIn("3.5 % would be expected, which its mesh alone makes", " ".join(s.words()))
+
+    def test_within_the_uncertainty_nothing_is_told(self):
+        self.assertEqual(sweep(self.points(), Reference(0.03, {"2": 0.035})).cancelled, {})
+
+
+class Pictures(unittest.TestCase):
+    def test_legend_is_whole(self):
+        points = Cancellation().points() + [point("a knob of one's own with a very long name that wants lines", v, {"Solver/X": v}, force=1.003) for v in "123"]
+        for p in points[4:]:
+            p.result.elements = 1
+        figure = picture.picture_of(sweep(points, Reference(0.01), 0.05), "Title")
+        figure.canvas.draw()
+        legend, frame = figure.legends[0].get_window_extent(), figure.bbox
+        self.assertLessEqual(legend.x1, frame.x1)
+        self.assertGreaterEqual(legend.y0, 0)
+        for axes in figure.axes:
+            self.assertLessEqual(axes.get_tightbbox(figure.canvas.get_renderer()).x1, legend.x0 + 1)
+        picture.pyplot.close(figure)
+
+
+unittest.main()
