@@ -137,8 +137,13 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
                             const double to) {
   std::ostringstream message;
   message << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
-          << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure
-          << "; residual " << report.newton.force << " of the forces, allowed is "
+          << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure;
+  std::ostringstream computed;
+  computed << ". What was computed until time " << from << " is in '" << parameters.output.folder.value
+           << "'.";
+  if (report.newton.is_lost_in_round_off)
+    return message.str() + computed.str();
+  message << "; residual " << report.newton.force << " of the forces, allowed is "
           << parameters.solver.force_tolerance << ". " << describe_limit_load(parameters);
   if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
@@ -149,9 +154,7 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
             << " try a softer penalty, another 'Contact tangent', more 'Most iterations', or look at the "
                "last picture for "
                "an unstable or torn mesh";
-  message << ". What was computed until time " << from << " is in '" << parameters.output.folder.value
-          << "'.";
-  return message.str();
+  return message.str() + computed.str();
 }
 
 } // namespace
@@ -470,7 +473,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     outputs.progress.reject(report, from, to);
     if (watch)
       watch->after_failure();
-    const bool may_go_on = control.reject();
+    // Smaller loads would make that worse.
+    const bool may_go_on = control.reject() && !report.newton.is_lost_in_round_off;
     report.total_cuts = control.n_cuts();
     if (!may_go_on) {
       outputs.snapshots.write(problem);

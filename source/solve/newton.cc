@@ -253,15 +253,24 @@ public:
     double increment_norm = 0.;
     increment.Norm2(&increment_norm);
 
+    // But for what contact's round-off leaves.
+    const auto is_small = [&](const double contact_round_off) {
+      const double round_off = problem_.round_off_force() + contact_round_off;
+      return norm <= settings_.force_tolerance * scale + round_off &&
+             (n == 0 ||
+              std::abs(residual_work) <= (settings_.energy_tolerance * scale + round_off) * increment_norm);
+    };
+    const double contact = problem_.contact_round_off_force(), cap = most_round_off * scale;
     status_ = NOX::StatusTest::Unconverged;
     if (!std::isfinite(norm)) {
       report_.failure = "the residual is not a number";
       status_ = NOX::StatusTest::Failed;
-    } else if (norm <= settings_.force_tolerance * scale + problem_.round_off_force() &&
-               (n == 0 || std::abs(residual_work) <= settings_.energy_tolerance * scale * increment_norm +
-                                                         problem_.round_off_force() * increment_norm))
+    } else if (is_small(std::min(contact, cap))) {
       status_ = NOX::StatusTest::Converged;
-    else if (n >= settings_.most_iterations) {
+    } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > most_in_round_off_) {
+      report_.is_lost_in_round_off = true;
+      status_ = NOX::StatusTest::Converged;
+    } else if (n >= settings_.most_iterations) {
       report_.failure = "no convergence in " + std::to_string(n) + " iterations";
       status_ = NOX::StatusTest::Failed;
     } else if (is_hopeless(n)) {
@@ -269,10 +278,17 @@ public:
                         std::to_string(settings_.most_iterations) + " will not do";
       status_ = NOX::StatusTest::Failed;
     }
+    // Residuals that are larger than estimated, but not by much, are round-off's, too.
+    constexpr double by_much = 10.;
+    largest_round_off_ = std::max(largest_round_off_, contact); // nodes may just have let go
+    if (status_ == NOX::StatusTest::Failed)
+      report_.is_lost_in_round_off = largest_round_off_ > cap && norm <= by_much * largest_round_off_;
     return status_;
   }
   NOX::StatusTest::StatusType getStatus() const override { return status_; }
   std::ostream &print(std::ostream &stream, int) const override { return stream; }
+  /// Whether an iteration has come as near as round-off lets it, and that is not near enough.
+  bool has_met_round_off() const { return n_in_round_off_ > 0; }
 
 private:
   /// Whether, at the mean pace of the last iterations, the residual would miss its tolerance in those that
@@ -291,6 +307,9 @@ private:
   const parameters::Solver &settings_;
   const Epetra_Vector &x_n_;
   NewtonReport &report_;
+  static constexpr unsigned int most_in_round_off_ = 3; // tries to come out of it
+  unsigned int n_in_round_off_ = 0;
+  double largest_round_off_ = 0.;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
 
@@ -346,6 +365,8 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
   } catch (const char *) { // where a correction cannot be computed; NOX's text, "NOX Error", says nothing
   }
   report.hardest = report.iterations.size();
+  report.is_lost_in_round_off =
+      report.is_lost_in_round_off || (!report.converged && convergence->has_met_round_off());
   if (!report.converged && report.failure.empty())
     report.failure =
         "the correction leads to inadmissible states (det F <= 0 or not a number), or the matrix is singular";

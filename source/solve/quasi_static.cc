@@ -207,7 +207,9 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
   force_scale_ = support_forces_.l2_norm();
   Vector total = support_forces_;
   contact_forces_ = raw_contact_;
-  force_scale_ = std::max(force_scale_, contact_forces_.l2_norm());
+  const double contact_size = contact_forces_.l2_norm();
+  contact_bears_ = contact_size > 0.;
+  force_scale_ = std::max(force_scale_, contact_size);
   total += contact_forces_;
   for (std::size_t tool = 0; tool < fading_forces_.size(); ++tool)
     if (fading_forces_[tool])
@@ -456,9 +458,13 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     report.append_anew(attempt_step(t, previous_step));
   if (!report.converged) {
     probe_.reset(); // it may have led astray
-    for (const auto &contact : body_contacts_)
-      report.failure += contact->describe_restless();
-    report.failure += describe_residual();
+    if (report.is_lost_in_round_off)
+      report.failure = describe_round_off(report.force);
+    else {
+      for (const auto &contact : body_contacts_)
+        report.failure += contact->describe_restless();
+      report.failure += describe_residual();
+    }
   }
   report.linear_iterations = linear_->take_iterations();
   report.note = softened + linear_->take_note();
@@ -524,8 +530,10 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     const Epetra_Vector accepted = pack(x, offsets);
     Epetra_Vector residual(accepted);
     compute_residual(accepted, residual);
-    if (is_probing_ || !is_accurate(report) || contact_makes_energy(t, report))
+    if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) ||
+        contact_makes_energy(t, report))
       return report;
+    n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();
     commit(t);
     has_lost_pace_ = has_lost_pace_ || !stopping.empty();

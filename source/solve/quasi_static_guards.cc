@@ -5,6 +5,7 @@
 
 #include <Epetra_Vector.h>
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 
@@ -32,10 +33,11 @@ std::string QuasiStatic::watch_penalties() {
       look(contact->name(), contact->penetration());
   }
   const double tolerance = scene_.parameters().solver.force_tolerance;
-  if (!has_told_stiff_ && force_scale_ > 0. && round_off_force() > tolerance * force_scale_) {
-    note << "Round-off leaves " << round_off_force() / force_scale_
+  if (!has_told_stiff_ && force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
+    note << "Round-off leaves " << contact_round_off_force() / force_scale_
          << " of the forces, more than 'Force tolerance' = " << tolerance
-         << " asks for, and is accepted: try a softer penalty, with a 'Penetration tolerance' where that is "
+         << " asks for, and is accepted up to " << most_round_off
+         << ": try a softer penalty, with a 'Penetration tolerance' where that is "
             "too soft, or bodies nearer to the origin\n";
     has_told_stiff_ = true;
   }
@@ -47,6 +49,45 @@ std::string QuasiStatic::watch_penalties() {
     has_told_taken_ = true;
   }
   return note.str();
+}
+
+std::string QuasiStatic::stiffest_pairs() const {
+  std::vector<double> springs;
+  for (const auto &contact : contacts_)
+    springs.push_back(contact.largest_spring());
+  for (const auto &contact : body_contacts_)
+    springs.push_back(contact->largest_spring());
+  dealii::Utilities::MPI::max(springs, discretization_.communicator(), springs);
+  const double stiffest = *std::max_element(springs.begin(), springs.end());
+  constexpr double as_stiff = 0.1;
+  std::string names;
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    if (springs[i] >= as_stiff * stiffest)
+      names += (names.empty() ? "'" : ", '") +
+               (i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
+                                     : body_contacts_[i - contacts_.size()]->name()) +
+               "'";
+  return names;
+}
+
+std::string QuasiStatic::describe_round_off(const double part) const {
+  std::ostringstream text;
+  text.precision(2);
+  text << "round-off leaves " << part << " of the forces, allowed is " << most_round_off
+       << ": the penalty of contact pair " << stiffest_pairs()
+       << " is too stiff for such small displacements and sixteen digits. Try a softer penalty, with a "
+          "'Penetration tolerance' where that is too soft, or bodies nearer to the origin";
+  return text.str();
+}
+
+bool QuasiStatic::is_lost_in_round_off(const double t, NewtonReport &report) {
+  // Where loads begin, and nodes lie on a tool but for their last bit, forces are small, and grow soon.
+  constexpr unsigned int most_steps = 3;
+  const bool is_last = t >= scene_.parameters().time_stepping.end_time;
+  if (!report.is_lost_in_round_off || (n_in_round_off_ < most_steps && !is_last))
+    return false;
+  report.converged = false;
+  return true;
 }
 
 std::string QuasiStatic::describe_residual() {

@@ -91,8 +91,9 @@ public:
   bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
   double force_scale() const override { return force_scale_; }
   double round_off_force() const override {
-    return round_off_force_ + spring_round_off_ + (motion_ ? motion_->round_off_force() : 0.);
+    return round_off_force_ + (motion_ ? motion_->round_off_force() : 0.);
   }
+  double contact_round_off_force() const override { return contact_bears_ ? spring_round_off_ : 0.; }
 
 private:
   /// For the contacts as they are, or, after a restart, as they were when it was built last.
@@ -184,6 +185,13 @@ private:
   std::string soften_augmented_contacts();
   /// The force that round-off in positions makes of the stiffest penalty. Collective.
   double find_spring_round_off() const;
+  /// Whether a step that has converged has to fail, since contact's round-off leaves too much of the forces
+  /// in it, as in those before it, or in the last of the run.
+  bool is_lost_in_round_off(double t, NewtonReport &report);
+  /// What is left of the forces, why and what to do.
+  std::string describe_round_off(double part) const;
+  /// Names of the pairs whose penalties make most of it. Collective.
+  std::string stiffest_pairs() const;
   /// What the user should know of the penalties after a step, each once; lines. In
   /// solve/quasi_static_guards.cc.
   std::string watch_penalties();
@@ -234,6 +242,8 @@ private:
   double contact_balance_ = 0., contact_taken_ = 0., largest_energy_ = 0.;
   bool has_told_taken_ = false;
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
+  bool contact_bears_ = false;      ///< at the last residual
+  unsigned int n_in_round_off_ = 0; ///< of the last accepted steps, those that are lost in it
 
   double time_ = 0.;     ///< end of the step that is tried
   double duration_ = 0.; ///< of that step; 0 while its first guess is made
