@@ -37,7 +37,8 @@ struct Row {
 // The table. 'balanced' is the default of every parameter. What each profile costs, and how far it is off:
 // scripts/benchmarks profiles; the target error: doc/results/target-error.md.
 constexpr std::array<Row, 28> rows = {{
-    // Steps: fast ones follow the iterations alone and may be long, but not so long that Newton's method takes
+    // Steps: fast ones follow the iterations alone and may be long, but not so long that Newton's method
+    // takes
     // more for one than for two of half the length; accurate ones follow their error.
     {statics_with_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.04 T"},
     {statics_without_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.1 T"},
