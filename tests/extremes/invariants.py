@@ -109,6 +109,34 @@ class Invariants(unittest.TestCase):
     def test_jacobians(self):
         self.about(must.jacobians, lambda: made_up("upset"), lambda r: r.fields["displacement"].__setitem__((7, slice(None)), (-0.9, -0.9, -0.9)))
 
+    def test_augmented(self):
+        make = lambda: made_up("upset", {"augmentation": 1e-2}, history=force("ram", z=-200.0, deepest_penetration=0.004))  # noqa: E731
+        self.about(must.augmented("ram", 0.5), make, lambda r: r.history["ram.deepest_penetration"].__setitem__(2, 0.0051))
+        self.assertEqual(len(scenes.make("upset", {"augmentation": 1e-2}).checks), len(scenes.make("upset", {}).checks) + 2)
+
+    def test_driven(self):
+        make = lambda: made_up("upset", {"force": 0.01}, history=force("ram", z=-10.0))  # noqa: E731
+        self.about(must.driven("ram.force_z", -10.0), make, lambda r: r.history["ram.force_z"].__setitem__(9, -10.01))
+
+    def test_laden(self):
+        t = numpy.linspace(0.1, 1, 10)
+        make = lambda: made_up("laden.explicit", history={**force("floor", z=t), "momentum_z": 0.0, "time": t})  # noqa: E731
+        self.about(must.bears("floor", 1.0, 1.0), make, lambda r: r.history.update({"floor.force_z": 0.9 * r.history["floor.force_z"]}),
+                   lambda r: r.history["momentum_z"].__setitem__(9, 0.1))
+        held = lambda: made_up("laden.explicit", {"spring": 1.0}, history={**force("floor", z=0.5 * t), "momentum_z": 0.0, "time": t})  # noqa: E731
+        self.about(must.bears("floor", 1.0, 1.0), held, lambda r: r.history.update({"floor.force_z": -r.history["floor.force_z"]}),
+                   lambda r: r.history.update({"floor.force_z": 2.5 * r.history["floor.force_z"]}))
+
+    def test_believed(self):
+        t = numpy.linspace(0.1, 1, 10)
+        fine = made_up("slide", history=force("die", z=t))
+        def make():
+            r = made_up("slide", history=force("die", z=1.02 * t))
+            r.believed = {"error": 0.01}
+            return r
+        self.about(lambda r: must.believed(r, fine), make, lambda r: r.believed.update(error=0.006), lambda r: r.believed.clear(),
+                   lambda r: r.history.update({"die.force_z": 1.05 * t}))
+
     def test_yields(self):
         # J = 1; 1 % of E and 10 % hardening: 10 + 100 * 0.1
         make = lambda: made_up("upset", {"law": "elastoplastic"}, von_mises_stress=20.0, equivalent_plastic_strain=0.1)  # noqa: E731

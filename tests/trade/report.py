@@ -6,6 +6,7 @@ import unittest
 
 import modules  # noqa: F401  finds the next one
 from billet_trade import picture, report
+from billet_trade.reference import mesh_of
 from billet_trade.scene import Scene
 
 DEFAULTS = "subsection Bodies\nsubsection (name of a body)\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n"
@@ -134,6 +135,18 @@ class Cancellation(unittest.TestCase):
 
     def test_within_the_uncertainty_nothing_is_told(self):
         self.assertEqual(sweep(self.points(), Reference(0.03, {"2": 0.035})).cancelled, {})
+
+
+class Meshes(unittest.TestCase):
+    def test_other_elements_make_other_errors(self):
+        defaults = ("subsection Bodies\nsubsection (name of a body)\nset Element = mean dilatation\nsubsection Mesh\nset Layers = 4\nset Arguments =\n"
+                    "end\nend\nend\n")
+        def scene(*lines):
+            return Scene("subsection Bodies\nsubsection bar\n" + "".join(line + "\n" for line in lines) + "end\nend\n", defaults)
+        mesh = ("subsection Mesh", "set Layers = 4", "set Arguments = 1, 2 : 3", "end")
+        self.assertEqual(mesh_of(scene(*mesh)), mesh_of(scene("set Element = mean dilatation", "subsection Mesh", "set Arguments = 1,2:3", "end")))
+        self.assertNotEqual(mesh_of(scene(*mesh)), mesh_of(scene("set Element = one point", *mesh)))
+        self.assertNotEqual(mesh_of(scene(*mesh)), mesh_of(scene("subsection Mesh", "set Arguments = 1, 3 : 3", "end")))
 
 
 class Pictures(unittest.TestCase):

@@ -197,7 +197,8 @@ class Reference:
                 self._mesh_errors.setdefault(mesh_of(scene), {})[output.name] = output.norm(values(result) - limit.values) / scale
 
     def mesh_alone(self, scene):
-        """{output: error} that the scene's mesh makes where all else is converged; None where the reference has no such mesh."""
+        """{output: error} that the scene's mesh, with its elements, makes where all else is converged; None where the reference has
+        no such mesh."""
         return self._mesh_errors.get(mesh_of(scene))
 
     def uncertainty_by_axis(self):
@@ -205,7 +206,10 @@ class Reference:
         return [(row[0], row[1], row[6]) for row in self.rows if not math.isnan(row[6])]
 
 
+SPATIAL = ("Element", "Hourglass stiffness", "Facets", "Passes", "Smoothing")
+
+
 def mesh_of(scene):
-    """What the scene says of its meshes, however it writes it."""
+    """What the scene says of its meshes and of what stands on them, however it writes it: other elements make other errors."""
     return tuple(sorted((path, "".join(value.split())) for path, value in scene.entries.items()
-                        if "/Mesh/" in path and value != scene.default(path)))
+                        if ("/Mesh/" in path or path.split("/")[-1] in SPATIAL) and value != scene.default(path)))

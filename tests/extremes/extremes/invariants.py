@@ -61,6 +61,43 @@ def balanced(a, b):
     return check
 
 
+def driven(column, value):
+    """A tool that a force, or a moment, drives presses with just that."""
+    def check(r):
+        return [Finding("driven", part(abs(r.history[column][-1] - value), abs(value)), newton(r, 10, 1e-4))]
+    return check
+
+
+def bears(name, pressure, end):
+    """The floor takes the momentum that the pressure gives, but for what the block still has of it; with springs, no more than that."""
+    def check(r):
+        h = r.history
+        gap = numpy.diff(numpy.concatenate(([0.0], h["time"])))
+        f = numpy.concatenate(([0.0], h[f"{name}.force_z"]))
+        taken = float(numpy.sum(0.5 * (f[1:] + f[:-1]) * gap))
+        given = 0.5 * pressure * end
+        if r.knobs.spring:
+            return [Finding("pushes up", max(0.0, -taken) / given, 1e-6), Finding("bears no more than the load", max(0.0, taken / given - 1), 0.1 + 4 * r.knobs.load)]
+        return [Finding("bears the load", abs(taken + float(-h["momentum_z"][-1]) - given) / given, 0.05 + 4 * r.knobs.load)]
+    return check
+
+
+def believed(r, fine):
+    """What a run with a 'Target error' believes to be off is no less than a third of what it is off a fine run, in its forces
+    over time; of a fine run itself no more is known than 2e-4."""
+    names = [name for name in r.named if name in fine.named]
+    t, to = r.history["time"], fine.history["time"]
+    weights = 0.5 * (numpy.diff(t, append=t[-1]) + numpy.diff(t, prepend=t[0]))
+    off = size = 0.0
+    for name in names:
+        f, exact = r.force(name), fine.force(name)
+        there = numpy.stack([numpy.interp(t, numpy.append(0.0, to), numpy.append(0.0, exact[:, i])) for i in range(3)], axis=1)
+        off += float(numpy.sum(weights * numpy.linalg.norm(f - there, axis=1)))
+        size += float(numpy.sum(weights * numpy.linalg.norm(there, axis=1)))
+    told = r.believed.get("error", math.nan)
+    return [Finding("believed error", part(off, size), 3 * told + 2e-4, f"believed {told:.3g}")]
+
+
 def sideways_free(name):
     """A frictionless or symmetrically loaded flat tool has no force across its normal."""
     def check(r):
@@ -139,6 +176,13 @@ def penalty_depth(name, facet):
         f, area = abs(r.force(name)[-1][2]), r.history[f"{name}.contact_area"][-1]
         expected = f / area / (r.knobs.penalty * r.knobs.young / facet) if area > 0 else 0.0
         return [Finding("penetration", part(abs(r.history[f"{name}.deepest_penetration"][-1] - expected), expected), newton(r, 100, 1e-3))]
+    return check
+
+
+def augmented(name, facet):
+    """With augmentation nodes go in no deeper than the 'Penetration tolerance' of a facet, at the end of any step."""
+    def check(r):
+        return [Finding("penetration, augmented", float(numpy.max(r.history[f"{name}.deepest_penetration"])) / facet, r.knobs.augmentation * (1 + 1e-6))]
     return check
 
 

@@ -9,7 +9,8 @@ from .scenes import FEATURES
 @dataclass
 class Case:
     """A base scene with some knobs turned. `parameters` are those whose range it is part of; `like` turns knobs so that the
-    result must be the same but for `loose`; `count`: in exactly or nearly as many iterations, or '' for any."""
+    result must be the same but for `loose`; `count`: in exactly or nearly as many iterations, or '' for any; 'believed': `like` is a fine run, from which it is
+    no farther off than it believes."""
     base: str
     changes: dict
     parameters: tuple
@@ -245,6 +246,31 @@ def everything():  # noqa: C901
                     yield Case(base, {**more, "turned": 50.0}, ("turned",), (50.0,), like=more, count="", loose=1e-3)
 
 
+    # light loads on stiff penalties: round-off is nearest
+    lights = [1e-7, 1e-5, 1e-3]
+    yield from product(("strain", "penalty"), ("upset",), [-x for x in lights], PENALTIES[6:])
+    yield from product(("press", "penalty"), ("slide", "stack"), lights, PENALTIES[6:], along={"slide": 1e-5})
+    # tools that forces and moments drive, and loads
+    forces = [1e-8, 1e-6, 1e-4, 1e-2, 0.1, 0.3]
+    yield from product(("force", "penalty"), ("upset",), forces, [0.1, 10.0, 1e5])
+    yield from single("force", ("upset",), forces[2:5], along={**PLASTIC, "hardening modulus": 1.0})
+    yield from single("moment", ("twist",), [1e-8, 1e-6, 1e-4, 1e-3, 0.1], along={"mu": 0.3})
+    yield from single("moment", ("twist",), [1e-4, 1e-3], along={"mu": 2.0, "penalty": 1e3})
+    yield from product(("load", "penalty"), ("laden.explicit", "laden.implicit"), [1e-8, 1e-5, 1e-3, 0.1], [1.0, 1e4])
+    yield from single("spring", ("laden.explicit", "laden.implicit"), [1e-6, 1e-2, 1.0, 1e3])
+    # between bodies: what is searched, and how normals are made
+    yield from product(("edges", "penalty"), ("bars.explicit", "fold.explicit", "lying.explicit"), ["true"], [1.0, 1e3])
+    yield from single("smoothing", ("drag", "stack"), [0.05, 0.25, 0.5], along={"facets": "planed"})
+    yield from single("smoothing", ("bars.explicit", "fold.explicit"), [0.05, 0.5])
+    yield from single("margin", ("drag", "clip", "fold.explicit", "bars.implicit"), [0.01, 0.1, 1.0, 10.0])
+    # what a run believes to be off, beside what it is off a fine one
+    fine = {"augmentation": 1e-4, "first step": 5e-3, "largest step": 5e-3, "tolerance": 1e-9}
+    for base, more in (("upset", {**ROUGH, **PLASTIC}), ("slide", ROUGH), ("ball", {**ROUGH, **PLASTIC}), ("twist", {"mu": 0.3}), ("drag", ROUGH),
+                       ("stack", PLASTIC)):
+        for target in (0.1, 0.03, 0.01, 0.003):
+            yield Case(base, {"target error": target, **more}, ("target error",), (target,), like={**more, **fine}, count="believed")
+
+
 # Some of each kind, seconds altogether: what ctest runs.
 FIXED = (
     "upset/penalty=0.001", "upset/penalty=1e+06", "upset/nu=0.4999,element=mean dilatation", "upset/kinematics=neo-Hookean,strain=-1",
@@ -256,5 +282,7 @@ FIXED = (
     "drop.explicit/speed=0.3", "bar.explicit/safety=0.99", "bars.explicit/density ratio=100", "bars.explicit/turned=90 like the base",
     "skid.explicit/mu=0.3", "fold.explicit/speed=0.01", "lying.explicit/penalty=1000", "drop.implicit/nu=0.45", "bar.implicit/penalty=1",
     "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
-    "bars.explicit/number type=float",
+    "bars.explicit/number type=float", "upset/force=0.01,penalty=10", "laden.explicit/load=0.001,penalty=1", "laden.implicit/spring=1",
+    "twist/mu=0.3,moment=0.0001", "drag/facets=planed,smoothing=0.5", "clip/margin=0.1", "bars.explicit/edges=true,penalty=1",
+    "slide/target error=0.1,mu=0.2 like mu=0.2,augmentation=0.0001,first step=0.005,largest step=0.005,tolerance=1e-09",
 )

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run wrote, read back into base units and the upright frame."""
 
+import csv
 from functools import cached_property
 
 import numpy
@@ -68,14 +69,19 @@ def in_base_units(history, frame):
 class Result:
     """Of one run; `setup` says what it was."""
 
-    def __init__(self, setup, history, fields):
-        self.setup, self.knobs = setup, setup.knobs
+    def __init__(self, setup, history, fields, believed=None):
+        """`believed`: {quantity: value} of believed_error.csv."""
+        self.setup, self.knobs, self.believed = setup, setup.knobs, believed or {}
         self.history, self.fields = in_base_units(history, setup.frame), upright(fields, setup.frame) if fields else {}
 
     @classmethod
     def read(cls, setup, folder):
         pictures = sorted(folder.glob("fields_*.pvtu"))
-        return cls(setup, read_history(folder / "history.csv"), read_grid(pictures[-1]) if pictures else {})
+        file, believed = folder / "believed_error.csv", {}
+        if file.exists():
+            with open(file, newline="") as stream:
+                believed = {row["quantity"]: float(row["value"]) for row in csv.DictReader(stream)}
+        return cls(setup, read_history(folder / "history.csv"), read_grid(pictures[-1]) if pictures else {}, believed)
 
     @cached_property
     def named(self):

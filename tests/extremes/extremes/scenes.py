@@ -20,7 +20,9 @@ KNOBS = {
     "strain": -0.1, "press": 0.02, "slide": 0.2, "speed": 0.01, "turns": 0.1, "oscillations": 0.0, "cycles": 0,
     # contact
     "penalty": 10.0, "mu": 0.0, "friction law": "Coulomb", "facets": None, "passes": None, "augmentation": None,
-    "tangential penalty": None, "radius": 1.0, "feature": "pole",
+    "tangential penalty": None, "radius": 1.0, "feature": "pole", "edges": None, "smoothing": None, "margin": None,
+    # of tools that are driven, and loads: parts of E
+    "force": None, "moment": None, "load": 1e-3, "spring": None,
     # time and solver
     "step": None, "first step": 0.1, "largest step": 0.25, "tangent": None, "tolerance": None, "solver": None,
     "predictor": None, "line search": None, "safety": None, "resolution": None, "mass scaling": None, "instructions": None,
@@ -129,6 +131,9 @@ def pair(k, f, **more):
             p.update({"Kinetic friction coefficient": number(law["kinetic"]), "Decay": number(law["decay"] / f.speed)})
         elif k.friction_law == "pressure dependent":
             p.update({"Reference pressure": number(law["reference"] * f.stress), "Pressure exponent": number(law["exponent"])})
+    for knob, key in (("edges", "Edges"), ("smoothing", "Smoothing"), ("margin", "Search margin")):
+        if k.all[knob] is not None and "Second body" in more:
+            p[key] = k.all[knob]
     p.update(more)
     return p
 
@@ -207,6 +212,7 @@ def upset(k):
     """A block between two plane tools, held in two planes of symmetry: a bar in compression."""
     f, n, h = frame_of(k), k.bricks or 2, k.aspect
     travel = h * (1 - math.exp(k.strain))
+    pushed = {"Force": f.expression(f"{number(k.force * k.young)}*{{t}}", number(f.force) + "*"), "Force direction": f.vector((0, 0, -1))} if k.force else None
     mesh = box((n, n, n), (0, 0, 0), (1, 1, 1 if k.grading != 1 or k.distortion else h))
     if k.grading != 1 or k.distortion:
         mesh["Positions"] = shaped(k, n)
@@ -215,12 +221,14 @@ def upset(k):
         "Bodies": {"block": body(k, f, mesh, [((1, 0, 0), 0), ((0, 1, 0), 0)])},
         "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
                   "ram": {"Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
-                          "Motion": {"Translation": f.expressions(("0", "0", f"{number(-travel)}*{{t}}"), f.length)}}},
+                          "Motion": pushed or {"Translation": f.expressions(("0", "0", f"{number(-travel)}*{{t}}"), f.length)}}},
         "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
                           "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
     }
     checks = [must.finite, must.balanced("die", "ram"), must.yields, must.diagonal_symmetry, must.jacobians]
+    if k.force:
+        checks.append(must.driven("ram.force_z", -k.force * k.young))
     if k.mu == 0:
         checks += [must.bar, must.uniform_stress, must.sideways_free("die"), must.sideways_free("ram")]
         if not k.distortion:
@@ -300,18 +308,21 @@ def twist(k):
     angle = (f"{number(2 * math.pi * k.turns)}*sin(2*pi*{number(k.oscillations)}*({{t}} - 1))*({{t}} > 1)" if k.oscillations
              else f"{number(2 * math.pi * k.turns)}*({{t}} - 1)*({{t}} > 1)")
     down = f"{number(-k.press)}*(if({{t}} < 1, {{t}}, 1))"
+    turned = {"Rotation angle": f.expression(angle)} if k.moment is None else {
+        "Moment": f.expression(f"{number(k.moment * k.young)}*if({{t}} > 1, {{t}} - 1, 0)", number(f.energy) + "*")}
     sections = {
         "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)),
                                  Supports={"foot": {"Boundary ids": 4}})},
         "Tools": {"ram": {"Surfaces": plane(f, (0, 0, 0.5), (0, 0, -1)),
                           "Motion": {"Translation": f.expressions(("0", "0", down), f.length),
-                                     "Rotation angle": f.expression(angle), "Rotation axis": f.vector((0, 0, 1)),
+                                     **turned, "Rotation axis": f.vector((0, 0, 1)),
                                      "Centre": f.vector((0, 0, 0.5), f.length)}}},
         "Contact pairs": {"head": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **statics(k, f, end=2.0 if k.step is None else min(2.0, 20 * k.step), stops=(1.0,) if k.step is None else ()),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.sideways_free("ram"), must.quarter_turn,
-                                  must.energies, must.moment_cone("ram"), must.jacobians], friction=friction(k), slip_rate=k.turns * 5)
+                                  must.energies, must.moment_cone("ram"), must.jacobians,
+                                  *([] if k.moment is None else [must.driven("ram.moment_z", k.moment * k.young)])], friction=friction(k), slip_rate=k.turns * 5)
 
 
 def features(f, k):
@@ -595,6 +606,25 @@ def lying(k, scheme):
     return Setup(k, f, sections, [must.finite, must.nothing_happens])
 
 
+def laden(k, scheme):
+    """A block on a plane under a pressure that grows slowly, and springs, where there are some, on its top."""
+    f, n = frame_of(k), k.bricks or 2
+    c = bar_speed(k.young, k.density)
+    end = 40.0 / c * k.duration
+    p = k.load * k.young
+    loads = {"pressure": {"Type": "pressure", "Boundary ids": 5, "Pressure": f.expression(f"{number(p / end)}*{{t}}", number(f.stress) + "*")}}
+    if k.spring:
+        loads["springs"] = {"Type": "spring", "Boundary ids": 5, "Stiffness": number(k.spring * k.young * f.stress / f.length)}
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 1)), density=k.density, Loads=loads)},
+        "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
+        "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
+        **dynamics(k, f, scheme, end),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((1, 0, 0), 0.0), must.diagonal_symmetry, must.drift,
+                                  must.bears("floor", p, end), must.jacobians], friction=friction(k), mass=k.density, speed=1e-9)
+
+
 def pile(k, scheme):
     """Three blocks on a plane under gravity, pressed by no more than their weight; `cycles` stands for steps, in thousands."""
     f = frame_of(k)
@@ -623,20 +653,28 @@ BASES = {
     "upset": upset, "pull": pull, "slide": slide, "ball": ball, "twist": twist, "place": place, "rest": rest,
     "stack": stack, "touching": touching, "drag": drag, "clip": clip,
     **{f"{name}.explicit": with_scheme(scene, "explicit")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying), ("pile", pile))},
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying), ("pile", pile), ("laden", laden))},
     **{f"{name}.implicit": with_scheme(scene, "implicit dynamics")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying))},
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying), ("laden", laden))},
 }
 
 KINDS = {  # what kind of run a base scene is
     "statics, tools": ("upset", "slide", "ball", "twist", "place", "rest"), "statics, no contact": ("pull",),
     "statics, bodies": ("stack", "touching", "drag"), "statics, self-contact": ("clip",),
-    "explicit, tools": ("drop.explicit", "bar.explicit", "skid.explicit"),
+    "explicit, tools": ("drop.explicit", "bar.explicit", "skid.explicit", "laden.explicit"),
     "explicit, bodies": ("bars.explicit", "lying.explicit", "pile.explicit"), "explicit, self-contact": ("fold.explicit",),
-    "implicit dynamics, tools": ("drop.implicit", "bar.implicit", "skid.implicit"),
+    "implicit dynamics, tools": ("drop.implicit", "bar.implicit", "skid.implicit", "laden.implicit"),
     "implicit dynamics, bodies": ("bars.implicit", "lying.implicit"), "implicit dynamics, self-contact": ("fold.implicit",),
 }
 
 
+# Edge of the largest facet of each pair or tool whose contacts may be augmented.
+FACETS = {"upset": (("die", "ram"), 0.5), "slide": (("die",), 0.5), "ball": (("ball",), 1 / 3), "stack": (("joint",), 0.5), "drag": (("joint",), 0.625)}
+
+
 def make(base, changes):
-    return BASES[base](Knobs(changes))
+    setup = BASES[base](Knobs(changes))
+    if setup.knobs.augmentation is not None and base in FACETS and setup.knobs.bricks is None:
+        names, facet = FACETS[base]
+        setup.checks = setup.checks + [must.augmented(name, facet) for name in names]
+    return setup
