@@ -390,8 +390,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     errors = std::make_unique<EnergyErrors>(parameters.target_error);
   else if (ErrorWatch::is_wanted(parameters))
     watch = std::make_unique<ErrorWatch>(scene, discretization, problem);
-  EnergyWatch energies(parameters.is_dynamic() ? EnergyWatch::Balance::is_told
-                                               : EnergyWatch::Balance::is_left);
+  const double largest_drift = parameters.is_dynamic() ? parameters.implicit_dynamics.largest_drift : 0.;
+  EnergyWatch energies = largest_drift > 0.        ? EnergyWatch(EnergyWatch::Balance::is_kept, largest_drift)
+                         : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_told)
+                                                   : EnergyWatch(EnergyWatch::Balance::is_left);
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
@@ -459,7 +461,16 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
-      outputs.progress.warn(energies.look(control.time(), problem.state().energies));
+      outputs.progress.warn(
+          energies.look(control.time(), problem.state().energies, problem.has_soft_penalties()));
+      if (!energies.imbalance().empty()) {
+        outputs.snapshots.write(problem);
+        std::ostringstream message;
+        message << parameters.file_name << ": at time " << control.time() << " after " << control.n_steps()
+                << " steps " << energies.imbalance() << ". What was computed until then is in '"
+                << parameters.output.folder.value << "'.";
+        throw SolutionFailure(message.str());
+      }
       outputs.snapshots.after_step(control.n_steps(), problem);
       const Signals::Wish wish = outputs.signals.look();
       const bool is_last = control.is_finished() && outputs.checkpoints.is_regular();
@@ -592,6 +603,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         outputs.history->write(problem.n_steps(), problem.step_length(), problem.state());
     });
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
+    outputs.progress.warn(problem.watch_penalties());
     outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
   };
   constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written

@@ -604,16 +604,16 @@ double FacetContact::pace_of_augmentation(const std::size_t s, const double gap)
   return goes_on ? std::clamp(lifted / closed, 1., fastest) : 1.;
 }
 
-double FacetContact::penetration() const {
-  double deepest = 0.;
+Penetration FacetContact::penetration() const {
+  Penetration deepest;
   for (std::size_t s = 0; s < slaves_.size(); ++s)
     if (states_[s].presses() && states_[s].traction.pressure > 0.)
-      deepest = std::max(deepest, std::abs(states_[s].contact.gap + augmentation(s)) / sizes_[s]);
+      deepest.add(std::abs(states_[s].contact.gap + augmentation(s)), sizes_[s]);
   return deepest;
 }
 
 double FacetContact::augmentation_error() const {
-  double worst = penetration();
+  double worst = penetration().of_facet;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
     if (!state.presses() || !(state.traction.pressure > 0.))

@@ -322,6 +322,24 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
   return load;
 }
 
+bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
+  constexpr double same = 1e-8, near = 0.01; // facet sizes
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const double size = nodes_[i].size;
+    if (is_removed_ || (states_[i].position - position).norm() > same * size)
+      continue;
+    const Tensor<1, 3> x = placement_.to_tool(position);
+    const auto here = tool_.surface().project(x, nodes_[i].patch);
+    if (std::abs(here.gap) > size)
+      continue;
+    const Frame along = Frame::from_normal(here.normal);
+    for (const auto &way : {along.q, -along.q, along.r, -along.r})
+      if (tool_.surface().project(x + near * size * way, nodes_[i].patch).exists != here.exists)
+        return true;
+  }
+  return false;
+}
+
 double RigidContact::largest_spring() const {
   double largest = 0.;
   for (const auto &node : nodes_)
@@ -529,18 +547,18 @@ void RigidContact::stiffen(const double factor) {
 
 double RigidContact::stiffening_left() const { return most_stiffening_ / stiffening_; }
 
-double RigidContact::penetration() const {
-  double deepest = 0.;
+Penetration RigidContact::penetration() const {
+  Penetration deepest;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (states_[i].pressure > 0.)
-      deepest = std::max(deepest, std::abs(states_[i].gap + nodes_[i].lift) / nodes_[i].size);
+      deepest.add(std::abs(states_[i].gap + nodes_[i].lift), nodes_[i].size);
   return deepest;
 }
 
 double RigidContact::augmentation_error() const {
   if (pair_.penetration_tolerance == 0.)
     return 0.;
-  double worst = penetration();
+  double worst = penetration().of_facet;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
     if (!(states_[i].pressure > 0.))

@@ -7,8 +7,22 @@
 
 namespace billet {
 
-std::string EnergyWatch::look(const double time, const EnergyLedger &energies) {
-  constexpr double doubtful_drift = 0.05, doubtful_hourglass = 0.1;
+namespace {
+
+std::string advise(const bool penalties_are_soft) {
+  return penalties_are_soft ? "contact pairs are soft, and penalties on areas that grow while nodes are deep "
+                              "make energy. Try "
+                              "a larger 'Normal penalty'"
+                            : "steps do not resolve how contacts open and close. Try a smaller 'Error "
+                              "tolerance' or 'Largest "
+                              "step', a softer penalty, or a smaller 'Spectral radius'";
+}
+
+} // namespace
+
+std::string EnergyWatch::look(const double time, const EnergyLedger &energies,
+                              const bool penalties_are_soft) {
+  constexpr double doubtful_hourglass = 0.1;
   constexpr double counts = 0.01; // less than that of the largest energy is no matter
   // What is there counts half only, as in explicit dynamics: energy from nowhere must not hide itself.
   largest_ =
@@ -16,11 +30,17 @@ std::string EnergyWatch::look(const double time, const EnergyLedger &energies) {
   std::ostringstream text;
   text.precision(3);
   const double drift = std::abs(energies.drift());
-  if (balance_ == Balance::is_told && !told_balance_ && drift > doubtful_drift * largest_) {
+  if (balance_ != Balance::is_left && !told_balance_ && drift > allowed_drift_ * largest_) {
     told_balance_ = true;
-    text << "At time " << time << " the energies fail to balance by " << 100. * drift / largest_
-         << " % of the largest so far: steps do not resolve how contacts open and close. Try a smaller "
-            "'Error tolerance' or 'Largest step', a softer penalty, or a smaller 'Spectral radius'";
+    std::ostringstream what;
+    what.precision(3);
+    what << "the energies fail to balance by " << 100. * drift / largest_ << " % of the largest so far";
+    if (balance_ == Balance::is_kept) {
+      what << ", allowed are " << 100. * allowed_drift_
+           << " % ('Largest drift'): " << advise(penalties_are_soft);
+      imbalance_ = what.str();
+    } else
+      text << "At time " << time << " " << what.str() << ": " << advise(penalties_are_soft);
   }
   const double taken_up = energies.elastic + energies.plastic + energies.hourglass;
   if (!told_hourglass_ && energies.hourglass > doubtful_hourglass * taken_up &&

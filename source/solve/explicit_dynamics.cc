@@ -560,6 +560,37 @@ void ExplicitDynamics::update_ledger() {
       std::max({largest_energy_, 0.5 * energies.total(), std::abs(energies.initial + energies.external)});
 }
 
+std::string ExplicitDynamics::watch_penalties() {
+  // Of all ranks: the largest displacement, and for each pair how deep it is, in facet sizes and as length.
+  std::vector<double> maxima(1);
+  for (unsigned int node = 0; node < nodes_.size(); ++node)
+    maxima[0] = std::max(maxima[0], get_vector(u_.data(), node).norm());
+  const auto add = [&maxima](const Penetration &deepest) {
+    maxima.insert(maxima.end(), {deepest.of_facet, deepest.length});
+  };
+  for (const auto &contact : contacts_)
+    add(contact.penetration());
+  for (const auto &contact : body_contacts_)
+    add(contact->penetration());
+  dealii::Utilities::MPI::max(maxima, discretization_.communicator(), maxima);
+
+  std::ostringstream note;
+  auto next = maxima.begin() + 1;
+  const auto look = [&](const std::string &name, const double displacement) {
+    const std::string text = soft_penalties_.look(name, {next[0], next[1]}, displacement);
+    note << (note.str().empty() || text.empty() ? "" : "\n") << text;
+    next += 2;
+  };
+  for (const auto &contact : contacts_) {
+    const double tool_moved = largest_motion(scene_.tools()[contact.tool()].placement(0.),
+                                             tools_[contact.tool()].now(), discretization_.radius());
+    look(scene_.pairs()[contact.pair()].name, std::max(maxima[0], tool_moved));
+  }
+  for (const auto &contact : body_contacts_)
+    look(contact->name(), maxima[0]);
+  return note.str();
+}
+
 double ExplicitDynamics::smallest_energy() const {
   const double rounding = std::numeric_limits<double>::epsilon() * extent_;
   const double rate = 2. / element_step_ * 2. * rounding / std::min(parameters_.largest_drift, 1.);

@@ -47,7 +47,9 @@ NodalGeometry collect_geometry(const Discretization &discretization, const Const
 
 QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
-      internal_(scene, discretization) {
+      internal_(scene, discretization),
+      soft_penalties_(scene.parameters().is_dynamic() ? PenaltyWatch::Motion::sudden
+                                                      : PenaltyWatch::Motion::slow) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     contacts_.emplace_back(scene, p, discretization, scene.contact_tangent());
   if (!scene.body_pairs().empty())

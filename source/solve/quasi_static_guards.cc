@@ -13,25 +13,24 @@ namespace billet {
 
 std::string QuasiStatic::watch_penalties() {
   constexpr double much_taken = 0.05; // of the largest energy
-  constexpr double deep = 0.1;        // of a facet: what is deeper is seen in pictures and counts in areas
   std::ostringstream note;
   note.precision(2);
-  const auto look = [&](const std::string &name, const double own_depth) {
-    const double depth = dealii::Utilities::MPI::max(own_depth, discretization_.communicator());
-    if (depth <= deep || has_told_soft_)
-      return;
-    note
-        << "Contact pair '" << name << "' lets nodes " << depth
-        << " facet sizes deep: its penalty is soft for what presses here. Try a larger 'Normal penalty' or a "
-           "'Penetration tolerance'\n";
-    has_told_soft_ = true;
+  const double displacement = u_n_.linfty_norm();
+  const auto look = [&](const std::string &name, Penetration deepest, const double moved) {
+    const MPI_Comm communicator = discretization_.communicator();
+    deepest = {dealii::Utilities::MPI::max(deepest.of_facet, communicator),
+               dealii::Utilities::MPI::max(deepest.length, communicator)};
+    const std::string text = soft_penalties_.look(name, deepest, moved);
+    note << text << (text.empty() ? "" : "\n");
   };
-  if (!has_told_soft_) {
-    for (const auto &contact : contacts_)
-      look(scene_.pairs()[contact.pair()].name, contact.penetration());
-    for (const auto &contact : body_contacts_)
-      look(contact->name(), contact->penetration());
+  for (const auto &contact : contacts_) {
+    const std::size_t tool = contact.tool();
+    const double tool_moved =
+        largest_motion(scene_.tools()[tool].placement(0.), state_.placements[tool], discretization_.radius());
+    look(scene_.pairs()[contact.pair()].name, contact.penetration(), std::max(displacement, tool_moved));
   }
+  for (const auto &contact : body_contacts_)
+    look(contact->name(), contact->penetration(), displacement);
   const double tolerance = scene_.parameters().solver.force_tolerance;
   if (!has_told_stiff_ && force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
     note << "Round-off leaves " << contact_round_off_force() / force_scale_
@@ -121,6 +120,15 @@ std::string QuasiStatic::describe_residual() {
   std::ostringstream text;
   text << "; the largest residual is in body '" << scene_.bodies()[static_cast<std::size_t>(worst[4])].name
        << "' at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ")";
+  const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
+  for (const auto &contact : contacts_)
+    if (!all_ranks(!contact.has_node_on_border(position))) {
+      text << ", which lies on the edge of tool '" << scene_.tools()[contact.tool()].name()
+           << "', where contact comes and goes with each correction: draw the tool larger or smaller by a "
+              "part "
+              "of a facet, or give its edge a fillet";
+      break;
+    }
   return text.str();
 }
 

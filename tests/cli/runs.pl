@@ -249,6 +249,42 @@ check 'an explicit target error', sub {
   return $said =~ /^Target error 3 %: believed error .* of the energies \(steps .* %, penetrations .* %\); cost: \d+ steps taken, /m ? '' : "says $said";
 };
 
+# --- penalties that do not fit ---------------------------------------------------------------------------------------
+
+check 'a penalty that leaves nothing but round-off of the forces ends the run, at once', sub {
+  my $folder = billet('die: Translation = 0 ; 0 ; -2e-7*t & top on die: Normal penalty = 1e8', code => 3);
+  return "says $complained" unless $complained =~
+    /round-off leaves [\d.e-]+ of the forces, allowed is 0\.01: the penalty of contact pair 'top on die' is too stiff/
+    && $complained =~ /after \d accepted steps and 1 cuts/ && $complained =~ /Try a softer penalty/;
+  return -s "$folder/history.csv" ? '' : 'no history';
+};
+check 'one that leaves a ten-thousandth is accepted, and told', sub {
+  my $exact = billet('top on die: Normal penalty = 1e4');
+  my $folder = billet('top on die: Normal penalty = 1e9');
+  return $said !~ /^Round-off leaves .* accepted up to 0\.01: /m ? "says $said" : near('force', force($folder, 'die'), force($exact, 'die'), 1e-3);
+};
+check 'where nothing touches there is no round-off to tell of', sub {
+  billet('die: Translation = 0 ; 0 ; ramp & top on die: Normal penalty = 1e8');
+  return $said =~ /Round-off/ ? "says $said" : '';
+};
+check "a penalty that takes the die's motion is told, again where nodes are ten times as deep", sub {
+  billet('top on die: Normal penalty = 1e-3');
+  my @depths = $said =~ /^Contact pair 'top on die' lets nodes ([\d.e-]+) facet sizes deep, \d+ % of the largest displacement so far: its penalty is soft/mg;
+  return @depths == 2 && $depths[0] < 0.02 && $depths[1] >= 10 * $depths[0] ? '' : "says $said";
+};
+check 'so in explicit scenes', sub {
+  billet('block on slab: Normal penalty = 1e-4', base => $impact);
+  my @depths = $said =~ /^Contact pair 'block on slab' lets nodes ([\d.e-]+) facet sizes deep.*: its penalty is soft/mg;
+  return @depths >= 1 ? '' : "says $said";
+};
+
+check "a tool's edge that lies on nodes is named", sub {
+  billet('Plane: Shape = rectangle & Plane: - Point & Plane: Centre = 0, 0, 2 & Plane: Direction = 1, 0, 0'
+    . ' & Plane: Length = 2 & Plane: Width = 2', code => 3);
+  return $complained =~ /the largest residual is in body 'block' at \([^)]*\), which lies on the edge of tool 'die', .*: draw the tool larger or smaller/
+    ? '' : "says $complained";
+};
+
 # --- motions, bodies, tools ----------------------------------------------------------------------------------------
 
 check 'a smooth amplitude', sub {

@@ -30,6 +30,21 @@ int main() {
     check("energy that is made is told", tells(text, "At time 0.3") && tells(text, "20 %"));
     check("with what to do", tells(text, "Try a smaller 'Error tolerance'"));
     check("once", watch.look(0.4, flight(3., 1.)).empty());
+    check("and the run goes on", watch.imbalance().empty());
+  }
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_told);
+    const std::string text = watch.look(0.3, flight(0.8, 0.4), true);
+    check("of soft penalties the advice is another",
+          tells(text, "20 %") && tells(text, "Try a larger 'Normal penalty'") && !tells(text, "softer"));
+  }
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_kept, 0.3);
+    check("less than the scene allows does not end the run",
+          watch.look(0.3, flight(0.8, 0.4)).empty() && watch.imbalance().empty());
+    check("more does", watch.look(0.4, flight(1., 0.4)).empty() &&
+                           tells(watch.imbalance(), "by 40 % of the largest so far, allowed are 30 % "
+                                                    "('Largest drift'): steps do not resolve"));
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_told);

@@ -39,7 +39,7 @@ int main(int argc, char *argv[]) {
   using Counts = std::array<unsigned int, 3>;
   for (const std::string scene : {"billet_upsetting.prm", "patch_test.prm"}) {
     check(scene + ": nothing is said of the usual", count(scene, 10.) == Counts{});
-    check(scene + ": too soft", count(scene, 1e-4)[0] == 1);
+    check(scene + ": too soft", count(scene, 1e-4)[0] >= 1);
     check(scene + ": too stiff", count(scene, 1e6, 1., 1e-11)[1] == 1);
   }
   check("a body a million million times as stiff", count("patch_test.prm", 10., 1e13)[2] == 1);

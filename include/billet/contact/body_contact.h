@@ -52,7 +52,7 @@ public:
   void stiffen(const double factor) { contact_->stiffen(factor); }
   double stiffening_left() const { return most_stiffening_ / contact_->stiffening(); }
   /// As RigidContact::penetration().
-  double penetration() const { return contact_->penetration(); }
+  Penetration penetration() const { return contact_->penetration(); }
   const std::string &name() const { return pair_.name; }
 
   /// A sentence about nodes that keep changing facet or status; empty if there are none. Collective.

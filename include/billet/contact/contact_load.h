@@ -5,6 +5,7 @@
 #include "billet/contact/traction.h"
 #include "billet/discretization/discretization.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -25,6 +26,17 @@ struct ContactLoad {
 
 /// Sums, and for the penetration the maximum, over all ranks.
 ContactLoad sum_over_ranks(const ContactLoad &local, MPI_Comm communicator);
+
+/// How deep the deepest of some nodes that press is.
+struct Penetration {
+  double of_facet = 0.; ///< in sizes of the facets around the deepest by that measure
+  double length = 0.;   ///< of the deepest by this one [length]
+
+  void add(const double depth, const double facet_size) {
+    of_facet = std::max(of_facet, depth / facet_size);
+    length = std::max(length, depth);
+  }
+};
 
 /// State of a slave node, for output.
 struct ContactNodeReport {

@@ -2,6 +2,7 @@
 #ifndef BILLET_CONTACT_FACET_CONTACT_H
 #define BILLET_CONTACT_FACET_CONTACT_H
 
+#include "billet/contact/contact_load.h"
 #include "billet/contact/edge_contact.h"
 #include "billet/contact/facet_overlaps.h"
 #include "billet/contact/facet_sharing.h"
@@ -184,8 +185,8 @@ public:
   /// Makes all penalties so many times as stiff; what augmentation holds stays. After augment().
   void stiffen(double factor);
   double stiffening() const { return stiffening_; } ///< so far
-  /// How deep the deepest of this rank's nodes that press is, in facet sizes.
-  double penetration() const;
+  /// How deep this rank's nodes are.
+  Penetration penetration() const;
 
   /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
   template <class Visit> void visit_touching(const Visit &visit) const {

@@ -76,6 +76,11 @@ public:
   /// infinite if it cannot. On this rank.
   double distance_to_touch(const dealii::Tensor<1, 3> &direction) const;
 
+  /// Whether the pair has a node there, at the last update(), that lies on a border of the tool's surface,
+  /// but for a hundredth of the facets around it: contact then comes and goes as the node moves. On this
+  /// rank.
+  bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
+
   /// Adds what the tool does where it touches a node of this rank, at the last update(); none if it is
   /// removed.
   void add_resistances(std::vector<Resistance> &resistances) const;
@@ -94,8 +99,8 @@ public:
   /// How many times as stiff penalties may become until those of a node of this rank are 10 E/h; below 1
   /// where one is stiffer.
   double stiffening_left() const;
-  /// How deep the deepest of this rank's nodes that press is, in facet sizes.
-  double penetration() const;
+  /// How deep this rank's nodes are.
+  Penetration penetration() const;
 
   /// On all ranks, after update().
   ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }

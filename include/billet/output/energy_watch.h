@@ -9,21 +9,29 @@
 namespace billet {
 
 /// Looks at the energies of accepted steps, and says once each what makes them doubtful, and what to do:
-/// energies of implicit dynamics that fail to balance (explicit runs end there), hourglass energy of
-/// one-point elements.
+/// energies of implicit dynamics that fail to balance (explicit runs look at them themselves), hourglass
+/// energy of one-point elements.
 class EnergyWatch {
 public:
-  enum class Balance { is_told, is_left }; ///< whether to look at the balance at all
+  /// What becomes of energies that fail to balance: nothing, a word, or the end of the run.
+  enum class Balance { is_left, is_told, is_kept };
+  /// Of the largest energy, where the scene allows no part of its own.
+  static constexpr double doubtful_drift = 0.05;
 
-  explicit EnergyWatch(Balance balance) : balance_(balance) {}
+  explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
+      : balance_(balance), allowed_drift_(allowed_drift) {}
 
-  /// A message for the console, empty if there is nothing to tell.
-  std::string look(double time, const EnergyLedger &energies);
+  /// A message for the console, empty if there is nothing to tell. `penalties_are_soft`: that has been told.
+  std::string look(double time, const EnergyLedger &energies, bool penalties_are_soft = false);
+  /// Why the run has to end after the last look(); empty if it may go on.
+  const std::string &imbalance() const { return imbalance_; }
 
 private:
   Balance balance_;
+  double allowed_drift_;
   double largest_ = 0.;
   bool told_balance_ = false, told_hourglass_ = false;
+  std::string imbalance_;
 };
 
 } // namespace billet

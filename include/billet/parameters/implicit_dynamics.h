@@ -18,6 +18,7 @@ struct ImplicitDynamics {
   Mass mass;
   double error_tolerance;        ///< of a step, part of the displacement; 0: none
   double reference_displacement; ///< 0: the largest so far
+  double largest_drift;          ///< of energies, part of the largest; 0: the run does not end for it
 
   static void declare(dealii::ParameterHandler &prm);
   /// `steps_are_fixed`: an error tolerance has no use.

@@ -8,6 +8,7 @@
 #include "billet/forces/external_loads.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/solve/free_tool.h"
+#include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
 
@@ -51,6 +52,8 @@ public:
   void update_ledger();
   /// The same, and the fields. Collective.
   void update_state();
+  /// After prepare_step(): what the user should know of the penalties; lines. Collective.
+  std::string watch_penalties();
   /// Part of the largest energy so far by which the energies of the last update fail to balance; of
   /// smallest_energy(), while that is larger.
   double relative_drift() const;
@@ -131,6 +134,7 @@ private:
   std::exception_ptr late_failure_;          ///< of this rank, since the last compute_forces()
   double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
+  PenaltyWatch soft_penalties_{PenaltyWatch::Motion::sudden};
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
   struct Works {
     double external = 0., plastic = 0., friction = 0., viscous = 0.;

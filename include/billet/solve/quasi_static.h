@@ -7,6 +7,7 @@
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
+#include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/tangent_solver.h"
@@ -77,6 +78,8 @@ public:
   const std::vector<RigidContact> &contacts() const { return contacts_; }
   const BodyContact &body_contact(const std::size_t pair) const { return *body_contacts_[pair]; }
   const Supports &supports() const { return supports_; }
+  /// Whether a step's report has told that penalties are soft.
+  bool has_soft_penalties() const { return soft_penalties_.has_told(); }
 
   /// The state at the end of the last accepted step.
   void save(StateWriter &writer) const;
@@ -259,8 +262,9 @@ private:
   bool is_probing_ = false;
   double penetration_allowed_ = 1., accuracy_ = 1.;
   double penetration_ = 0.;
-  bool has_told_soft_ = false, has_told_stiff_ = false; ///< what watch_penalties() says
-  bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
+  PenaltyWatch soft_penalties_;
+  bool has_told_stiff_ = false; ///< by watch_penalties()
+  bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
   std::vector<std::size_t> unknown_tools_;             ///< those whose offset is unknown in this step

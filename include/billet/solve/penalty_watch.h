@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_PENALTY_WATCH_H
+#define BILLET_SOLVE_PENALTY_WATCH_H
+
+#include "billet/contact/contact_load.h"
+#include "billet/geometry/placement.h"
+
+#include <map>
+#include <string>
+
+namespace billet {
+
+/// Says which contact pairs have penalties that are too soft for what presses them, by two signs: nodes a
+/// tenth of a facet deep, or deeper than a tenth of the largest displacement so far, of bodies or of the
+/// pair's tool: then the penalty gives way in place of the body. Once for each pair, and again where nodes
+/// get ten times as deep.
+class PenaltyWatch {
+public:
+  /// Where motion is sudden, nodes come in before bodies deform, and depths that are no matter are let be.
+  enum class Motion { slow, sudden };
+
+  explicit PenaltyWatch(const Motion motion) : motion_(motion) {}
+
+  /// The deepest node of the pair, and the largest displacement [length], of all ranks. A line for the
+  /// console, empty if there is nothing to tell.
+  std::string look(const std::string &pair, const Penetration &deepest, double displacement);
+  /// Whether anything has been told.
+  bool has_told() const { return has_told_; }
+
+private:
+  struct Record {
+    double displacement = 0.; ///< the largest so far [length]
+    double told = 0.;         ///< depth that was told last [facet sizes]
+  };
+  Motion motion_;
+  bool has_told_ = false;
+  std::map<std::string, Record> pairs_;
+};
+
+/// How far a tool's motion takes a point that is `radius` from its moved centre, at most [length].
+double largest_motion(const Placement &from, const Placement &to, double radius);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Penalties that are soft are told by either sign, again where nodes are much deeper, and not where depths
+// are no matter.
+#include "billet/solve/penalty_watch.h"
+#include "../testing.h"
+
+#include <cmath>
+
+using billet::PenaltyWatch;
+using billet::testing::check;
+
+namespace {
+
+bool tells(const std::string &text, const std::string &what) { return text.find(what) != std::string::npos; }
+
+/// In facets of size 2.
+std::string look(PenaltyWatch &watch, const double of_facet, const double displacement) {
+  return watch.look("pair", {of_facet, 2. * of_facet}, displacement);
+}
+
+} // namespace
+
+int main() {
+  {
+    PenaltyWatch watch(PenaltyWatch::Motion::slow);
+    check("a hundredth of a facet after a motion of one is no matter", look(watch, 0.01, 2.).empty());
+    check("a tenth is, nearly", look(watch, 0.099, 2.).empty() && !watch.has_told());
+    const std::string text = look(watch, 0.11, 4.);
+    check("more is told",
+          tells(text, "'pair' lets nodes 0.11 facet sizes deep:") && tells(text, "'Normal penalty' or"));
+    check("once", look(watch, 1., 40.).empty() && watch.has_told());
+    check("and again at ten times that", tells(look(watch, 1.2, 40.), "1.2 facet sizes"));
+    check("of each pair", !watch.look("other", {0.2, 0.4}, 40.).empty());
+  }
+  {
+    PenaltyWatch watch(PenaltyWatch::Motion::slow);
+    const std::string text = look(watch, 1e-3, 4e-3);
+    check("half of the motion is told, however small", tells(text, "deep, 50 % of the largest displacement"));
+  }
+  {
+    PenaltyWatch watch(PenaltyWatch::Motion::slow);
+    look(watch, 0., 1.);
+    check("the largest motion so far counts", look(watch, 0.01, 0.).empty());
+  }
+  {
+    PenaltyWatch watch(PenaltyWatch::Motion::sudden);
+    check("a first touch is no matter", look(watch, 1e-2, 2e-2).empty());
+    check("what gives way on is", tells(look(watch, 0.05, 0.1), "100 % of the largest displacement"));
+  }
+  {
+    billet::Placement from, to;
+    to.translation[0] = 3.;
+    check("a translation", billet::largest_motion(from, to, 10.) == 3.);
+    to.rotation[0][0] = to.rotation[1][1] = std::cos(1e-3);
+    to.rotation[0][1] = -(to.rotation[1][0] = std::sin(1e-3));
+    const double motion = billet::largest_motion(from, to, 10.);
+    check("and a turn, which moves no point farther than that", motion > 3.01 && motion < 3.02);
+  }
+  return billet::testing::exit_code();
+}
