@@ -60,10 +60,10 @@ double QuasiStatic::find_penetration() const {
   double of_penalties = 0.;
   for (const auto &contact : contacts_)
     if (scene_.pairs()[contact.pair()].penetration_tolerance == 0.)
-      of_penalties = std::max(of_penalties, contact.penetration());
+      of_penalties = std::max(of_penalties, contact.penetration().of_facet);
   for (std::size_t i = 0; i < body_contacts_.size(); ++i)
     if (scene_.body_pairs()[i].penetration_tolerance == 0.)
-      of_penalties = std::max(of_penalties, body_contacts_[i]->penetration());
+      of_penalties = std::max(of_penalties, body_contacts_[i]->penetration().of_facet);
   return std::max(augmentation_error(),
                   dealii::Utilities::MPI::max(of_penalties, discretization_.communicator()) / unit);
 }

@@ -56,6 +56,6 @@ for scene, common, knobs in GROUPS:
 publish(
     "knobs", "What the other knobs cost, and change", options,
     "Knobs without a page of their own. The billet of `prm/billet_upsetting.prm`, for `Forcing` with 480 bricks and GMRES; "
-    "`prm/ironing.prm` until the die has been drawn 3 mm. Difference: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of the "
+    "`prm/ironing.prm` until the die has been drawn 3 mm (time 1.6). Difference: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of the "
     "first of each group. Symmetry: between two dies, without the plane z = 0. Each run once.",
     table(["scene", "knob", "value", "steps", "Newton iterations", "CPU seconds", "difference"], rows))
