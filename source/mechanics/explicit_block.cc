@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -201,9 +202,15 @@ public:
       storage_.renew(nodes.displacements, true);
     is_fresh_ = false;
     kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);
-    const double energy = units_.energy();
-    return {1. / largest_rate(result),    energy * result.elastic_energy,   energy * result.plastic_work,
-            energy * result.viscous_work, energy * result.hourglass_energy, result.inverted};
+    const double energy = units_.energy(), rate = largest_rate(result);
+    // A rank without an element sets no limit.
+    const double longest = rate > 0. ? 1. / rate : std::numeric_limits<double>::infinity();
+    return {longest,
+            energy * result.elastic_energy,
+            energy * result.plastic_work,
+            energy * result.viscous_work,
+            energy * result.hourglass_energy,
+            result.inverted};
   }
 
   void renew(const double *displacements) override { storage_.renew(displacements, false); }
