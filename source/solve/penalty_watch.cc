@@ -10,18 +10,20 @@ namespace billet {
 std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepest,
                                const double displacement) {
   constexpr double deep = 0.1;       // of a facet: what is deeper is seen in pictures and counts in areas
-  constexpr double much_taken = 0.1; // of the motion
+  constexpr double much_taken = 0.2; // of the motion: a fifth of what bodies would bear
   constexpr double much_deeper = 10.;
+  const bool is_slow = motion_ == Motion::slow;
   // Depth that may matter for the second sign [facet sizes].
-  const double least = motion_ == Motion::slow ? 1e-6 : 2e-2;
+  const double least = is_slow ? 1e-6 : 2e-2;
   Record &record = pairs_[pair];
   record.displacement = std::max(record.displacement, displacement);
+  const bool is_deep = deepest.of_facet > deep;
   const bool takes_motion = deepest.of_facet > least && deepest.length > much_taken * record.displacement;
-  if (!(deepest.of_facet > deep || takes_motion) ||
+  has_soft_pairs_ = has_soft_pairs_ || is_deep || takes_motion;
+  if (!(is_deep || (is_slow && takes_motion)) ||
       (record.told > 0. && deepest.of_facet < much_deeper * record.told))
     return "";
   record.told = deepest.of_facet;
-  has_told_ = true;
   std::ostringstream text;
   text.precision(3);
   text << "Contact pair '" << pair << "' lets nodes " << deepest.of_facet << " facet sizes deep";
@@ -29,7 +31,7 @@ std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepe
     text << ", " << std::round(100. * std::min(1., deepest.length / record.displacement))
          << " % of the largest displacement so far";
   text << ": its penalty is soft for what presses here. Try a larger 'Normal penalty'"
-       << (motion_ == Motion::slow ? " or a 'Penetration tolerance'" : "");
+       << (is_slow ? " or a 'Penetration tolerance'" : "");
   return text.str();
 }
 

@@ -24,11 +24,11 @@ int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     check("a hundredth of a facet after a motion of one is no matter", look(watch, 0.01, 2.).empty());
-    check("a tenth is, nearly", look(watch, 0.099, 2.).empty() && !watch.has_told());
+    check("a tenth is, nearly", look(watch, 0.099, 2.).empty() && !watch.has_soft_pairs());
     const std::string text = look(watch, 0.11, 4.);
     check("more is told",
           tells(text, "'pair' lets nodes 0.11 facet sizes deep:") && tells(text, "'Normal penalty' or"));
-    check("once", look(watch, 1., 40.).empty() && watch.has_told());
+    check("once", look(watch, 1., 40.).empty() && watch.has_soft_pairs());
     check("and again at ten times that", tells(look(watch, 1.2, 40.), "1.2 facet sizes"));
     check("of each pair", !watch.look("other", {0.2, 0.4}, 40.).empty());
   }
@@ -45,7 +45,9 @@ int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::sudden);
     check("a first touch is no matter", look(watch, 1e-2, 2e-2).empty());
-    check("what gives way on is", tells(look(watch, 0.05, 0.1), "100 % of the largest displacement"));
+    check("one that is deeper is not told, but noticed",
+          !watch.has_soft_pairs() && look(watch, 0.05, 0.1).empty() && watch.has_soft_pairs());
+    check("what gives way on is told", tells(look(watch, 0.2, 0.4), "100 % of the largest displacement"));
   }
   {
     billet::Placement from, to;

@@ -21,7 +21,7 @@ public:
   explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
       : balance_(balance), allowed_drift_(allowed_drift) {}
 
-  /// A message for the console, empty if there is nothing to tell. `penalties_are_soft`: that has been told.
+  /// A message for the console, empty if there is nothing to tell. `penalties_are_soft`: of any contact pair.
   std::string look(double time, const EnergyLedger &energies, bool penalties_are_soft = false);
   /// Why the run has to end after the last look(); empty if it may go on.
   const std::string &imbalance() const { return imbalance_; }

@@ -11,12 +11,11 @@
 namespace billet {
 
 /// Says which contact pairs have penalties that are too soft for what presses them, by two signs: nodes a
-/// tenth of a facet deep, or deeper than a tenth of the largest displacement so far, of bodies or of the
+/// tenth of a facet deep, or deeper than a fifth of the largest displacement so far, of bodies or of the
 /// pair's tool: then the penalty gives way in place of the body. Once for each pair, and again where nodes
-/// get ten times as deep.
+/// get ten times as deep. In a blow nodes come in before bodies deform: there only the first sign is told.
 class PenaltyWatch {
 public:
-  /// Where motion is sudden, nodes come in before bodies deform, and depths that are no matter are let be.
   enum class Motion { slow, sudden };
 
   explicit PenaltyWatch(const Motion motion) : motion_(motion) {}
@@ -24,8 +23,8 @@ public:
   /// The deepest node of the pair, and the largest displacement [length], of all ranks. A line for the
   /// console, empty if there is nothing to tell.
   std::string look(const std::string &pair, const Penetration &deepest, double displacement);
-  /// Whether anything has been told.
-  bool has_told() const { return has_told_; }
+  /// Whether a pair has shown either sign.
+  bool has_soft_pairs() const { return has_soft_pairs_; }
 
 private:
   struct Record {
@@ -33,7 +32,7 @@ private:
     double told = 0.;         ///< depth that was told last [facet sizes]
   };
   Motion motion_;
-  bool has_told_ = false;
+  bool has_soft_pairs_ = false;
   std::map<std::string, Record> pairs_;
 };
 

@@ -78,8 +78,8 @@ public:
   const std::vector<RigidContact> &contacts() const { return contacts_; }
   const BodyContact &body_contact(const std::size_t pair) const { return *body_contacts_[pair]; }
   const Supports &supports() const { return supports_; }
-  /// Whether a step's report has told that penalties are soft.
-  bool has_soft_penalties() const { return soft_penalties_.has_told(); }
+  /// See PenaltyWatch::has_soft_pairs().
+  bool has_soft_penalties() const { return soft_penalties_.has_soft_pairs(); }
 
   /// The state at the end of the last accepted step.
   void save(StateWriter &writer) const;
