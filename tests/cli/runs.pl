@@ -252,7 +252,7 @@ check 'an explicit target error', sub {
 # --- penalties that do not fit ---------------------------------------------------------------------------------------
 
 check 'a penalty that leaves nothing but round-off of the forces ends the run, at once', sub {
-  my $folder = billet('die: Translation = 0 ; 0 ; -2e-7*t & top on die: Normal penalty = 1e8', code => 3);
+  my $folder = billet('Motion: Translation = 0 ; 0 ; -2e-7*t & top on die: Normal penalty = 1e8', code => 3);
   return "says $complained" unless $complained =~
     /round-off leaves [\d.e-]+ of the forces, allowed is 0\.01: the penalty of contact pair 'top on die' is too stiff/
     && $complained =~ /after \d accepted steps and 1 cuts/ && $complained =~ /Try a softer penalty/;
@@ -264,7 +264,7 @@ check 'one that leaves a ten-thousandth is accepted, and told', sub {
   return $said !~ /^Round-off leaves .* accepted up to 0\.01: /m ? "says $said" : near('force', force($folder, 'die'), force($exact, 'die'), 1e-3);
 };
 check 'where nothing touches there is no round-off to tell of', sub {
-  billet('die: Translation = 0 ; 0 ; ramp & top on die: Normal penalty = 1e8');
+  billet('Motion: Translation = 0 ; 0 ; ramp & top on die: Normal penalty = 1e8');
   return $said =~ /Round-off/ ? "says $said" : '';
 };
 check "a penalty that takes the die's motion is told, again where nodes are ten times as deep", sub {
