@@ -312,7 +312,7 @@ class Told(unittest.TestCase):
         def record(value, **errors):
             return {"parameters": ["units"], "values": [value], "errors": {f"as many: {k}": e for k, e in errors.items()}}
         records = [record("m, N", step=0.0, total_iterations=1.0), record("um, N", step=0.0, total_iterations=0.0), record("2^20 stresses", step=0.0)]
-        self.assertEqual(report.units(records), "Of 2 scenes in other units 1 takes as many steps, cuts and iterations, 1 one iteration more or less; "
+        self.assertEqual(report.units(records), "Of 2 scenes in other units 1 takes as many steps, cuts and iterations, 1 one or two iterations more or less; "
                          "of 1 in units that differ by powers of 2, 1.")
 
 

@@ -582,13 +582,13 @@ def closed_cycles(name):
 def same(r, other, loose=1e-6, count="exact"):
     """The same scene in other units, or turned: as many iterations and steps, and the same history. Where units are no powers of
     two round-off differs, and a node that is just at the limit of friction may slip in the one and stick in the other: one
-    correction more or less ('nearly'), but as many steps and cuts."""
+    correction more or less, or two ('nearly'), but as many steps and cuts."""
     found = []
     if count:
         for column in ("step", "total_iterations", "total_cuts"):
             if column in r.history and column in other.history:
                 a, b = float(r.history[column][-1]), float(other.history[column][-1])
-                found.append(Finding(f"as many: {column}", abs(a - b), 1.0 if count == "nearly" and column == "total_iterations" else 0.0, f"{a:g} for {b:g}"))
+                found.append(Finding(f"as many: {column}", abs(a - b), 2.0 if count == "nearly" and column == "total_iterations" else 0.0, f"{a:g} for {b:g}"))
     for name in r.named:
         if name not in other.named:
             continue

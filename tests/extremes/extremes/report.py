@@ -124,7 +124,7 @@ def units(records):
     if not named or not exact:
         return ""
     same = named.count(False)
-    return (f"Of {len(named)} scenes in other units {same} take{'s' * (same == 1)} as many steps, cuts and iterations, {named.count(True)} one iteration more or "
+    return (f"Of {len(named)} scenes in other units {same} take{'s' * (same == 1)} as many steps, cuts and iterations, {named.count(True)} one or two iterations more or "
             f"less; of {len(exact)} in units that differ by powers of 2, {exact.count(False)}.")
 
 
