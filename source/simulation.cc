@@ -4,12 +4,12 @@
 #include "billet/errors.h"
 #include "billet/output/capabilities_file.h"
 #include "billet/output/checkpoint.h"
+#include "billet/output/element_means.h"
 #include "billet/output/energy_watch.h"
 #include "billet/output/error_report.h"
 #include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
 #include "billet/output/progress.h"
-#include "billet/output/stress_jumps.h"
 #include "billet/solve/energy_errors.h"
 #include "billet/solve/error_watch.h"
 #include "billet/solve/explicit_dynamics.h"
@@ -499,6 +499,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     believed.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
     tell_errors(std::move(believed), problem, discretization, parameters, outputs);
   }
+  outputs.progress.warn(find_checkerboard(problem, discretization).describe());
   outputs.progress.finish(outputs.writer.file_to_open());
   return ExitCode::success;
 }
@@ -698,6 +699,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   }
   outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
                              processor_seconds);
+  problem.update_state();
+  outputs.progress.warn(find_checkerboard(problem, discretization).describe());
   outputs.progress.finish(outputs.writer.file_to_open());
   return ExitCode::success;
 }

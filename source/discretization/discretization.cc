@@ -11,6 +11,9 @@
 #include <deal.II/grid/tria_description.h>
 #include <deal.II/lac/sparsity_pattern.h>
 
+#include <map>
+#include <set>
+
 namespace billet {
 
 namespace {
@@ -29,6 +32,23 @@ void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::T
   pattern.copy_from(neighbours);
   dealii::GridTools::partition_triangulation(n_parts, pattern, mesh,
                                              dealii::SparsityTools::Partitioner::metis);
+}
+
+/// Where the part of the mesh that a rank knows ends deal.II sees a boundary, with the id 0, which is none:
+/// its faces get an id that no scene can name.
+void close_rim(const dealii::TriangulationDescription::Description<3, 3> &description,
+               dealii::Triangulation<3> &mesh) {
+  constexpr dealii::types::boundary_id rim = dealii::numbers::internal_face_boundary_id - 1;
+  std::map<dealii::CellId::binary_type, std::set<unsigned int>> boundaries;
+  for (const auto &cell : description.cell_infos.at(0)) // never refined
+    for (const auto &[face, id] : cell.boundary_ids)
+      boundaries[cell.id].insert(face);
+  for (const auto &cell : mesh.active_cell_iterators()) {
+    const auto known = boundaries.find(cell->id().to_binary<3>());
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary() && (known == boundaries.end() || known->second.count(f) == 0))
+        cell->face(f)->set_boundary_id(rim);
+  }
 }
 
 } // namespace
@@ -72,6 +92,7 @@ Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
           communicator, static_cast<int>(n_ranks));
   whole.clear();
   tria_.create_triangulation(description);
+  close_rim(description, tria_);
 
   dof_handler_.reinit(tria_);
   dof_handler_.distribute_dofs(fe_);

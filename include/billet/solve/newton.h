@@ -73,7 +73,7 @@ struct NewtonReport {
 /// Part of the force scale that round-off of contact's penalties may leave as residual: forces are then as
 /// exact as users of contact by penalties may hope for, and two digits better than noise. Above that they are
 /// not what the scene asks for.
-constexpr double most_round_off = 0.01;
+constexpr double most_round_off = 0.005;
 
 /// The loosest relative tolerance of a linear system.
 constexpr double largest_forcing_term = 1e-2;
