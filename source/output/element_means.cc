@@ -94,10 +94,13 @@ double stress_jumps(const Solution &solution, const Discretization &discretizati
   return stresses > 0. ? std::sqrt(jumps / stresses) : 0.;
 }
 
-Checkerboard find_checkerboard(const Discretization &discretization, const ElementValues &pressures) {
+Checkerboard find_checkerboard(const Solution &solution, const Discretization &discretization) {
   constexpr unsigned int least_elements = 64;
   if (discretization.n_global_elements() < least_elements)
     return {};
+  const ElementValues pressures =
+      values_of(summarize(solution, discretization),
+                [](const ElementSummary &summary) { return -dealii::trace(summary.cauchy_stress) / 3.; });
   const ElementValues rough = difference(pressures, smooth(discretization, pressures));
   const double all = integrate_squares(discretization, pressures),
                of_rough = integrate_squares(discretization, rough);
@@ -106,13 +109,6 @@ Checkerboard find_checkerboard(const Discretization &discretization, const Eleme
   return {std::sqrt(of_rough / all),
           std::sqrt(integrate_squares(discretization, difference(rough, smooth(discretization, rough))) /
                     of_rough)};
-}
-
-Checkerboard find_checkerboard(const Solution &solution, const Discretization &discretization) {
-  return find_checkerboard(discretization,
-                           values_of(summarize(solution, discretization), [](const ElementSummary &summary) {
-                             return -dealii::trace(summary.cauchy_stress) / 3.;
-                           }));
 }
 
 std::string Checkerboard::describe() const {

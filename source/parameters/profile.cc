@@ -38,8 +38,7 @@ struct Row {
 // scripts/benchmarks profiles; the target error: doc/results/target-error.md.
 constexpr std::array<Row, 28> rows = {{
     // Steps: fast ones follow the iterations alone and may be long, but not so long that Newton's method
-    // takes
-    // more for one than for two of half the length; accurate ones follow their error.
+    // takes more for one than for two of half the length; accurate ones follow their error.
     {statics_with_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.04 T"},
     {statics_without_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.1 T"},
     {statics, "Time stepping", "Smallest step", "1e-6 T", "1e-6 T", "1e-6 T"},
@@ -206,51 +205,49 @@ std::string between(const std::string &key, const std::string &value, const Scen
   return value;
 }
 
+[[noreturn]] void refuse(const SceneFile &file, const Path &path, const std::string &key,
+                         const std::string &allowed) {
+  throw InputError(file.where(path, key) + ": '" + key + "'" +
+                   (path.empty() ? "" : " in '" + join(path) + "'") + ": found '" +
+                   file.value(path, key, "") + "', allowed is " + allowed);
+}
+
 void check_contradictions(const SceneFile &file, const double target) {
-  const auto refuse = [&file](const Path &path, const std::string &key, const std::string &allowed) {
-    throw InputError(file.where(path, key) + ": '" + key + "'" +
-                     (path.empty() ? "" : " in '" + join(path) + "'") + ": found '" +
-                     file.value(path, key, "") + "', allowed is " + allowed + ", since there is a '" +
-                     target_key + "'");
-  };
+  const std::string reason = std::string(", since there is a '") + target_key + "'";
   const std::vector<std::pair<Path, std::string>> limited = {{{"Time stepping"}, "Error tolerance"},
                                                              {{"Solver"}, "Force tolerance"},
                                                              {{"Implicit dynamics"}, "Error tolerance"}};
   if (file.is_set({}, profile_key))
-    refuse({}, profile_key, "no value");
+    refuse(file, {}, profile_key, "no value" + reason);
   if (file.value({"Time stepping"}, "Step control", "automatic") == "fixed")
-    refuse({"Time stepping"}, "Step control", "automatic");
+    refuse(file, {"Time stepping"}, "Step control", "automatic" + reason);
   for (const auto &[path, key] : limited) {
     const double most = key == "Force tolerance" ? 0.3 * target : target;
     if (file.is_set(path, key) && number_in(file.value(path, key, ""), 0.) > most)
-      refuse(path, key, "a number not above " + print(most) + ", or none");
+      refuse(file, path, key, "a number not above " + print(most) + ", or none" + reason);
   }
 }
 
 /// Penetrations are controlled in all pairs at once, or not at all; and what a scene changes in its physics
 /// no estimate knows.
 void check_what_is_estimated(const SceneFile &file, const double target) {
-  const auto refuse = [&file](const Path &path, const std::string &key, const std::string &allowed) {
-    throw InputError(file.where(path, key) + ": '" + key + "' in '" + join(path) + "': found '" +
-                     file.value(path, key, "") + "', allowed is " + allowed);
-  };
   const std::vector<Path> pairs = paths_of("Contact pairs", file);
   const std::string tolerance = "Penetration tolerance";
   const auto is_set = [&](const Path &pair) { return file.is_set(pair, tolerance); };
   const auto one = std::find_if(pairs.begin(), pairs.end(), is_set);
   if (scheme_of(file) != explicit_dynamics && one != pairs.end() &&
       !std::all_of(pairs.begin(), pairs.end(), is_set))
-    refuse(*one, tolerance,
+    refuse(file, *one, tolerance,
            std::string("a number in every contact pair or in none, since there is a '") + target_key +
                "', which chooses those of all pairs or of none");
   const Path dynamics = {"Explicit dynamics"};
   if (scheme_of(file) != explicit_dynamics)
     return;
   if (number_in(file.value(dynamics, "Mass scaling step", "0"), 0.) > 0.)
-    refuse(dynamics, "Mass scaling step",
+    refuse(file, dynamics, "Mass scaling step",
            std::string("none beside a '") + target_key + "': what added mass changes no estimate knows");
   if (target < least_target_of_float && file.value(dynamics, "Number type", "double") == "float")
-    refuse(dynamics, "Number type",
+    refuse(file, dynamics, "Number type",
            std::string("double beside a '") + target_key + "' below " + print(least_target_of_float) +
                ": single precision leaves up to a millionth of the forces");
 }

@@ -34,7 +34,6 @@ struct Checkerboard {
 };
 
 /// Of meshes with so few elements that a checkerboard cannot be told from their stresses: zeros. Collective.
-Checkerboard find_checkerboard(const Discretization &discretization, const ElementValues &pressures);
 Checkerboard find_checkerboard(const Solution &solution, const Discretization &discretization);
 
 } // namespace billet
