@@ -39,11 +39,7 @@ private:
 } // namespace
 
 std::vector<double> QuasiStatic::augmentation_errors() const {
-  std::vector<double> errors;
-  for (const auto &contact : contacts_)
-    errors.push_back(contact.augmentation_error());
-  for (const auto &contact : body_contacts_)
-    errors.push_back(contact->augmentation_error());
+  std::vector<double> errors = of_contacts([](const auto &contact) { return contact.augmentation_error(); });
   dealii::Utilities::MPI::max(errors, discretization_.communicator(), errors);
   return errors;
 }
@@ -70,10 +66,8 @@ double QuasiStatic::find_penetration() const {
 
 double QuasiStatic::find_spring_round_off() const {
   double spring = 0.;
-  for (const auto &contact : contacts_)
-    spring = std::max(spring, contact.largest_spring());
-  for (const auto &contact : body_contacts_)
-    spring = std::max(spring, contact->largest_spring());
+  for (const double of_contact : of_contacts([](const auto &contact) { return contact.largest_spring(); }))
+    spring = std::max(spring, of_contact);
   // Three times what the last bit of a position makes.
   return 3. * std::numeric_limits<double>::epsilon() *
          dealii::Utilities::MPI::max(spring, discretization_.communicator()) *
@@ -81,11 +75,7 @@ double QuasiStatic::find_spring_round_off() const {
 }
 
 std::vector<double> QuasiStatic::stiffening_left() const {
-  std::vector<double> room;
-  for (const auto &contact : contacts_)
-    room.push_back(contact.stiffening_left());
-  for (const auto &contact : body_contacts_)
-    room.push_back(contact->stiffening_left());
+  std::vector<double> room = of_contacts([](const auto &contact) { return contact.stiffening_left(); });
   dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
   return room;
 }

@@ -51,11 +51,7 @@ std::string QuasiStatic::watch_penalties() {
 }
 
 std::string QuasiStatic::stiffest_pairs() const {
-  std::vector<double> springs;
-  for (const auto &contact : contacts_)
-    springs.push_back(contact.largest_spring());
-  for (const auto &contact : body_contacts_)
-    springs.push_back(contact->largest_spring());
+  std::vector<double> springs = of_contacts([](const auto &contact) { return contact.largest_spring(); });
   dealii::Utilities::MPI::max(springs, discretization_.communicator(), springs);
   const double stiffest = *std::max_element(springs.begin(), springs.end());
   constexpr double as_stiff = 0.1;

@@ -169,6 +169,15 @@ private:
   /// The augmented Lagrangian: tractions are augmented and iterated anew until all pairs have what they ask
   /// for. Continues `report`. In solve/quasi_static_augmentation.cc.
   void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
+  /// get(contact) of each contact of this rank, tools first.
+  template <class Get> std::vector<double> of_contacts(const Get &get) const {
+    std::vector<double> values;
+    for (const auto &contact : contacts_)
+      values.push_back(get(contact));
+    for (const auto &contact : body_contacts_)
+      values.push_back(get(*contact));
+    return values;
+  }
   /// Of each contact, tools first, as part of what its pair asks for. Collective.
   std::vector<double> augmentation_errors() const;
   /// The largest of them. Collective.
