@@ -536,6 +536,10 @@ double FacetContact::allow_initial_depths() {
 void FacetContact::restart() {
   n_changes_.assign(n_changes_.size(), 0);
   seen_.clear();
+  take_back_augmentation();
+}
+
+void FacetContact::take_back_augmentation() {
   lifts_ = lifts_n_;
   last_augmentations_.clear();
   base_ = history_n_;

@@ -44,7 +44,8 @@ std::array<double, 2> choose_step(const SurfacePoint &here, const Tensor<1, 3> &
   if (is_fixed[0] || is_fixed[1]) {
     const double metric = is_fixed[0] ? g_vv : g_uu, curved = is_fixed[0] ? h_vv : h_uu;
     is_newton = curved > tiny * metric;
-    const double length = -(is_fixed[0] ? slope_v : slope_u) / (is_newton ? curved : metric);
+    const double length =
+        metric > 0. ? -(is_fixed[0] ? slope_v : slope_u) / (is_newton ? curved : metric) : 0.;
     return {is_fixed[0] ? 0. : length, is_fixed[0] && !is_fixed[1] ? length : 0.};
   }
   is_newton = h_uu > 0. && h_uu * h_vv - h_uv * h_uv > tiny * g_uu * g_vv;

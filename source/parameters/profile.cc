@@ -89,17 +89,12 @@ double number_in(const std::string &text, const double otherwise) {
 
 /// Whether stresses or tractions depend on how they came about.
 bool depends_on_path(const SceneFile &file) {
-  const std::vector<std::string> bodies = file.names_below({"Bodies"}),
-                                 pairs = file.names_below({"Contact pairs"});
-  return std::any_of(bodies.begin(), bodies.end(),
-                     [&file](const std::string &name) {
-                       const Path path = {"Bodies", name, "Material"};
-                       return file.value(path, "Law", "elastic") != "elastic" ||
-                              file.value(path, "Kinematics", "") == "hypoelastic";
-                     }) ||
-         std::any_of(pairs.begin(), pairs.end(), [&file](const std::string &name) {
-           return number_in(file.value({"Contact pairs", name}, "Friction coefficient", "0"), 1.) != 0.;
-         });
+  const std::vector<std::string> bodies = file.names_below({"Bodies"});
+  return std::any_of(bodies.begin(), bodies.end(), [&file](const std::string &name) {
+    const Path path = {"Bodies", name, "Material"};
+    return file.value(path, "Law", "elastoplastic") != "elastic" ||
+           file.value(path, "Kinematics", "") == "hypoelastic";
+  });
 }
 
 unsigned int scheme_of(const SceneFile &file) {
@@ -149,7 +144,7 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const double 
   if (key == "Element") // which one-point elements do not know
     return file.value({path[0], path[1], "Material"}, "Kinematics", "") != "neo-Hookean";
   if (key == "Kinematics") // rates of stress keep no elastic energy
-    return file.value(path, "Law", "elastic") == "elastoplastic" &&
+    return file.value(path, "Law", "elastoplastic") != "elastic" &&
            (target == 0. || (target >= least_target_of_rates && has_small_elastic_strains(path, file)));
   return true;
 }

@@ -2,9 +2,9 @@
 #include "billet/scene/expression.h"
 
 #include "billet/errors.h"
+#include "billet/without_traps.h"
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -52,6 +52,7 @@ Expression::Expression(const std::string &text, const Variables variables,
   std::streambuf *console = std::cerr.rdbuf(complaints.rdbuf());
   bool makes_sense = !has_free_comma(text);
   try {
+    const WithoutTraps quiet; // what a scene's text makes of its numbers is the scene's, and is told
     parse(0.);
     parser_->value(dealii::Point<3>());
   } catch (...) { // muParser's own are no std::exception
@@ -65,23 +66,6 @@ Expression::Expression(const std::string &text, const Variables variables,
     throw InputError(origin + ": found '" + text + "', allowed is a muParser expression of " + allowed);
   }
 }
-
-namespace {
-
-/// In programs in which floating-point exceptions are trapped: what a scene's text makes of its numbers is
-/// the scene's, and is told.
-class WithoutTraps {
-public:
-  WithoutTraps() { std::feholdexcept(&environment_); }
-  ~WithoutTraps() { std::fesetenv(&environment_); }
-  WithoutTraps(const WithoutTraps &) = delete;
-  WithoutTraps &operator=(const WithoutTraps &) = delete;
-
-private:
-  std::fenv_t environment_{};
-};
-
-} // namespace
 
 void Expression::parse(const double t) const {
   std::map<std::string, double> constants{{"pi", dealii::numbers::PI}};

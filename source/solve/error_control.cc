@@ -29,8 +29,8 @@ double distance(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
   return sum;
 }
 
-// Steps between measurements, at least, and where little changes from one to the next.
-constexpr unsigned int shortest_interval = 1, longest_interval = 8;
+// Steps between measurements, at least.
+constexpr unsigned int shortest_interval = 1;
 
 // Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they fade.
 // This is what the first makes of them.
@@ -57,6 +57,8 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
   const double force = sum_of_norms(forces);
   work_ += 0.5 * (last_force_ + force) * h;
   time_ += h;
+  if (n_measurements_ == 0 && tolerances_.steps > 0.) // what steps make is not known yet
+    longest_step_ = std::min(longest_step_, h);
   force_rate_ = last_force_ > 0. ? (force - last_force_) / h : 0.;
   last_force_ = force;
   iterations_ += residual * force * h;
@@ -131,6 +133,7 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   measured_step_ = h;
   part_ = difference / (h * sum_of_norms(forces));
   ++n_measurements_;
+  n_failed_ = 0;
   const bool is_steady = slope <= 2. * last_slope && slope >= 0.5 * last_slope && !is_first;
   constexpr double little = 0.1;
   is_little_ = growth_of_errors * most_slope * h * (end_time_ - start_) <=
@@ -181,8 +184,9 @@ void ErrorControl::measure_penetration(const double penetration, const Forces &f
   const bool is_steady =
       !is_first && penetration_slope_ <= 2. * last_slope && penetration_slope_ >= 0.5 * last_slope;
   const bool is_little = error <= little * tolerances_.penetration * force;
-  penetration_interval_ =
-      is_steady || is_little ? std::min(2 * penetration_interval_, longest_interval) : shortest_interval;
+  penetration_interval_ = is_little   ? longest_interval
+                          : is_steady ? std::min(2 * penetration_interval_, longest_interval)
+                                      : shortest_interval;
   until_penetration_ = penetration_interval_;
   if (tolerances_.penetration == 0. || !(error > 0.))
     return;
@@ -198,8 +202,10 @@ void ErrorControl::miss_measurement(const double h, const bool failed) {
     until_measurement_ = interval_;
     return;
   }
-  until_measurement_ = failed ? 0 : shortest_interval;
-  if (failed && tolerances_.steps > 0.)
+  n_failed_ = failed ? n_failed_ + 1 : 0;
+  until_measurement_ = shortest_interval;
+  // Something may just have happened there; twice in a row it is the length.
+  if (n_failed_ > 1 && tolerances_.steps > 0.)
     longest_step_ = std::min(longest_step_, 0.5 * h);
 }
 

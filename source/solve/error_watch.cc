@@ -17,9 +17,12 @@ constexpr double part_of_penetration = 0.3;
 // Where steps make no error.
 constexpr double part_of_penetration_alone = 0.5;
 
-// Residuals of steps that are compared with one another, as part of the target error: the difference has to
-// stand out.
-constexpr double residual_of_measurements = 0.03;
+// Residuals of steps that are compared with one another: the difference, which falls with the square of the
+// target, has to stand out.
+double residual_of_measurements(const double target) {
+  constexpr double most = 0.1, slope = 10.;
+  return std::min(most, slope * target) * target;
+}
 
 /// Whether the penetration tolerances of all pairs are left to the target error.
 bool may_choose_penetration(const parameters::Scene &parameters) {
@@ -64,11 +67,10 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
       measures_penetration_(scene.parameters().target_error > 0. &&
                             !(scene.pairs().empty() && scene.body_pairs().empty())),
       controls_penetration_(may_choose_penetration(scene.parameters())),
-      accuracy_of_measurements_(
-          scene.parameters().target_error > 0.
-              ? std::min(1., residual_of_measurements * scene.parameters().target_error /
-                                 scene.parameters().solver.force_tolerance)
-              : 1.) {
+      accuracy_of_measurements_(scene.parameters().target_error > 0.
+                                    ? std::min(1., residual_of_measurements(scene.parameters().target_error) /
+                                                       scene.parameters().solver.force_tolerance)
+                                    : 1.) {
   allow_penetration();
 }
 
@@ -83,11 +85,16 @@ void ErrorWatch::demand_accuracy(const bool is_measured) {
 
 unsigned int ErrorWatch::before_step(StepControl &control, const double previous_step) {
   Usage::count(Capability::error_control, 1);
-  if (!measures_steps_)
-    return measures_penetration_ && errors_.wants_penetration() && previous_step > 0.
-               ? measure_penetration(control.next_time(), previous_step)
-               : 0;
-  if (probe_length_ > 0. || !errors_.wants_measurement(control.next_step()))
+  const bool is_second = probe_length_ > 0.;
+  const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
+  // Of steps that are compared not the first: all have to go equally deep.
+  if (measures_penetration_ && errors_.wants_penetration() && (is_second || probe_length_ == 0.))
+    problem_.measure_penetration();
+  return n_iterations;
+}
+
+unsigned int ErrorWatch::probe(StepControl &control, const double previous_step) {
+  if (!errors_.wants_measurement(control.next_step()))
     return 0;
   const double first = control.next_step(), end = control.time_after_next(),
                second = end - control.next_time();
@@ -97,7 +104,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
     return 0;
   }
   demand_accuracy(true);
-  probe_ = problem_.probe(end, previous_step, measures_penetration_ && errors_.wants_penetration());
+  probe_ = problem_.probe(end, previous_step);
   const auto n_iterations = static_cast<unsigned int>(probe_.newton.iterations.size());
   n_iterations_ += n_iterations;
   if (probe_.newton.converged) {
@@ -111,39 +118,33 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   return n_iterations;
 }
 
-unsigned int ErrorWatch::measure_penetration(const double t, const double previous_step) {
-  demand_accuracy(true);
-  const QuasiStatic::Probe probe = problem_.probe(t, previous_step, true);
-  demand_accuracy(false);
-  if (!probe.without_penetration.empty()) {
-    errors_.measure_penetration(probe.penetration, probe.forces, probe.without_penetration,
-                                residual_factor_ * probe.newton.force);
-    allow_penetration();
-  }
-  const auto n_iterations = static_cast<unsigned int>(probe.newton.iterations.size());
-  n_iterations_ += n_iterations;
-  return n_iterations;
+void ErrorWatch::take_measurement() {
+  const auto measured = problem_.take_measurement();
+  if (!measured)
+    return;
+  n_iterations_ += measured->n_iterations;
+  if (measured->without.empty())
+    errors_.miss_penetration();
+  else
+    errors_.measure_penetration(measured->penetration, measured->forces, measured->without,
+                                residual_factor_ * measured->residual);
+  allow_penetration();
 }
 
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
   const ErrorControl::Forces forces = problem_.forces();
   errors_.accept(length, forces, residual_factor_ * report.force, problem_.penetration());
-  if (!measures_steps_)
-    return;
   if (probe_length_ > 0. && control.time() < probe_end_) {
     control.plan(probe_length_);
     last_residual_ = report.force;
     return;
   }
-  if (probe_length_ > 0.) {
+  if (probe_length_ > 0.)
     errors_.measure_steps(probe_length_, forces, probe_.forces,
                           residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
-    // Not before: the three steps have to go equally deep.
-    if (!probe_.without_penetration.empty())
-      errors_.measure_penetration(probe_.penetration, probe_.forces, probe_.without_penetration,
-                                  residual_factor_ * probe_.newton.force);
-    allow_penetration();
-  }
+  take_measurement();
+  if (!measures_steps_)
+    return;
   probe_length_ = 0.;
   demand_accuracy(false);
   last_residual_ = report.force;
@@ -178,10 +179,8 @@ void ErrorWatch::save(StateWriter &writer) const {
   errors_.save(writer);
   writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
   // Between two steps that are compared with one: that one, too.
-  writer.write("comparison",
-               {probe_length_, probe_end_, last_residual_, probe_.newton.force, probe_.penetration});
+  writer.write("comparison", {probe_length_, probe_end_, last_residual_, probe_.newton.force});
   ErrorControl::save(writer, "probed forces", probe_.forces);
-  ErrorControl::save(writer, "without penetration", probe_.without_penetration);
 }
 
 void ErrorWatch::load(const StateReader &reader) {
@@ -193,9 +192,7 @@ void ErrorWatch::load(const StateReader &reader) {
   probe_end_ = comparison.at(1);
   last_residual_ = comparison.at(2);
   probe_.newton.force = comparison.at(3);
-  probe_.penetration = comparison.at(4);
   probe_.forces = ErrorControl::load(reader, "probed forces");
-  probe_.without_penetration = ErrorControl::load(reader, "without penetration");
   demand_accuracy(probe_length_ > 0.);
 }
 

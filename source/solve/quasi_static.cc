@@ -478,6 +478,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
 NewtonReport QuasiStatic::attempt_step(const double t, const double previous_step) {
   NewtonReport report;
   time_ = t;
+  of_penetration_.reset();
   tool_failure_.clear();
   offsets_ = offsets_n_;
   std::vector<std::size_t> pressing;
@@ -532,11 +533,16 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     const Epetra_Vector accepted = pack(x, offsets);
     Epetra_Vector residual(accepted);
     compute_residual(accepted, residual);
+    if (measures_penetration_ && !is_probing_) {
+      measure_penetration(accepted, report);
+      compute_residual(accepted, residual);
+    }
     if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) ||
         contact_makes_energy(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();
+    measures_penetration_ = false;
     commit(t);
     has_lost_pace_ = has_lost_pace_ || !stopping.empty();
     for (const std::size_t tool : stopping)

@@ -127,6 +127,13 @@ std::string QuasiStatic::soften_augmented_contacts() {
   return note.str();
 }
 
+void QuasiStatic::augment_contacts() {
+  for (auto &contact : contacts_)
+    contact.augment();
+  for (auto &contact : body_contacts_)
+    contact->augment();
+}
+
 void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
   const unsigned int most = scene_.parameters().solver.most_augmentations;
   // Residuals leave gaps, too: where augmentations do not close them, residuals have to be smaller.
@@ -160,10 +167,9 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
       report.failure = message.str();
       break;
     }
-    for (auto &contact : contacts_)
-      contact.augment();
-    for (auto &contact : body_contacts_)
-      contact->augment();
+    if (measures_penetration_ && !is_probing_ && !of_penetration_)
+      of_penetration_ = OfPenetration{find_penetration(), trial_forces(), {}, 0., 0};
+    augment_contacts();
     if (n > 0)
       stiffen_slow_contacts(before, errors);
     before = errors;

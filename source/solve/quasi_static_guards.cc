@@ -40,7 +40,7 @@ std::string QuasiStatic::watch_penalties() {
             "too soft, or bodies nearer to the origin\n";
     has_told_stiff_ = true;
   }
-  if (!has_told_taken_ && contact_taken_ > much_taken * largest_energy_) {
+  if (!has_told_taken_ && largest_energy_ > 0. && contact_taken_ > much_taken * largest_energy_) {
     note << "Contact has taken " << 100. * contact_taken_ / largest_energy_
          << " % of the largest energy so far, since steps do not resolve how it opens and closes: where "
             "bodies "

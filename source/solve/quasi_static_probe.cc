@@ -5,6 +5,7 @@
 #include <Epetra_Vector.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace billet {
 
@@ -36,8 +37,7 @@ std::vector<dealii::Tensor<1, 3>> QuasiStatic::trial_forces() const {
   return result;
 }
 
-QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step,
-                                      const bool measures_penetration) {
+QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step) {
   Probe probe;
   if (!body_failure_.empty()) // the step itself tells
     return probe;
@@ -49,35 +49,70 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
   if (probe.newton.converged) {
     probe.forces = trial_forces();
     probe_ = std::make_unique<ProbedState>(ProbedState{t, trial_, offsets_});
-    probe.penetration = find_penetration();
-    if (measures_penetration && !(contacts_.empty() && body_contacts_.empty())) {
-      Vector displacements = trial_;
-      std::vector<double> offsets = offsets_;
-      for (auto &contact : contacts_)
-        contact.augment();
-      for (auto &contact : body_contacts_)
-        contact->augment();
-      const NewtonReport augmented = iterate(offsets, displacements);
-      probe.newton.iterations.insert(probe.newton.iterations.end(), augmented.iterations.begin(),
-                                     augmented.iterations.end());
-      if (augmented.converged) {
-        const Epetra_Vector accepted = pack(displacements, offsets);
-        Epetra_Vector residual(accepted);
-        compute_residual(accepted, residual);
-        // What is left of the penetrations goes on like this: a geometric series.
-        constexpr double most_left = 0.8;
-        const double left =
-            probe.penetration > 0. ? std::min(most_left, find_penetration() / probe.penetration) : 0.;
-        probe.without_penetration = trial_forces();
-        for (std::size_t i = 0; i < probe.forces.size(); ++i)
-          probe.without_penetration[i] +=
-              left / (1. - left) * (probe.without_penetration[i] - probe.forces[i]);
-      }
-    }
   }
   probe.newton.linear_iterations = linear_->take_iterations();
   probe.newton.note = linear_->take_note();
   return probe;
+}
+
+void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonReport &report) {
+  const auto size = [](const std::vector<dealii::Tensor<1, 3>> &forces) {
+    double sum = 0.;
+    for (const auto &force : forces)
+      sum += force.norm();
+    return sum;
+  };
+  Epetra_Vector x(accepted), residual(accepted), dx(accepted);
+  double left = 0.;
+  if (of_penetration_) { // tractions have been augmented in this step
+    of_penetration_->without = trial_forces();
+    of_penetration_->residual = report.force;
+    left = find_penetration() / of_penetration_->penetration;
+  } else if (!(contacts_.empty() && body_contacts_.empty())) {
+    of_penetration_ = OfPenetration{find_penetration(), trial_forces(), {}, 0., 0};
+    augment_contacts();
+    // As far as the difference is known to some digits.
+    constexpr unsigned int most_iterations = 4;
+    constexpr double accurate = 0.05;
+    const parameters::Solver &solver = scene_.parameters().solver;
+    bool is_admissible = compute_residual(x, residual), is_accurate = false;
+    while (is_admissible && !is_accurate && of_penetration_->n_iterations < most_iterations) {
+      dx.PutScalar(0.);
+      is_admissible = compute_tangent(x) && solve_tangent(residual, dx, solver.linear_tolerance);
+      if (!is_admissible)
+        break;
+      x.Update(-1., dx, 1.);
+      double energy = 0., norm = 0.;
+      residual.Dot(dx, &energy);
+      ++of_penetration_->n_iterations;
+      is_admissible = compute_residual(x, residual);
+      residual.Norm2(&norm);
+      report.iterations.push_back({norm / force_scale_, std::abs(energy), 1.});
+      of_penetration_->residual = norm / force_scale_;
+      auto change = trial_forces();
+      const double force = size(change);
+      for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] -= of_penetration_->forces[i];
+      is_accurate = of_penetration_->residual <=
+                    std::max(accuracy_ * solver.force_tolerance, accurate * size(change) / force);
+    }
+    if (is_admissible && is_accurate) {
+      of_penetration_->without = trial_forces();
+      left = find_penetration() / of_penetration_->penetration;
+    }
+    for (auto &contact : contacts_)
+      contact.take_back_augmentation();
+    for (auto &contact : body_contacts_)
+      contact->take_back_augmentation();
+  }
+  if (!of_penetration_ || of_penetration_->without.empty())
+    return;
+  // What is left of the penetrations goes on like this: a geometric series.
+  constexpr double most_left = 0.8;
+  left = std::isfinite(left) ? std::min(most_left, left) : 0.;
+  for (std::size_t i = 0; i < of_penetration_->forces.size(); ++i)
+    of_penetration_->without[i] +=
+        left / (1. - left) * (of_penetration_->without[i] - of_penetration_->forces[i]);
 }
 
 bool QuasiStatic::follow_probe(const double t) {

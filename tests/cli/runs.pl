@@ -413,6 +413,9 @@ check 'a die that is nowhere for a moment', sub {
     || ($complained =~ /'Translation' in 'Tools \/ die \/ Motion': .* at time 0.3/ ? '' : "says $complained");
 };
 
+# Where what is no number ends the program, numbers that overflow do so before they are found.
+my $traps = ($ENV{BILLET_FLOATING_POINT_TRAPS} // 'OFF') eq 'ON';
+my %overflows = map { $_ => 1 } 'a load without bounds', 'a motion without bounds', 'a step too short for the clock';
 my $until_then = qr/What was computed until then is in 'r\d+'\.\n$/;
 check "$_->[0], on $_->[1] ranks", sub {
   my (undef, $ranks, $edits, $message, $pictures) = @$_;
@@ -421,7 +424,7 @@ check "$_->[0], on $_->[1] ranks", sub {
   return "says $complained" unless $complained =~ /^billet: scene\.prm.* at time $message.*$until_then/s;
   return "pictures at $times" unless split(/ /, $times) == $pictures;
   return -s "$folder/history.csv" ? '' : 'no history';
-} for (map { my $ranks = $_;
+} for grep { !($traps && $overflows{$_->[0]}) } (map { my $ranks = $_;
   ['an element that is blown inside out', $ranks, 'push: Pressure = if(t > 1e-4, 1e6, 0)',
    qr/0\.0001\d* after \d+ steps element \d+ of body 'block', which started at \(0[\d. ]+\), is inside out at \([-\d.e ]+\)/, 2],
   ['a load without bounds', $ranks, 'gravity: Acceleration = 0 ; 0 ; if(t > 1e-4, 1e308, 0)',
@@ -443,6 +446,7 @@ check 'explicit scenes say how many steps there will be', sub {
   return abs($1 / $steps - 1) < 0.5 ? '' : "$1 steps, not $steps";
 };
 check 'and that they are absurdly many', sub {
+  return '' if $traps;
   billet('block / Material: Density = 1e-20 & block: Initial velocity = 0 ; 0 ; 1e200', base => $impact, code => 3);
   return $said =~ /^About \d+ steps of [\d.e-]+: is .*'Mass scaling step' makes steps longer$/m ? '' : "says $said";
 };

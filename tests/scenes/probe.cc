@@ -36,15 +36,25 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
   unsigned int n_from_probe = 0, n_otherwise = 0;
   for (unsigned int n = 0; n < 6; ++n) {
     const double from = tried.control.time(), to = tried.control.next_time();
-    const QuasiStatic::Probe probe = tried.problem.probe(2. * to - from, n == 0 ? 0. : to - from, n < 3);
+    const QuasiStatic::Probe probe = tried.problem.probe(2. * to - from, n == 0 ? 0. : to - from);
     if (n == 0) {
       check(name + ": a probe gives what the step gives", difference(probe.forces, coarse.problem.forces()),
             1e-8);
-      check(name + ": without penetrations it is stiffer",
-            probe.without_penetration[0].norm() > probe.forces[0].norm());
-      check(name + ": penetrations are seen, whether a pair asks for it or not", probe.penetration > 1.);
     }
+    if (n < 3)
+      tried.problem.measure_penetration();
     n_from_probe += static_cast<unsigned int>(tried.advance().iterations.size());
+    const auto measured = tried.problem.take_measurement();
+    check(name + ": what penetrations make is measured where that is asked for, and told once",
+          measured.has_value() == (n < 3) && !tried.problem.take_measurement());
+    if (measured) {
+      n_from_probe -= measured->n_iterations;
+      check(name + ": that with penetrations are the forces of the step",
+            difference(measured->forces, tried.problem.forces()), 1e-12);
+      check(name + ": without it is stiffer",
+            !measured->without.empty() && measured->without[0].norm() > measured->forces[0].norm());
+      check(name + ": penetrations are seen, whether a pair asks for it or not", measured->penetration > 1.);
+    }
     n_otherwise += static_cast<unsigned int>(untried.advance().iterations.size());
     forces.add(difference(tried.problem.forces(), untried.problem.forces()));
     const EnergyLedger &e = tried.problem.state().energies, &f = untried.problem.state().energies;

@@ -43,6 +43,7 @@ public:
   /// asks for; 0 if it asks for none.
   void restart() { contact_->restart(); }
   void augment() { contact_->augment(); }
+  void take_back_augmentation() { contact_->take_back_augmentation(); }
   double augmentation_error() const {
     return pair_.penetration_tolerance > 0. ? contact_->augmentation_error() / pair_.penetration_tolerance
                                             : 0.;

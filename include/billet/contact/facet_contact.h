@@ -177,6 +177,8 @@ public:
 
   /// Back to what the last commit() left: of a step that is tried, or tried anew.
   void restart();
+  /// The augmentations since the last restart() or commit().
+  void take_back_augmentation();
   /// Lifts and tractions become those of the last add_forces().
   void augment();
   /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its

@@ -90,6 +90,8 @@ public:
 
   /// Of the augmented Lagrangian, as FacetContact's: back to the start of the step, ...
   void restart();
+  /// The augmentations since the last restart() or commit().
+  void take_back_augmentation() { restart(); }
   /// ... and on from the last update().
   void augment();
   /// Relative to what the pair asks for; 0 if it asks for none. On this rank.

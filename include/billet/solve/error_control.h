@@ -41,7 +41,9 @@ public:
   /// the deepest, see measure_penetration().
   void accept(double h, const Forces &forces, double residual, double penetration);
   /// Whether they should before a step of this length: where the last ones were much shorter.
-  bool wants_measurement(const double h) const { return wants_measurement() || h > 1.5 * measured_step_; }
+  bool wants_measurement(const double h) const {
+    return wants_measurement() || (n_measurements_ > 0 && h > 1.5 * measured_step_);
+  }
   /// After the second of two steps of length `h`: what one of twice the length gave. What `residuals` make of
   /// the difference, as part of the forces, does not count.
   void measure_steps(double h, const Forces &forces, const Forces &of_one_step, double residuals);
@@ -51,6 +53,8 @@ public:
   /// What a step gave whose deepest penetration was `penetration`, as part of the tightest that may be asked
   /// for; and what without penetrations. What `residuals` make of the difference does not count.
   void measure_penetration(double penetration, const Forces &forces, const Forces &without, double residuals);
+  /// What penetrations make was not found: another measurement after some steps.
+  void miss_penetration() { until_penetration_ = longest_interval; }
   /// Two steps of this length cannot be compared with one: another measurement is due soon. If that one
   /// `failed`, of shorter ones.
   void miss_measurement(double h, bool failed);
@@ -76,6 +80,9 @@ public:
   static Forces load(const StateReader &reader, const std::string &name);
 
 private:
+  /// Steps between measurements, where little changes from one to the next.
+  static constexpr unsigned int longest_interval = 8;
+
   double force_scale() const;
   void add_step_errors(double h_squared);
   /// The error that steps may add to the forces in a unit of time from now on.
@@ -98,7 +105,8 @@ private:
   double part_ = 0.;                   ///< difference of the last one, over h and the forces
   bool has_penetration_ = false;
   bool is_little_ = false; ///< what steps make, as of the last measurement
-  unsigned int until_measurement_ = 0, interval_ = 1, n_measurements_ = 0;
+  unsigned int until_measurement_ = 1, interval_ = 1, n_measurements_ = 0;
+  unsigned int n_failed_ = 0; ///< comparisons in a row
   unsigned int until_penetration_ = 0, penetration_interval_ = 1;
   double longest_step_ = std::numeric_limits<double>::infinity();
   double penetration_allowed_ = std::numeric_limits<double>::infinity();

@@ -43,8 +43,10 @@ public:
 private:
   void allow_penetration();
   void demand_accuracy(bool is_measured);
-  /// Where steps make no errors: tries the step to `t` for what penetrations make. Iterations that it took.
-  unsigned int measure_penetration(double t, double previous_step);
+  /// Where a measurement of steps is due. Iterations that it took.
+  unsigned int probe(StepControl &control, double previous_step);
+  /// What the last step's penetrations made, if it has measured that.
+  void take_measurement();
 
   QuasiStatic &problem_;
   ErrorControl errors_;

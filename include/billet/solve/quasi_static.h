@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -38,14 +39,24 @@ public:
   struct Probe {
     NewtonReport newton;
     std::vector<dealii::Tensor<1, 3>> forces; ///< at its end, as forces()
-    /// Largest, before augmentation, as penetration().
-    double penetration = 0.;
-    std::vector<dealii::Tensor<1, 3>>
-        without_penetration; ///< the same without; empty if that is not measured
   };
   /// Tries the step to `t`, and leaves the state as it is. The next steps up to `t` begin their iterations
   /// from what it found.
-  Probe probe(double t, double previous_step, bool measures_penetration);
+  Probe probe(double t, double previous_step);
+
+  /// What penetrations make of the forces at the end of a step.
+  struct OfPenetration {
+    double penetration = 0.; ///< the deepest, as penetration(), before augmentation
+    std::vector<dealii::Tensor<1, 3>> forces,
+        without;                   ///< with it and without, as forces(); or empty: not found
+    double residual = 0.;          ///< of `without`, as part of the forces
+    unsigned int n_iterations = 0; ///< that it took besides those of the step
+  };
+  /// The next accepted step measures that. Where tractions are not augmented in it, anyway, one or a few
+  /// iterations more do it, and are taken back.
+  void measure_penetration() { measures_penetration_ = true; }
+  /// Of the last accepted step; once.
+  std::optional<OfPenetration> take_measurement() { return std::exchange(of_penetration_, {}); }
   /// Of the tools and of pairs of bodies at the last accepted step; without either, or with pairs of a body
   /// with itself only, whose forces cancel out, the norm of the forces of supports.
   std::vector<dealii::Tensor<1, 3>> forces() const;
@@ -169,6 +180,8 @@ private:
   /// The augmented Lagrangian: tractions are augmented and iterated anew until all pairs have what they ask
   /// for. Continues `report`. In solve/quasi_static_augmentation.cc.
   void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
+  /// The tractions of all, once.
+  void augment_contacts();
   /// get(contact) of each contact of this rank, tools first.
   template <class Get> std::vector<double> of_contacts(const Get &get) const {
     std::vector<double> values;
@@ -211,6 +224,9 @@ private:
   std::string describe_residual();
   /// forces(), at the trial state.
   std::vector<dealii::Tensor<1, 3>> trial_forces() const;
+  /// Completes what augmentations in the step have begun to measure, or makes it, from the state `accepted`
+  /// of a step that has converged. Adds its iterations.
+  void measure_penetration(const Epetra_Vector &accepted, NewtonReport &report);
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
   double fading(double t, std::size_t tool) const;
   void remove_tools(double t);
@@ -271,6 +287,8 @@ private:
   bool is_probing_ = false;
   double penetration_allowed_ = 1., accuracy_ = 1.;
   double penetration_ = 0.;
+  bool measures_penetration_ = false;
+  std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
   bool has_told_stiff_ = false; ///< by watch_penalties()
   bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
