@@ -99,8 +99,12 @@ void FacetContact::rebuild() {
       const auto found = index.find(keys[s]);
       touched_n_[s].facet = found == index.end() ? TouchedFacet::none : found->second;
     }
-  memory_.set(search_.n_candidates() * sizeof(unsigned int) + search_.facets().size() * sizeof(SurfaceFacet) +
-              slaves_.size() * (sizeof(SlaveNode) + sizeof(SlaveState)));
+  const std::size_t bytes = search_.n_candidates() * sizeof(unsigned int) +
+                            search_.facets().size() * sizeof(SurfaceFacet) +
+                            slaves_.size() * (sizeof(SlaveNode) + sizeof(SlaveState));
+  memory_.set(bytes);
+  if (settings_.partners == FacetSearch::Partners::other_surfaces_and_self)
+    self_memory_.set(bytes);
   if (edges_)
     edge_memory_.set(edges_->n_pairs() * 2 * sizeof(std::size_t));
 }

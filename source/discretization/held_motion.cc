@@ -38,6 +38,7 @@ HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
     nodes_.push_back(node);
     held_.push_back(node.node);
   }
+  moving_memory_.set(n_moving_ * sizeof(Node));
 }
 
 double HeldMotion::value(const Direction &direction, const double t, const dealii::Point<3> &position) {

@@ -125,6 +125,10 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
         line.others.emplace_back(dofs[i], -row.n[i]);
     lines_.push_back(line);
   }
+  std::size_t bytes = 0;
+  for (const auto &line : lines_)
+    bytes += line.terms.size() * sizeof(line.terms.front());
+  moving_memory_.set(bytes);
 }
 
 template <class Value> Constraints Supports::make(const Value &value_of_line) const {

@@ -55,6 +55,12 @@ ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::v
         add_resistances(load, b);
         break;
       }
+  std::size_t bytes = resistances_.size() * sizeof(Resistance);
+  for (const auto &acceleration : accelerations_)
+    bytes += sizeof(acceleration) + acceleration.nodes.size() * sizeof(unsigned int);
+  for (const auto &pressure : pressures_)
+    bytes += sizeof(pressure) + pressure.facets.size() * sizeof(PressedFacet);
+  memory_.set(bytes);
   // An expression without a value shows before anything is written.
   fail_together(nodes.discretization().communicator(), [&] {
     check_before_start([&] {

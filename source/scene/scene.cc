@@ -36,6 +36,28 @@ MaterialLaw make_material(const parameters::Material &material) {
   return law;
 }
 
+std::string describe_solver(const parameters::Solver::LinearSolver solver, const bool unsymmetric) {
+  using Kind = parameters::Solver::LinearSolver;
+  const std::string direct = unsymmetric ? "MUMPS" : "MUMPS, which factorises half",
+                    iterative = unsymmetric ? "GMRES with multigrid" : "CG with multigrid";
+  switch (solver) {
+  case Kind::automatic:
+    return direct + ", above " + std::to_string(parameters::Solver::most_direct_dofs) + " unknowns " +
+           iterative;
+  case Kind::mumps_symmetric:
+    return "MUMPS, which factorises half";
+  case Kind::mumps:
+    return "MUMPS";
+  case Kind::klu:
+    return "KLU";
+  case Kind::conjugate_gradients:
+    return "CG with multigrid";
+  case Kind::gmres:
+    return "GMRES with multigrid";
+  }
+  return "";
+}
+
 /// A plain number that is 0; an expression that vanishes only looks like one when it is evaluated.
 bool is_zero(const std::string &expression) {
   try {
@@ -424,8 +446,8 @@ void Scene::describe_capabilities(std::ostream &stream) const {
   const auto &[every_steps, interval, keep] = parameters_.output.checkpoint;
   tell("Checkpoints", every_steps > 0 || interval > 0., "the last " + std::to_string(keep) + " are kept");
   tell("Matrix", !is_explicit,
-       capabilities_.unsymmetric_matrix ? "unsymmetric; MUMPS, or GMRES with multigrid"
-                                        : "symmetric; MUMPS, which factorises half, or CG with multigrid");
+       (capabilities_.unsymmetric_matrix ? "unsymmetric; " : "symmetric; ") +
+           describe_solver(parameters_.solver.linear_solver.value, capabilities_.unsymmetric_matrix));
 }
 
 void Scene::describe(std::ostream &stream) const {

@@ -71,6 +71,7 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
                                     ? std::min(1., residual_of_measurements(scene.parameters().target_error) /
                                                        scene.parameters().solver.force_tolerance)
                                     : 1.) {
+  memory_.set(sizeof(*this));
   allow_penetration();
 }
 

@@ -83,6 +83,10 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
     tools_.emplace_back(scene.tools()[i], scene.parameters().tools[i].motion);
   has_free_tools_ = std::any_of(tools_.begin(), tools_.end(),
                                 [](const FreeTool &tool) { return tool.inverse_inertia() > 0.; });
+  tool_memory_.set(
+      static_cast<std::size_t>(std::count_if(tools_.begin(), tools_.end(),
+                                             [](const FreeTool &tool) { return tool.wants_load(); })) *
+      sizeof(FreeTool));
   tool_loads_.resize(tools_.size());
   fading_forces_.resize(tools_.size());
   u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
@@ -154,6 +158,7 @@ void ExplicitDynamics::make_masses() {
     masses_[node] = sums[std::size_t{nodal_stride} * node];
   for (const double mass : masses_)
     inverse_masses_.push_back(1. / mass);
+  inertia_memory_.set(2 * masses_.size() * sizeof(double));
 }
 
 void ExplicitDynamics::find_touched_nodes() {

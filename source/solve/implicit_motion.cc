@@ -76,6 +76,10 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
   v_n_ += held_n_.velocity;
   v_ = v_n_;
   a_ = a_n_;
+  constexpr std::size_t n_fields =
+      13; // displacements, velocities, accelerations, forces and rates of both ends
+  inertia_memory_.set(n_fields * discretization.owned_dofs().n_elements() * sizeof(double));
+  error_memory_.set(parameters_.error_tolerance > 0. ? sizeof(largest_displacement_) : 0);
 }
 
 void ImplicitMotion::save(StateWriter &writer, const OwnedNodes &nodes) const {

@@ -715,6 +715,7 @@ void QuasiStatic::assemble_tool_tangent() {
   tool_columns_.assign(n, discretization_.make_owned_vector());
   tool_rows_ = tool_columns_;
   tool_block_.reinit(n, n);
+  tool_memory_.set(2 * n * discretization_.owned_dofs().n_elements() * sizeof(double));
   for (std::size_t k = 0; k < n; ++k) {
     Vector column = discretization_.make_additive_vector(), row = column;
     double slope = 0.;

@@ -35,8 +35,9 @@ Kind choose(const Kind wanted, const bool symmetric, const Epetra_CrsMatrix &mat
   // The smallest machine of all ranks counts.
   double memory = machine_memory(), least = memory;
   matrix.Comm().MinAll(&memory, &least, 1);
-  constexpr double enough_dofs = 10e3, part_of_memory = 0.5;
-  if (n_dofs > enough_dofs || direct_memory(n_dofs, symmetric) > part_of_memory * least)
+  constexpr double part_of_memory = 0.5;
+  if (n_dofs > parameters::Solver::most_direct_dofs ||
+      direct_memory(n_dofs, symmetric) > part_of_memory * least)
     return symmetric ? Kind::conjugate_gradients : Kind::gmres;
   return direct;
 }

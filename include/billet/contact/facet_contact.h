@@ -361,7 +361,8 @@ private:
   Positions nodal_forces_; ///< with ghosts, of one step
   std::vector<double> nodal_sums_;
   HeldMemory memory_{Capability::body_contact}, friction_memory_{Capability::friction},
-      edge_memory_{Capability::edges}, augmentation_memory_{Capability::augmentation};
+      self_memory_{Capability::self_contact}, edge_memory_{Capability::edges},
+      augmentation_memory_{Capability::augmentation};
 };
 
 } // namespace billet

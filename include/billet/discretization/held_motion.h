@@ -4,6 +4,7 @@
 
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/supports.h"
+#include "billet/usage.h"
 
 #include <vector>
 
@@ -46,6 +47,7 @@ private:
   std::vector<Node> nodes_;
   std::vector<unsigned int> held_;
   std::size_t n_moving_ = 0; ///< nodes with a prescribed motion
+  HeldMemory moving_memory_{Capability::moving_supports};
 };
 
 } // namespace billet

@@ -3,6 +3,7 @@
 #define BILLET_DISCRETIZATION_SUPPORTS_H
 
 #include "billet/discretization/discretization.h"
+#include "billet/usage.h"
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
@@ -86,6 +87,7 @@ private:
   std::vector<Line> lines_;
   std::vector<Redundancy> redundancies_;
   Constraints homogeneous_;
+  HeldMemory moving_memory_{Capability::moving_supports};
 };
 
 } // namespace billet

@@ -4,6 +4,7 @@
 
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/supports.h"
+#include "billet/usage.h"
 
 #include <vector>
 
@@ -60,6 +61,7 @@ private:
   std::vector<Acceleration> accelerations_;
   std::vector<Pressure> pressures_;
   std::vector<Resistance> resistances_;
+  HeldMemory memory_{Capability::loads};
 };
 
 } // namespace billet

@@ -78,6 +78,9 @@ enum class MaterialTangent {
 struct Solver {
   enum class LineSearch { none, energy };
   enum class Predictor { tangent, extrapolation };
+  /// Above so many unknowns, or where a direct solver would want half of the memory, `automatic` is
+  /// iterative.
+  static constexpr unsigned int most_direct_dofs = 10000;
   enum class LinearSolver { automatic, mumps_symmetric, mumps, klu, conjugate_gradients, gmres };
   enum class Forcing { eisenstat_walker, fixed };
 

@@ -4,6 +4,7 @@
 
 #include "billet/solve/solution.h"
 #include "billet/state.h"
+#include "billet/usage.h"
 
 namespace billet {
 
@@ -16,7 +17,7 @@ namespace billet {
 class EnergyErrors {
 public:
   /// `tolerance`: part of the energies.
-  explicit EnergyErrors(const double tolerance) : tolerance_(tolerance) {}
+  explicit EnergyErrors(const double tolerance) : tolerance_(tolerance) { memory_.set(sizeof(*this)); }
 
   /// The energies at a later time than the last ones.
   void add(double time, const EnergyLedger &energies);
@@ -35,6 +36,7 @@ private:
   double time_ = 0., last_drift_ = 0., last_contact_ = 0., last_total_ = 0.;
   double drift_ = 0., penetration_ = 0., total_ = 0.; ///< integrals
   double step_factor_ = 1.;
+  HeldMemory memory_{Capability::error_control};
 };
 
 } // namespace billet

@@ -5,6 +5,7 @@
 #include "billet/solve/error_control.h"
 #include "billet/solve/quasi_static.h"
 #include "billet/solve/step_control.h"
+#include "billet/usage.h"
 
 #include <string>
 
@@ -60,6 +61,7 @@ private:
   double last_residual_ = 0.;
   unsigned int n_iterations_ = 0;
   double told_steps_ = 0.; ///< so many to come have been told
+  HeldMemory memory_{Capability::error_control};
 };
 
 } // namespace billet

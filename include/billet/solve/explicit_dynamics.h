@@ -139,7 +139,8 @@ private:
   struct Works {
     double external = 0., plastic = 0., friction = 0., viscous = 0.;
   };
-  HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
+  HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation},
+      inertia_memory_{Capability::inertia}, tool_memory_{Capability::driven_tools};
   Works works_;                                        ///< since time 0, of this rank
   double elastic_energy_ = 0., hourglass_energy_ = 0.; ///< at t_n, of this rank
   SolutionState state_;

@@ -7,6 +7,7 @@
 #include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/time_integrator.h"
+#include "billet/usage.h"
 
 #include <memory>
 #include <vector>
@@ -128,6 +129,7 @@ private:
   TimeIntegrator integrator_;
   LocalNodes nodes_;
   Inertia inertia_;
+  HeldMemory inertia_memory_{Capability::inertia}, error_memory_{Capability::error_control};
   std::unique_ptr<ExternalLoads> loads_; ///< none where there are none
   std::vector<HeavyTool> tools_;
 

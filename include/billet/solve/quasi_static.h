@@ -11,6 +11,7 @@
 #include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/tangent_solver.h"
+#include "billet/usage.h"
 
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
@@ -294,11 +295,12 @@ private:
   bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
-  std::vector<std::size_t> unknown_tools_;             ///< those whose offset is unknown in this step
-  std::unique_ptr<Epetra_Map> map_;                    ///< of displacements and unknown offsets
-  std::vector<std::unique_ptr<Placement>> stopped_;    ///< where tools have stopped for good
-  std::vector<Vector> tool_columns_, tool_rows_;       ///< B, condensed; C
-  dealii::FullMatrix<double> tool_block_;              ///< D
+  std::vector<std::size_t> unknown_tools_;          ///< those whose offset is unknown in this step
+  std::unique_ptr<Epetra_Map> map_;                 ///< of displacements and unknown offsets
+  std::vector<std::unique_ptr<Placement>> stopped_; ///< where tools have stopped for good
+  std::vector<Vector> tool_columns_, tool_rows_;    ///< B, condensed; C
+  dealii::FullMatrix<double> tool_block_;           ///< D
+  HeldMemory tool_memory_{Capability::driven_tools};
   std::vector<std::unique_ptr<Vector>> fading_forces_; ///< residual of a removed tool's forces, as they were
   std::unique_ptr<Vector> imbalance_; ///< residual at a restart, on dofs that are free; or none
   double imbalance_begin_ = 0., imbalance_end_ = 0.; ///< when it begins to fade, and has gone
