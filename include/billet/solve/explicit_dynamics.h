@@ -83,6 +83,9 @@ private:
   void compute_contact_forces();
   void remove_tools();
   double stable_step() const;
+  /// The step in which nodes that come through surfaces make too large an error of energy; infinite if there
+  /// is none. Collective.
+  double crossing_step() const;
   /// What tools with a mass, which is not infinite, add to ω² of the contacts. Collective.
   double tools_share() const;
   /// Below this, the round-off of positions alone makes energies fail to balance by the allowed part. With
@@ -125,6 +128,8 @@ private:
   std::vector<unsigned int> loaded_nodes_, bounded_nodes_; ///< of this rank; of all ranks
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
   double element_step_ = 0.;                               ///< stable step of the elements of all ranks
+  Crossings crossings_;                                    ///< of this rank, at t_n
+  double crossing_step_ = 0.;
   double time_ = 0., step_ = 0., step_before_ = 0.;
   double step_factor_ = 1.; ///< beside the safety factor
   bool is_growing_ = false; ///< steps were much shorter than they may be, and are not yet long
