@@ -396,7 +396,7 @@ double ExplicitDynamics::crossing_step() const {
   if (!(springs > 0.))
     return std::numeric_limits<double>::infinity();
   const double speed = dealii::Utilities::MPI::max(crossings.way, communicator) / step;
-  const double energy = std::max(largest_energy_, 0.5 * (mass_ + added_mass_) * speed * speed);
+  const double energy = std::max(energy_of_steps_, 0.5 * (mass_ + added_mass_) * speed * speed);
   return step * std::sqrt(allowed * energy / (0.125 * springs));
 }
 
@@ -591,8 +591,10 @@ void ExplicitDynamics::update_ledger() {
   if (n_steps_ == 0)
     energies.initial = energies.total() - energies.external;
   // What is there counts half only: energy that came from nowhere must not hide itself.
-  largest_energy_ =
-      std::max({largest_energy_, 0.5 * energies.total(), std::abs(energies.initial + energies.external)});
+  const double energy = std::max(0.5 * energies.total(), std::abs(energies.initial + energies.external));
+  largest_energy_ = std::max(largest_energy_, energy);
+  if (n_steps_ % steps_between_looks == 0) // steps must not depend on when else somebody looks
+    energy_of_steps_ = std::max(energy_of_steps_, energy);
 }
 
 std::string ExplicitDynamics::watch_penalties() {

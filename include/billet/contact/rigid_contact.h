@@ -112,8 +112,9 @@ public:
   /// Finds its nodes among those of the rank.
   void bind(const LocalNodes &nodes);
   void update(const NodalVectors &displacements);
-  /// Returns local_load(). Adds F_c [force], and to component 0 of `bounds` what the penalties of this rank's
-  /// facets add to a bound on the stiffness at a node [force/length].
+  /// Adds F_c [force], those on areas that change among them: without friction F_c = −∂Π/∂u, Π the stored
+  /// energy. Returns local_load() with these. Also adds to component 0 of `bounds` what the penalties of this
+  /// rank's facets add to a bound on the stiffness at a node [force/length].
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) const;
   /// Adds this rank's, after update() and before commit().
   void add_crossings(Crossings &crossings) const;

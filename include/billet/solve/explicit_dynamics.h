@@ -48,6 +48,8 @@ public:
   /// Of the bodies, without that, on all ranks [mass].
   double mass() const { return mass_; }
 
+  /// The energies are to be brought up to date whenever so many steps have been taken: steps depend on them.
+  static constexpr unsigned int steps_between_looks = 100;
   /// After prepare_step(): brings energies, momenta and tools in the state up to date. Collective.
   void update_ledger();
   /// The same, and the fields. Collective.
@@ -139,6 +141,7 @@ private:
   std::exception_ptr late_failure_;          ///< of this rank, since the last compute_forces()
   double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
+  double energy_of_steps_ = 0.; ///< the largest at every steps_between_looks steps
   PenaltyWatch soft_penalties_{PenaltyWatch::Motion::sudden};
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
   struct Works {
