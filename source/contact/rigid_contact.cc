@@ -321,18 +321,12 @@ void RigidContact::add_forces(Vector &residual) const {
 
 ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const {
   ContactLoad load;
-  for_each_area([&](const unsigned int i, const double area) {
-    const unsigned int node = local_nodes_[i];
-    add_vector(forces.data(), node, area * states_[i].traction);
-    bounds[std::size_t{nodal_stride} * node] +=
-        area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
-    add_to_load(load, i, area);
-  });
+  for (const auto &facet : facets_)
+    add_forces(facet, forces, bounds, load);
   for_each_near([&](const unsigned int i, const double area) {
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
         area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
   });
-  add_area_forces(forces, bounds, load);
   add_released(load);
   return load;
 }
@@ -366,44 +360,52 @@ double RigidContact::stored_energy(const std::size_t i) const {
          (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
 }
 
-void RigidContact::add_area_forces(NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) const {
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (std::all_of(states.begin(), states.end(),
-                    [](const NodeState *state) { return state->status == ContactStatus::open; }))
-      continue;
-    std::array<double, 4> energies{};
-    double depth = 0.; // that goes with the largest energy
-    for (unsigned int a = 0; a < 4; ++a)
-      if (states[a]->status != ContactStatus::open) {
-        energies[a] = stored_energy(facet.nodes[a]);
-        depth = std::max(depth, std::sqrt(2. * energies[a] / nodes_[facet.nodes[a]].stiffness.normal));
-      }
-    if (depth == 0.)
-      continue;
-    std::array<Tensor<1, 3>, 4> on_nodes;
-    for (const auto &point : facet_points()) {
-      const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return states[a]->position; });
-      const Tensor<1, 3> area_vector = dealii::cross_product_3d(g_1, g_2);
-      Tensor<1, 3> m;
-      for (unsigned int a = 0; a < 4; ++a)
-        if (energies[a] > 0. && area_vector * states[a]->normal < 0.) {
-          const double energy = point.N[a] * energies[a];
-          m += energy * states[a]->normal;
-          on_nodes[a] += energy * (states[a]->turning * area_vector);
-        }
-      const Tensor<1, 3> by_xi = dealii::cross_product_3d(g_2, m), by_eta = dealii::cross_product_3d(m, g_1);
-      for (unsigned int b = 0; b < 4; ++b)
-        on_nodes[b] += point.N_xi[b] * by_xi + point.N_eta[b] * by_eta;
+void RigidContact::add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds,
+                              ContactLoad &load) const {
+  const FacetStates states = states_of(facet);
+  std::array<double, 4> areas{}, energies{};
+  double depth = 0.; // that goes with the largest energy
+  bool touches = false;
+  for (unsigned int a = 0; a < 4; ++a)
+    if (states[a]->status != ContactStatus::open) {
+      touches = true;
+      energies[a] = stored_energy(facet.nodes[a]);
+      depth = std::max(depth, 2. * energies[a] / nodes_[facet.nodes[a]].stiffness.normal);
     }
-    for (unsigned int b = 0; b < 4; ++b) {
-      const std::size_t i = facet.nodes[b];
-      add_vector(forces.data(), local_nodes_[i], on_nodes[b]);
-      load.force += on_nodes[b];
-      load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), on_nodes[b]);
-      bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
-          nodes_[i].stiffness.normal * depth * (nodes_[i].size + depth);
+  if (!touches)
+    return;
+  depth = std::sqrt(depth);
+  std::array<Tensor<1, 3>, 4> by_area; // −Σ_a e_a ∂A_a/∂x_b
+  for (const auto &point : facet_points()) {
+    const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return states[a]->position; });
+    const Tensor<1, 3> area_vector = dealii::cross_product_3d(g_1, g_2);
+    Tensor<1, 3> m;
+    for (unsigned int a = 0; a < 4; ++a) {
+      const double facing =
+          states[a]->status != ContactStatus::open ? -(area_vector * states[a]->normal) : 0.;
+      if (facing <= 0.)
+        continue;
+      areas[a] += point.N[a] * facing;
+      m += point.N[a] * energies[a] * states[a]->normal;
+      by_area[a] += point.N[a] * energies[a] * (states[a]->turning * area_vector);
     }
+    const Tensor<1, 3> by_xi = dealii::cross_product_3d(g_2, m), by_eta = dealii::cross_product_3d(m, g_1);
+    for (unsigned int b = 0; b < 4; ++b)
+      by_area[b] += point.N_xi[b] * by_xi + point.N_eta[b] * by_eta;
+  }
+  for (unsigned int b = 0; b < 4; ++b) {
+    const std::size_t i = facet.nodes[b];
+    double &bound = bounds[std::size_t{nodal_stride} * local_nodes_[i]];
+    Tensor<1, 3> force = by_area[b];
+    load.force += force;
+    load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), force);
+    bound += nodes_[i].stiffness.normal * depth * (nodes_[i].size + depth);
+    if (areas[b] > 0.) {
+      force += areas[b] * states[b]->traction;
+      bound += areas[b] * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
+      add_to_load(load, i, areas[b]);
+    }
+    add_vector(forces.data(), local_nodes_[i], force);
   }
 }
 

@@ -212,10 +212,10 @@ private:
   void add_to_load(ContactLoad &load, std::size_t i, double area) const;
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
-  /// Forces by which springs resist a change of the areas that they stand on, F_b = −Σ_a e_a ∂A_a/∂x_b, e the
-  /// stored energy: with these, normal forces at any depth have the potential Σ A_a e_a. And what they add to
-  /// bounds.
-  void add_area_forces(NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) const;
+  /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
+  /// −Σ_a e_a ∂A_a/∂x_b, e the stored energy: with these, normal forces at any depth have the potential
+  /// Σ A_a e_a. And what they add to bounds.
+  void add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) const;
   /// Counts what the tangential springs of nodes held that have lifted off in this step as dissipated.
   void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
