@@ -607,7 +607,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     outputs.progress.warn(problem.watch_penalties());
     outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
   };
-  constexpr unsigned int steps_between_looks = 100; // at the energies, whenever they are written
+  constexpr unsigned int steps_between_looks = ExplicitDynamics::steps_between_looks;
   // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
   // which a node enters; it is a small part soon. Energy without limit grows on.
   const auto stop_on_drift = [&](const bool is_finished) {

@@ -405,6 +405,29 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) {
     row_sums[i] += all[i];
 }
 
+void FacetContact::add_crossings(Crossings &crossings) const {
+  if (duration_ == 0.)
+    return;
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    const SlaveState &state = states_[s];
+    if (!(state.own_area > 0.))
+      continue;
+    double area = 0.;
+    Tensor<1, 3> moved;
+    for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
+      const FacetShare &share = shares_[i];
+      const FacetCorners before = corners_of(search_.facets()[share.facet], positions_n_),
+                         now = moved_.corners(share.facet);
+      Tensor<1, 3> part = slave_point(s, share, positions_) - slave_point(s, share, positions_n_);
+      for (unsigned int a = 0; a < 4; ++a)
+        part -= share.projection.weights[a] * (now[a] - before[a]);
+      moved += share.share * part;
+      area += spring_area_of(state, share);
+    }
+    crossings.add(stiffness_[s].normal * area, state.contact.gap, moved * state.contact.normal);
+  }
+}
+
 void FacetContact::add_edges(FacetContactLoad &load) const {
   for (const auto &crossing : crossings_) {
     if (!(crossing.counted_gap() < 0.))

@@ -26,6 +26,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
                            const ContactTangent tangent)
     : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
       communicator_(discretization.communicator()), tangent_(tangent),
+      is_explicit_(scene.parameters().is_explicit()),
       touching_gap_(scene.parameters().is_dynamic() && !scene.parameters().is_explicit() ? 0.
                                                                                          : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
@@ -168,6 +169,12 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
         const auto [t_q, t_r] = history_n.tangential;
         state.normal = placement_.rotation * projection.normal;
         state.tangential_energy = 0.5 * (t_q * t_q + t_r * t_r) / node.stiffness.tangential;
+        if (is_explicit_) { // which lets it do work for half of the step yet
+          const Tensor<1, 3> held =
+              placement_.rotation * (dealii::transpose(placement_n_.rotation) *
+                                     (t_q * history_n.frame.q + t_r * history_n.frame.r));
+          state.tangential_energy -= 0.5 * (held * (position - placement_.to_space(history_n.tool_position)));
+        }
       }
       history->is_active = false;
       history->tangential = {};
@@ -234,9 +241,16 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
   history.is_active = true;
   history.tangential = t.tangential;
   state.slip_increment = fraction * std::hypot(t.slip[0], t.slip[1]);
-  state.dissipation = -fraction * (t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]);
   state.tangential_energy = 0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) /
                             node.stiffness.tangential;
+  if (is_explicit_) { // what the trapezoidal rule takes from the motion, and the spring has not stored
+    const auto &before = history_n.tangential;
+    state.dissipation = 0.5 * (before[0] * before[0] + before[1] * before[1]) / node.stiffness.tangential -
+                        state.tangential_energy;
+    for (unsigned int c = 0; c < 2; ++c)
+      state.dissipation -= 0.5 * (before[c] + t.tangential[c]) * increment.value[c];
+  } else
+    state.dissipation = -fraction * (t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]);
   history.slip = history_n.slip + state.slip_increment;
   history.slip_rate =
       increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
@@ -307,19 +321,92 @@ void RigidContact::add_forces(Vector &residual) const {
 
 ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const {
   ContactLoad load;
-  for_each_area([&](const unsigned int i, const double area) {
-    const unsigned int node = local_nodes_[i];
-    add_vector(forces.data(), node, area * states_[i].traction);
-    bounds[std::size_t{nodal_stride} * node] +=
-        area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
-    add_to_load(load, i, area);
-  });
+  for (const auto &facet : facets_)
+    add_forces(facet, forces, bounds, load);
   for_each_near([&](const unsigned int i, const double area) {
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
         area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
   });
   add_released(load);
   return load;
+}
+
+void RigidContact::add_crossings(Crossings &crossings) const {
+  if (is_removed_ || duration_ == 0.)
+    return;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (is_owned_[i])
+      crossings.add(nodes_[i].stiffness.normal * nodes_[i].size * nodes_[i].size, states_[i].gap,
+                    states_[i].gap - nodes_[i].gap_n);
+}
+
+void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &velocities,
+                                 const double step) const {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node &node = nodes_[i];
+    const Tensor<1, 3> v = get_vector(velocities.data(), local_nodes_[i]);
+    if (!is_owned_[i] || std::abs(states_[i].gap) >= 2. * step * v.norm())
+      continue;
+    const auto projection = tool_.surface().project(placement_.to_tool(states_[i].position), node.patch);
+    crossings.add(node.stiffness.normal * node.size * node.size, states_[i].gap,
+                  step * (v * (placement_.rotation * projection.normal)));
+  }
+}
+
+double RigidContact::stored_energy(const std::size_t i) const {
+  // What augmented tractions hold is no stretch of a spring.
+  const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
+  return 0.5 * nodes_[i].stiffness.normal * gap * gap +
+         (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
+}
+
+void RigidContact::add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds,
+                              ContactLoad &load) const {
+  const FacetStates states = states_of(facet);
+  std::array<double, 4> areas{}, energies{};
+  double depth = 0.; // that goes with the largest energy
+  bool touches = false;
+  for (unsigned int a = 0; a < 4; ++a)
+    if (states[a]->status != ContactStatus::open) {
+      touches = true;
+      energies[a] = stored_energy(facet.nodes[a]);
+      depth = std::max(depth, 2. * energies[a] / nodes_[facet.nodes[a]].stiffness.normal);
+    }
+  if (!touches)
+    return;
+  depth = std::sqrt(depth);
+  std::array<Tensor<1, 3>, 4> by_area; // −Σ_a e_a ∂A_a/∂x_b
+  for (const auto &point : facet_points()) {
+    const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return states[a]->position; });
+    const Tensor<1, 3> area_vector = dealii::cross_product_3d(g_1, g_2);
+    Tensor<1, 3> m;
+    for (unsigned int a = 0; a < 4; ++a) {
+      const double facing =
+          states[a]->status != ContactStatus::open ? -(area_vector * states[a]->normal) : 0.;
+      if (facing <= 0.)
+        continue;
+      areas[a] += point.N[a] * facing;
+      m += point.N[a] * energies[a] * states[a]->normal;
+      by_area[a] += point.N[a] * energies[a] * (states[a]->turning * area_vector);
+    }
+    const Tensor<1, 3> by_xi = dealii::cross_product_3d(g_2, m), by_eta = dealii::cross_product_3d(m, g_1);
+    for (unsigned int b = 0; b < 4; ++b)
+      by_area[b] += point.N_xi[b] * by_xi + point.N_eta[b] * by_eta;
+  }
+  for (unsigned int b = 0; b < 4; ++b) {
+    const std::size_t i = facet.nodes[b];
+    double &bound = bounds[std::size_t{nodal_stride} * local_nodes_[i]];
+    Tensor<1, 3> force = by_area[b];
+    load.force += force;
+    load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), force);
+    bound += nodes_[i].stiffness.normal * depth * (nodes_[i].size + depth);
+    if (areas[b] > 0.) {
+      force += areas[b] * states[b]->traction;
+      bound += areas[b] * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
+      add_to_load(load, i, areas[b]);
+    }
+    add_vector(forces.data(), local_nodes_[i], force);
+  }
 }
 
 bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
@@ -579,12 +666,9 @@ void RigidContact::add_to_load(ContactLoad &load, const std::size_t i, const dou
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  // What augmented tractions hold is no stretch of a spring.
-  const double gap = state.gap + nodes_[i].lift; // but for what is allowed
-  load.stored_energy += area * (0.5 * nodes_[i].stiffness.normal * gap * gap +
-                                (pair_.penetration_tolerance > 0. ? 0. : state.tangential_energy));
+  load.stored_energy += area * stored_energy(i);
   load.dissipation += area * state.dissipation;
-  load.deepest = std::max(load.deepest, -gap);
+  load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
 }
 
 ContactLoad RigidContact::local_load() const {

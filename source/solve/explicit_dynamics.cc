@@ -273,6 +273,7 @@ void ExplicitDynamics::compute_contact_forces() {
     if (tool.inverse_inertia() > 0.)
       tool_stiffness_[contact.tool()] += contact.stiffness_against_tool();
     works_.friction += load.dissipation;
+    contact.add_crossings(crossings_);
     contact.commit();
   }
 }
@@ -307,6 +308,7 @@ void ExplicitDynamics::remove_tools() {
 void ExplicitDynamics::compute_forces() {
   clear(bounds_, bounded_nodes_);
   clear(external_, loaded_nodes_);
+  crossings_ = Crossings();
   std::exception_ptr failure;
   try {
     if (late_failure_)
@@ -322,6 +324,7 @@ void ExplicitDynamics::compute_forces() {
   for (auto &contact : body_contacts_) { // ranks talk to each other in it
     contact->add_forces(u_, n_steps_ == 0 ? 0. : step_, forces_, bounds_);
     works_.friction += contact->local_dissipation();
+    contact->add_crossings(crossings_);
     contact->commit();
   }
   const double resolution = parameters_.contact_resolution * parameters_.contact_resolution;
@@ -339,6 +342,7 @@ void ExplicitDynamics::compute_forces() {
       if (failure)
         std::rethrow_exception(failure);
     });
+  crossing_step_ = crossing_step();
 }
 
 double ExplicitDynamics::tools_share() const {
@@ -372,12 +376,43 @@ double ExplicitDynamics::stable_step() const {
   return 2. / (b + std::sqrt(b * b + 4. * a));
 }
 
+double ExplicitDynamics::crossing_step() const {
+  constexpr double allowed = 0.0025; // of the energy
+  if (contacts_.empty() && body_contacts_.empty())
+    return std::numeric_limits<double>::infinity();
+  const MPI_Comm communicator = discretization_.communicator();
+  Crossings crossings = crossings_;
+  double step = step_;
+  if (n_steps_ == 0) { // no node has gone anywhere yet
+    step = element_step_;
+    for (const auto &contact : contacts_)
+      contact.add_crossings(crossings, v_, step);
+    const bool moves = std::any_of(v_.begin(), v_.end(), [](const double v) { return v != 0.; });
+    double near = 0.; // bounds on what facets would do
+    for (const unsigned int node : bounded_nodes_)
+      near = std::max(near, bounds_[std::size_t{nodal_stride} * node]);
+    // The first step shows how fast facets come nearer to each other.
+    if (!body_contacts_.empty() && dealii::Utilities::MPI::max(near > 0. ? 1 : 0, communicator) *
+                                           dealii::Utilities::MPI::max(moves ? 1 : 0, communicator) >
+                                       0)
+      return 0.;
+  }
+  const double springs = dealii::Utilities::MPI::sum(crossings.springs, communicator);
+  if (!(springs > 0.))
+    return std::numeric_limits<double>::infinity();
+  const double speed = dealii::Utilities::MPI::max(crossings.way, communicator) / step;
+  const double energy = std::max(energy_of_steps_, 0.5 * (mass_ + added_mass_) * speed * speed);
+  return step * std::sqrt(allowed * energy / (0.125 * springs));
+}
+
 void ExplicitDynamics::choose_step(const double event) {
   // Energies are kept best by equal steps, and by steps that change slowly, whatever asks for the change.
   // What a change of the step by a part p costs goes with p (ω Δt)²: short steps may grow faster.
   constexpr double growth = 0.02, largest_growth = 2., short_step = 0.9, long_step = 0.99;
   constexpr double rounding = 1e-9; // a remainder that is so much too long is one step
-  const double allowed = step_factor_ * parameters_.safety_factor * element_step_;
+  constexpr double shortest = 0.25; // part of the stable step, for what comes through surfaces
+  const double stable = step_factor_ * parameters_.safety_factor * element_step_;
+  const double allowed = std::min(stable, std::max(step_factor_ * crossing_step_, shortest * stable));
   const double length = step_ / allowed;
   const double largest =
       n_steps_ > 0 ? std::min(allowed, std::min(largest_growth, 1. + growth / (length * length)) * step_)
@@ -561,8 +596,10 @@ void ExplicitDynamics::update_ledger() {
   if (n_steps_ == 0)
     energies.initial = energies.total() - energies.external;
   // What is there counts half only: energy that came from nowhere must not hide itself.
-  largest_energy_ =
-      std::max({largest_energy_, 0.5 * energies.total(), std::abs(energies.initial + energies.external)});
+  const double energy = std::max(0.5 * energies.total(), std::abs(energies.initial + energies.external));
+  largest_energy_ = std::max(largest_energy_, energy);
+  if (n_steps_ % steps_between_looks == 0) // steps must not depend on when else somebody looks
+    energy_of_steps_ = std::max(energy_of_steps_, energy);
 }
 
 std::string ExplicitDynamics::watch_penalties() {

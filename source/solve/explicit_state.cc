@@ -125,6 +125,7 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   energies.hourglass = sums[5];
   writer.write("energies", to_numbers(energies));
   writer.write("largest energy", {largest_energy_});
+  writer.write("energy of steps", {energy_of_steps_});
   writer.write_rows("works", 4, {rank}, {own.begin(), own.begin() + 4});
 
   for (std::size_t b = 0; b < blocks_.size(); ++b)
@@ -203,8 +204,10 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
     const EnergyLedger &e = state_.energies;
     works_ = {e.external, e.plastic, e.friction, e.viscous};
   }
-  if (is_exact)
+  if (is_exact) {
     largest_energy_ = reader.number("largest energy");
+    energy_of_steps_ = reader.number(reader.has("energy of steps") ? "energy of steps" : "largest energy");
+  }
   report.time = time_;
   return report;
 }

@@ -85,6 +85,8 @@ public:
 
   /// On the first body, by the second; after add_forces(). Collective.
   ContactLoad compute_load() const;
+  /// Adds this rank's, after add_forces() and before commit().
+  void add_crossings(Crossings &crossings) const { contact_->add_crossings(crossings); }
   /// By friction in this step, of this rank [energy].
   double local_dissipation() const { return contact_->local_dissipation(); }
 

@@ -38,6 +38,22 @@ struct Penetration {
   }
 };
 
+/// Of nodes that come through a surface, into contact or out of it, in the step that has been or in the next
+/// two: with d_i the way along the normal in a step, the energy in such a step is off by up to ⅛ Σ k A d_i².
+struct Crossings {
+  double springs = 0.; ///< Σ k A d_i² [energy]
+  double way = 0.;     ///< largest d_i [length]
+
+  /// Adds a node if it does; what it adds to the springs and how far it has moved out of the surface.
+  void add(const double spring, const double gap, const double moved) {
+    const double ahead = 2. * std::abs(moved);
+    if (gap >= ahead || -gap >= ahead || (gap >= 0. && moved >= 0.))
+      return;
+    springs += spring * moved * moved;
+    way = std::max(way, std::abs(moved));
+  }
+};
+
 /// State of a slave node, for output.
 struct ContactNodeReport {
   std::array<DofIndex, 3> dofs;

@@ -144,6 +144,9 @@ public:
   /// too long for that entry.
   void add_row_sums(std::vector<double> &row_sums);
 
+  /// Adds those of this rank's areas, after add_forces() and before commit().
+  void add_crossings(Crossings &crossings) const;
+
   /// After add_forces().
   FacetContactLoad compute_load() const;
 

@@ -114,9 +114,14 @@ public:
   /// Finds its nodes among those of the rank.
   void bind(const LocalNodes &nodes);
   void update(const NodalVectors &displacements);
-  /// Returns local_load(). Adds F_c [force], and to component 0 of `bounds` what the penalties of this rank's
-  /// facets add to a bound on the stiffness at a node [force/length].
+  /// Adds F_c [force], those on areas that change among them: without friction F_c = −∂Π/∂u, Π the stored
+  /// energy. Returns local_load() with these. Also adds to component 0 of `bounds` what the penalties of this
+  /// rank's facets add to a bound on the stiffness at a node [force/length].
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) const;
+  /// Adds this rank's, after update() and before commit().
+  void add_crossings(Crossings &crossings) const;
+  /// The same at the start of all, of a step at these velocities; the tool rests. After update().
+  void add_crossings(Crossings &crossings, const NodalVectors &velocities, double step) const;
   /// Of the penalties of this rank's facets against a tool that moves along its force's direction, or turns
   /// about its axis [force/length, or force length]: Σ a·k a, a what the node's gap and slip are to a unit of
   /// that motion. Of a tool that moves as told 0. Counts what bounds count.
@@ -207,6 +212,12 @@ private:
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   void add_to_load(ContactLoad &load, std::size_t i, double area) const;
+  /// In the penalty springs of a node that touches [energy/length²].
+  double stored_energy(std::size_t i) const;
+  /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
+  /// −Σ_a e_a ∂A_a/∂x_b, e the stored energy: with these, normal forces at any depth have the potential
+  /// Σ A_a e_a. And what they add to bounds.
+  void add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) const;
   /// Counts what the tangential springs of nodes held that have lifted off in this step as dissipated.
   void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
@@ -221,6 +232,7 @@ private:
   const Tool &tool_;
   const MPI_Comm communicator_;
   const ContactTangent tangent_;
+  const bool is_explicit_;    ///< works are those of the trapezoidal rule
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()

@@ -48,6 +48,8 @@ public:
   /// Of the bodies, without that, on all ranks [mass].
   double mass() const { return mass_; }
 
+  /// The energies are to be brought up to date whenever so many steps have been taken: steps depend on them.
+  static constexpr unsigned int steps_between_looks = 100;
   /// After prepare_step(): brings energies, momenta and tools in the state up to date. Collective.
   void update_ledger();
   /// The same, and the fields. Collective.
@@ -83,6 +85,9 @@ private:
   void compute_contact_forces();
   void remove_tools();
   double stable_step() const;
+  /// The step in which nodes that come through surfaces make too large an error of energy; infinite if there
+  /// is none. Collective.
+  double crossing_step() const;
   /// What tools with a mass, which is not infinite, add to ω² of the contacts. Collective.
   double tools_share() const;
   /// Below this, the round-off of positions alone makes energies fail to balance by the allowed part. With
@@ -125,6 +130,8 @@ private:
   std::vector<unsigned int> loaded_nodes_, bounded_nodes_; ///< of this rank; of all ranks
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
   double element_step_ = 0.;                               ///< stable step of the elements of all ranks
+  Crossings crossings_;                                    ///< of this rank, at t_n
+  double crossing_step_ = 0.;
   double time_ = 0., step_ = 0., step_before_ = 0.;
   double step_factor_ = 1.; ///< beside the safety factor
   bool is_growing_ = false; ///< steps were much shorter than they may be, and are not yet long
@@ -134,6 +141,7 @@ private:
   std::exception_ptr late_failure_;          ///< of this rank, since the last compute_forces()
   double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
+  double energy_of_steps_ = 0.; ///< the largest at every steps_between_looks steps
   PenaltyWatch soft_penalties_{PenaltyWatch::Motion::sudden};
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
   struct Works {

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Contact with a tool without a matrix: its forces are what the energy in its springs changes by, at any
+// depth and with areas that change; together they are the load on the tool. And what that is for: blows at
+// the speed of waves, much friction on nodes that lift, and stiff contact at long steps make no energy.
+#include "explicit_run.h"
+
+#include "../geometry/make_surface.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::ExplicitRun;
+using dealii::Tensor;
+
+namespace {
+
+void test_potential(const std::string &name, const testing::SurfacePart &part) {
+  parameters::Scene parameters = testing::read_test_scene("hard_blow.prm");
+  parameters.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
+  parameters.tools[0].surface = testing::make_surface(part.shape, part.lines);
+  const Scene scene(parameters);
+  const Discretization discretization(scene, MPI_COMM_WORLD);
+  const LocalNodes nodes(discretization);
+  RigidContact contact(scene, 0, discretization, parameters::ContactTangent::consistent);
+  contact.bind(nodes);
+
+  testing::Random random;
+  NodalVectors u = nodes.make_vectors(), forces = nodes.make_vectors(), bounds = nodes.make_vectors();
+  for (unsigned int node = 0; node < nodes.size(); ++node)
+    add_vector(u.data(), node,
+               Tensor<1, 3>({random(-0.1, 0.1), random(-0.1, 0.1), -0.4 + random(-0.1, 0.1)}));
+  contact.update(u);
+  const ContactLoad load = contact.add_forces(forces, bounds);
+
+  Tensor<1, 3> sum, moment;
+  unsigned int n_pressed = 0;
+  for (unsigned int node = 0; node < nodes.size(); ++node) {
+    const Tensor<1, 3> force = get_vector(forces.data(), node);
+    sum += force;
+    moment += dealii::cross_product_3d(
+        get_vector(nodes.positions().data(), node) + get_vector(u.data(), node), force);
+    n_pressed += force.norm() > 0. ? 1 : 0;
+  }
+  check(name + ": nodes are pressed", n_pressed == 9);
+  check(name + ": force on the tool", (sum - load.force).norm() / load.force.norm(), 1e-13);
+  check(name + ": moment on the tool", (moment - load.moment).norm() / load.force.norm(), 1e-13);
+
+  testing::WorstError error;
+  for (unsigned int k = 0; k < 5; ++k) {
+    NodalVectors direction = nodes.make_vectors();
+    double power = 0., scale = 0.;
+    for (unsigned int node = 0; node < nodes.size(); ++node) {
+      const Tensor<1, 3> way({random(-1., 1.), random(-1., 1.), random(-1., 1.)});
+      add_vector(direction.data(), node, way);
+      power += way * get_vector(forces.data(), node);
+      scale += get_vector(forces.data(), node).norm();
+    }
+    const double slope = testing::central_difference(
+        [&](const double h) {
+          NodalVectors moved = u;
+          for (std::size_t i = 0; i < moved.size(); ++i)
+            moved[i] += h * direction[i];
+          contact.update(moved);
+          return contact.local_load().stored_energy;
+        },
+        1e-4);
+    error.add(std::abs(power + slope) / scale);
+  }
+  check(name + ": forces are those of the stored energy", error.value(), 1e-9);
+}
+
+/// Blows at the speed of waves, with areas that grow while nodes are deep.
+void test_blows() {
+  for (const double penalty : {10., 1.}) {
+    parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
+    scene.pairs[0].normal_penalty = penalty;
+    scene.explicit_dynamics.safety_factor = 0.3;
+    ExplicitRun run(scene);
+    run.finish(2e-5, [] {});
+    check("blow with a penalty of " + std::to_string(static_cast<int>(penalty)) + ": energy", run.worst_drift,
+          5e-3);
+  }
+}
+
+/// The block stands under its weight, is thrown along the floor, tumbles and hops.
+void test_hops() {
+  using Law = parameters::ContactPair::FrictionLaw;
+  for (const auto &[name, law] :
+       {std::pair<std::string, Law>{"Coulomb", Law::coulomb}, {"static-kinetic", Law::static_kinetic}}) {
+    parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
+    scene.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
+    scene.bodies[0].initial_velocity.value = {"10", "0", "0"};
+    parameters::Load gravity;
+    gravity.kind = parameters::Load::Kind::acceleration;
+    gravity.acceleration.value = {"0", "0", "-2000"};
+    gravity.pressure.value = "0";
+    scene.bodies[0].loads.push_back(gravity);
+    scene.pairs[0].friction_law = law;
+    scene.pairs[0].friction_coefficient = 2.;
+    scene.pairs[0].kinetic_coefficient = 1.;
+    scene.pairs[0].friction_decay = 1.;
+    scene.time_stepping.end_time = 0.04;
+    scene.explicit_dynamics.safety_factor = 0.3;
+    ExplicitRun run(scene);
+    run.finish(1e-4, [] {});
+    check("hops with " + name + " friction: energy", run.worst_drift, 5e-3);
+    check("hops with " + name + " friction: friction takes energy",
+          run.state().energies.friction > 0.3 * run.state().energies.initial);
+  }
+}
+
+/// A cube that is one element, so that all of it is at the wall: the step gives way to what enters and
+/// leaves.
+void test_long_steps() {
+  parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
+  scene.bodies[0].mesh.arguments = "1, 1, 1 : 0, 0, 0 : 1, 1, 1 : true";
+  scene.bodies[0].initial_velocity.value = {"0", "0", "-10"};
+  scene.bodies[0].material.poisson_ratio = 0.;
+  ExplicitRun run(scene);
+  run.finish(1e-4, [] {});
+  check("one element at a wall: energy", run.worst_drift, 0.03);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_potential("plane", {"plane", ""});
+  test_potential("sphere", {"sphere", "set Centre = 0.1, 0.2, -3\nset Radius = 3"});
+  test_potential("bowl", {"sphere", "set Centre = 0.1, 0.2, 3.85\nset Radius = 4\nset Side = inside"});
+  test_potential("cylinder", {"cylinder", "set Point = 0, 0, -3\nset Radius = 3\nset Axis = 1, 0.4, 0"});
+  test_blows();
+  test_hops();
+  test_long_steps();
+  return testing::exit_code();
+}
