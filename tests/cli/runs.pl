@@ -514,7 +514,7 @@ check '--check tells what a profile sets, and what the scene requires', sub {
   my ($code, $output, $errors) = run($billet, '--check', 'scene.prm');
   for my $line ('Profile        accurate', '               Contact pairs / top on die / Penetration tolerance = 1e-3',
     'Plasticity     yes: history of 1 of 1 bodies', 'Friction       no (neither allocated nor run)', 'Augmentation   yes: 1 of 1 pairs',
-    'Self-contact   no (neither allocated nor run)', 'Matrix         yes: symmetric; MUMPS, which factorises half, or CG with multigrid')
+    'Self-contact   no (neither allocated nor run)', 'Matrix         yes: symmetric; MUMPS, which factorises half, above 10000 unknowns CG with multigrid')
   {
     return "no line '$line' in $output" if $output !~ /^\Q$line\E$/m;
   }
