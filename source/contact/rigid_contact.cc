@@ -378,24 +378,6 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
   return load;
 }
 
-bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
-  constexpr double same = 1e-8, near = 0.01; // facet sizes
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const double size = nodes_[i].size;
-    if (is_removed_ || (states_[i].position - position).norm() > same * size)
-      continue;
-    const Tensor<1, 3> x = placement_.to_tool(position);
-    const auto here = tool_.surface().project(x, nodes_[i].patch);
-    if (std::abs(here.gap) > size)
-      continue;
-    const Frame along = Frame::from_normal(here.normal);
-    for (const auto &way : {along.q, -along.q, along.r, -along.r})
-      if (tool_.surface().project(x + near * size * way, nodes_[i].patch).exists != here.exists)
-        return true;
-  }
-  return false;
-}
-
 double RigidContact::largest_spring() const {
   double largest = 0.;
   for (const auto &node : nodes_)

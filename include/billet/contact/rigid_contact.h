@@ -88,11 +88,6 @@ public:
   /// infinite if it cannot. On this rank.
   double distance_to_touch(const dealii::Tensor<1, 3> &direction) const;
 
-  /// Whether the pair has a node there, at the last update(), that lies on a border of the tool's surface,
-  /// but for a hundredth of the facets around it: contact then comes and goes as the node moves. On this
-  /// rank.
-  bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
-
   /// Adds what the tool does where it touches a node of this rank, at the last update(); none if it is
   /// removed.
   void add_resistances(std::vector<Resistance> &resistances) const;
