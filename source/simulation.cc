@@ -485,8 +485,13 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     if (watch)
       watch->after_failure();
     // Smaller loads would make that worse.
-    const bool may_go_on = control.reject() && !report.newton.is_lost_in_round_off;
+    bool may_go_on = control.reject() && !report.newton.is_lost_in_round_off;
     report.total_cuts = control.n_cuts();
+    if (!may_go_on && !report.newton.is_lost_in_round_off) {
+      const std::string note = problem.take_exact_tangent();
+      outputs.progress.warn(note);
+      may_go_on = !note.empty();
+    }
     if (!may_go_on) {
       outputs.snapshots.write(problem);
       throw SolutionFailure(explain_failure(parameters, report, from, to));

@@ -139,7 +139,10 @@ std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene)
                                  : own_side * other_side / (own_side + other_side);
     const double unit = pair_.penalty_is_factor ? of_factor : 1.;
     stiffness.push_back({unit * pair_.normal_penalty, unit * pair_.tangential_penalty});
-    most_stiffening_ = std::min(most_stiffening_, enough_penalty * of_factor / (unit * pair_.normal_penalty));
+    const double enough = enough_penalty * of_factor / unit;
+    most_stiffening_ = std::min(most_stiffening_, enough / pair_.normal_penalty);
+    if (pair_.has_friction())
+      most_tangential_stiffening_ = std::min(most_tangential_stiffening_, enough / pair_.tangential_penalty);
   }
   return stiffness;
 }

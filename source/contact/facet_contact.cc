@@ -613,16 +613,16 @@ void FacetContact::augment() {
   }
 }
 
-void FacetContact::stiffen(const double factor) {
-  stiffening_ *= factor;
+void FacetContact::scale_penalties(const double normal, const double tangential) {
+  stiffening_ *= normal;
   for (auto &stiffness : stiffness_) {
-    stiffness.normal *= factor;
-    stiffness.tangential *= factor;
+    stiffness.normal *= normal;
+    stiffness.tangential *= tangential;
   }
   for (auto &lift : lifts_)
-    lift /= factor;
+    lift /= normal;
   for (auto &lift : lifts_n_)
-    lift /= factor;
+    lift /= normal;
   last_augmentations_.assign(last_augmentations_.size(), Augmentation());
 }
 

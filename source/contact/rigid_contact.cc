@@ -20,6 +20,9 @@ namespace {
 // What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
 constexpr double near_gap = 0.25, near_steps = 20.;
 
+/// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
+constexpr double fading_width = 0.05;
+
 } // namespace
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
@@ -34,6 +37,11 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
   states_.resize(nodes_.size());
   if (pair_.has_friction())
     friction_n_.resize(nodes_.size());
+  const BoundingBox &box = tool_.surface().bounding_box();
+  double tool_size = 0.;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (const double end : {box.low[i], box.high[i]})
+      tool_size = std::max(tool_size, std::isfinite(end) ? std::abs(end) : 0.);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const auto X = placement_.to_tool(nodes_[i].reference);
     const auto projection = tool_.surface().project(X);
@@ -44,6 +52,9 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
       states_[i].gap = nodes_[i].gap_n = 0.;
     }
     nodes_[i].patch = projection.patch;
+    const double curvature = projection.turning.norm();
+    if (curvature > 0.)
+      tool_reach_ = std::max(tool_reach_, std::min(1. / curvature, tool_size));
     if (!friction_n_.empty())
       friction_n_[i].tool_position = X;
   }
@@ -69,6 +80,10 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
                           pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
         const double room = enough_penalty * young_modulus / (node.size * node.stiffness.normal);
         most_stiffening_ = std::min(most_stiffening_, room);
+        if (pair_.has_friction())
+          most_tangential_stiffening_ =
+              std::min(most_tangential_stiffening_,
+                       enough_penalty * young_modulus / (node.size * node.stiffness.tangential));
         node.touching_gap = touching_gap_ * node.size * std::min(1., room);
         nodes_.push_back(node);
       }
@@ -132,6 +147,23 @@ void RigidContact::update(const NodalVectors &displacements) {
   update_states([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
 }
 
+RigidContact::Fading RigidContact::fade(const RigidSurface::Border &border, const double width,
+                                        const double penalty, const double gap) {
+  const double q = border.beyond / width, left = 1. - q * q;
+  const double slope = -4. * q * left / width, bend = (12. * q * q - 4.) / (width * width); // s′, s″
+  const double depth = std::min(gap, 0.), spring = 0.5 * penalty * depth * depth;
+  const Tensor<1, 3> &n = border.normal, &e = border.outward;
+  Fading fading;
+  fading.share = left * left;
+  fading.push = -spring * slope * e;
+  fading.pressure_slope = -penalty * depth * slope * e;
+  fading.tangent = penalty * depth * slope * (dealii::outer_product(n, e) + dealii::outer_product(e, n)) +
+                   spring * (bend * dealii::outer_product(e, e) + slope * border.spreading);
+  // |s′|/d <= 4/w², |s″| <= 8/w².
+  fading.stiffness = -2. * penalty * depth * std::abs(slope) + 12. * spring / (width * width);
+  return fading;
+}
+
 template <class Law>
 RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t i,
                                                const Tensor<1, 3> &position, FrictionHistory *history) const {
@@ -139,7 +171,20 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   NodeState state;
   state.position = position;
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
-  const auto projection = tool_.surface().project(on_tool, node.patch);
+  auto projection = tool_.surface().project(on_tool, node.patch);
+  const double width = fading_width * node.size;
+  const bool fades = !projection.exists && projection.beyond < width;
+  Fading fading{};
+  if (fades) {
+    RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch);
+    projection = {true, border.normal, border.gap, border.turning, projection.patch};
+    border.normal = placement_.rotation * border.normal;
+    border.outward = placement_.rotation * border.outward;
+    border.spreading = placement_.rotation * border.spreading * dealii::transpose(placement_.rotation);
+    fading = fade(border, width, node.stiffness.normal, border.gap - lift_of(node));
+    state.share = fading.share;
+    state.fading_stiffness = fading.stiffness;
+  }
   state.gap = projection.gap - lift_of(node);
   state.patch = projection.patch;
   // A node that starts on the tool counts as touching: its stiffness may be all that holds the body. Inertia
@@ -152,18 +197,19 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   }
   if constexpr (std::is_same_v<Law, Frictionless>) {
     if (touches) {
-      const FrameTraction t = compute_frictionless_traction(node.stiffness.normal, state.gap);
+      const double penalty = state.share * node.stiffness.normal;
+      const FrameTraction t = compute_frictionless_traction(penalty, state.gap);
       state.status = t.status;
       state.pressure = t.pressure;
       state.traction = t.pressure * state.normal;
-      state.tangent = node.stiffness.normal * dealii::outer_product(state.normal, state.normal);
+      state.tangent = penalty * dealii::outer_product(state.normal, state.normal);
       if (tangent_ == ContactTangent::exact)
         state.tangent -= t.pressure * state.turning;
     }
   } else {
     const FrictionHistory &history_n = friction_n_[i];
     if (touches)
-      apply_friction(law, node, state, history_n, *history);
+      apply_friction(law, node, state, fades ? &fading : nullptr, history_n, *history);
     else {
       if (history_n.is_active && pair_.penetration_tolerance == 0.) { // its spring lets go
         const auto [t_q, t_r] = history_n.tangential;
@@ -183,11 +229,16 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
     }
     history->tool_position = on_tool;
   }
+  if (fades && touches) { // what is not friction is pressure
+    state.pressure = (state.pressure * state.normal + fading.push).norm();
+    state.traction += fading.push;
+    state.tangent += fading.tangent;
+  }
   return state;
 }
 
 template <class Law>
-void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &state,
+void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
                                   const FrictionHistory &history_n, FrictionHistory &history) const {
   history.frame = history_n.is_active
                       ? history_n.frame.transported(
@@ -205,6 +256,7 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
 
   // A node that enters within the step has slid along the tool for the part φ = g/(g − g_n) of it only.
   ContactStiffness stiffness = node.stiffness;
+  stiffness.normal *= state.share;
   double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ
   if (!history_n.is_active && node.gap_n > node.touching_gap && state.gap < 0.) {
     fraction = state.gap / (state.gap - node.gap_n);
@@ -237,6 +289,9 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
     state.tangent += dealii::outer_product(Z.n, t.tangential[0] * Hq + t.tangential[1] * Hr) -
                      dealii::outer_product(t.tangential[0] * Z.r - t.tangential[1] * Z.q, Hs) -
                      t.pressure * state.turning;
+  if (fading)
+    state.tangent -=
+        dealii::outer_product(t.pressure_slope[0] * Z.q + t.pressure_slope[1] * Z.r, fading->pressure_slope);
 
   history.is_active = true;
   history.tangential = t.tangential;
@@ -356,7 +411,7 @@ void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &veloc
 double RigidContact::stored_energy(const std::size_t i) const {
   // What augmented tractions hold is no stretch of a spring.
   const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
-  return 0.5 * nodes_[i].stiffness.normal * gap * gap +
+  return 0.5 * states_[i].share * nodes_[i].stiffness.normal * gap * gap +
          (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
 }
 
@@ -402,29 +457,12 @@ void RigidContact::add_forces(const Facet &facet, NodalVectors &forces, NodalVec
     bound += nodes_[i].stiffness.normal * depth * (nodes_[i].size + depth);
     if (areas[b] > 0.) {
       force += areas[b] * states[b]->traction;
-      bound += areas[b] * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
+      bound += areas[b] * (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
+                           states[b]->fading_stiffness);
       add_to_load(load, i, areas[b]);
     }
     add_vector(forces.data(), local_nodes_[i], force);
   }
-}
-
-bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
-  constexpr double same = 1e-8, near = 0.01; // facet sizes
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const double size = nodes_[i].size;
-    if (is_removed_ || (states_[i].position - position).norm() > same * size)
-      continue;
-    const Tensor<1, 3> x = placement_.to_tool(position);
-    const auto here = tool_.surface().project(x, nodes_[i].patch);
-    if (std::abs(here.gap) > size)
-      continue;
-    const Frame along = Frame::from_normal(here.normal);
-    for (const auto &way : {along.q, -along.q, along.r, -along.r})
-      if (tool_.surface().project(x + near * size * way, nodes_[i].patch).exists != here.exists)
-        return true;
-  }
-  return false;
 }
 
 double RigidContact::largest_spring() const {
@@ -591,6 +629,21 @@ void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
                   resistances);
 }
 
+RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
+  Grip grip;
+  for_each_area([&](const unsigned int i, const double area) {
+    const NodeState &state = states_[i];
+    const Tensor<1, 3> v = rate.translation + dealii::cross_product_3d(
+                                                  rate.rotation, state.position - placement_.moved_centre());
+    const double along_normal = state.normal * v, force = area * state.pressure;
+    const double weight = force * (v - along_normal * state.normal).norm();
+    grip.touching += weight;
+    grip.slipping += state.status == ContactStatus::slip ? weight : 0.;
+    grip.power_of_pressure += force * along_normal;
+  });
+  return grip;
+}
+
 void RigidContact::commit() {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].gap_n = states_[i].gap;
@@ -615,29 +668,32 @@ void RigidContact::restart() {
 void RigidContact::augment() {
   Usage::count(Capability::augmentation, nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    nodes_[i].lift = states_[i].pressure / nodes_[i].stiffness.normal;
+    nodes_[i].lift = states_[i].share == 1. ? states_[i].pressure / nodes_[i].stiffness.normal
+                                            : states_[i].share * std::max(0., -states_[i].gap);
   base_.clear();
   for (std::size_t i = 0; i < friction_.size(); ++i)
     base_.push_back(friction_n_[i].is_active ? friction_[i].tangential : friction_n_[i].tangential);
 }
 
-void RigidContact::stiffen(const double factor) {
-  stiffening_ *= factor;
+void RigidContact::scale_penalties(const double normal, const double tangential) {
+  stiffening_ *= normal;
   for (auto &node : nodes_) {
-    node.stiffness.normal *= factor;
-    node.stiffness.tangential *= factor;
-    node.lift /= factor;
-    node.gap_n += node.lift_n * (1. - 1. / factor);
-    node.lift_n /= factor;
+    node.stiffness.normal *= normal;
+    node.stiffness.tangential *= tangential;
+    node.lift /= normal;
+    node.gap_n += node.lift_n * (1. - 1. / normal);
+    node.lift_n /= normal;
   }
 }
 
 double RigidContact::stiffening_left() const { return most_stiffening_ / stiffening_; }
 
+double RigidContact::tangential_stiffening_left() const { return most_tangential_stiffening_ / stiffening_; }
+
 Penetration RigidContact::penetration() const {
   Penetration deepest;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (states_[i].pressure > 0.)
+    if (states_[i].pressure > 0. && states_[i].share == 1.)
       deepest.add(std::abs(states_[i].gap + nodes_[i].lift), nodes_[i].size);
   return deepest;
 }

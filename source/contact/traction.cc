@@ -92,7 +92,8 @@ FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness
         K[i][j] += (beta * ((i == m ? 1. : 0.) - direction[i] * direction[m]) +
                     rate_ratio * direction[i] * direction[m]) *
                    trial_tangent[m][j];
-    const double coupling = limit.pressure_slope * (1. - rate_ratio) * stiffness.normal * direction[i];
+    traction.pressure_slope[i] = limit.pressure_slope * (1. - rate_ratio) * direction[i];
+    const double coupling = traction.pressure_slope[i] * stiffness.normal;
     switch (tangent) {
     case ContactTangent::automatic: // resolved by the scene
     case ContactTangent::exact:

@@ -114,7 +114,8 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
                                                              const unsigned int patch) const {
   const Tensor<1, 3> arm = x - nearest.position;
   const double distance = arm.norm();
-  const Projection none{false, nearest.normal, distance, {}, patch};
+  const double beyond = (arm - (arm * nearest.normal) * nearest.normal).norm();
+  const Projection none{false, nearest.normal, distance, {}, patch, beyond};
   if (patches_.size() == 1)
     return none;
   const Neighbours around = find_neighbours(x, nearest, patch);
@@ -140,6 +141,28 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   else if (around.normals.size() == 2 || !is_between(projection.normal, around.normals, around.mean))
     return none; // past the edge's end; three patches make a corner
   return projection;
+}
+
+RigidSurface::Border RigidSurface::border(const Tensor<1, 3> &x, const unsigned int patch) const {
+  const ClosestPoint nearest = patches_[patch]->closest_point(x);
+  const Tensor<1, 3> arm = x - nearest.position;
+  Border border{nearest.normal, arm * nearest.normal, {}, 0., {}, {}};
+  const Tensor<1, 3> aside = arm - border.gap * nearest.normal;
+  border.beyond = aside.norm();
+  if (!(border.beyond > 0.))
+    return border;
+  border.outward = aside / border.beyond;
+  // How the border's point and normal go along with x, by central differences: patches do not tell.
+  const Tensor<1, 3> along = dealii::cross_product_3d(border.normal, border.outward);
+  const double h = 1e-3 * border.beyond;
+  const ClosestPoint before = patches_[patch]->closest_point(x - h * along),
+                     after = patches_[patch]->closest_point(x + h * along);
+  const double carried = along * (after.position - before.position) / (2. * h);
+  const double bend = along * (after.normal - before.normal) / (2. * h);
+  const Tensor<2, 3> twice = dealii::outer_product(along, along);
+  border.spreading = (1. - carried - border.gap * bend) / border.beyond * twice;
+  border.turning = bend * twice;
+  return border;
 }
 
 double RigidSurface::turning_along_edge(const Projection &projection, const ClosestPoint &nearest,

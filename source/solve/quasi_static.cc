@@ -47,11 +47,11 @@ NodalGeometry collect_geometry(const Discretization &discretization, const Const
 
 QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
-      internal_(scene, discretization),
+      internal_(scene, discretization), tangent_(scene.contact_tangent()),
       soft_penalties_(scene.parameters().is_dynamic() ? PenaltyWatch::Motion::sudden
                                                       : PenaltyWatch::Motion::slow) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
-    contacts_.emplace_back(scene, p, discretization, scene.contact_tangent());
+    contacts_.emplace_back(scene, p, discretization, tangent_);
   if (!scene.body_pairs().empty())
     nodes_ = std::make_unique<LocalNodes>(discretization);
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
@@ -116,7 +116,7 @@ void QuasiStatic::build_matrix(const bool couplings_are_known) {
   dealii::IndexSet written = discretization_.relevant_dofs();
   for (auto &contact : body_contacts_) {
     if (!couplings_are_known)
-      contact->find_couplings(scene_.contact_tangent());
+      contact->find_couplings(tangent_);
     contact->add_foreign_dofs(written);
   }
   dealii::TrilinosWrappers::SparsityPattern pattern(owned, owned, written, discretization_.communicator());
@@ -133,8 +133,15 @@ void QuasiStatic::build_matrix(const bool couplings_are_known) {
     return;
   }
   matrix_.reinit(pattern);
+  parameters::Solver settings = scene_.parameters().solver;
+  const bool has_own_tangent = tangent_ == scene_.contact_tangent();
+  using LinearSolver = parameters::Solver::LinearSolver;
+  LinearSolver &kind = settings.linear_solver.value;
+  if (!has_own_tangent &&
+      (kind == LinearSolver::mumps_symmetric || kind == LinearSolver::conjugate_gradients))
+    kind = LinearSolver::automatic;
   linear_ =
-      std::make_unique<TangentSolver>(scene_.parameters().solver, !scene_.capabilities().unsymmetric_matrix,
+      std::make_unique<TangentSolver>(settings, has_own_tangent && !scene_.capabilities().unsymmetric_matrix,
                                       matrix_.trilinos_matrix(), discretization_.communicator());
   if (linear_->is_iterative())
     undeformed_ = collect_geometry(discretization_, supports_.homogeneous());
@@ -282,7 +289,7 @@ bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yie
     linear_->start_contact(touching_dofs());
   }
   for (const auto &contact : body_contacts_)
-    contact->add_tangent(contact_system, scene_.contact_tangent());
+    contact->add_tangent(contact_system, tangent_);
   if (motion_)
     motion_->add_tangent(time_, {supports_.homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
@@ -458,14 +465,22 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   }
   if (!report.converged && !(softened = soften_augmented_contacts()).empty())
     report.append_anew(attempt_step(t, previous_step));
+  if (!report.converged && !report.iterations.empty() && has_stiff_contacts()) {
+    is_led_by_softer_ = true;
+    report.append_anew(attempt_step(t, previous_step));
+    is_led_by_softer_ = false;
+    if (report.converged)
+      softened += tell_softer_penalties();
+  }
   if (!report.converged) {
     probe_.reset(); // it may have led astray
+    report.is_lost_in_round_off = report.is_lost_in_round_off || may_be_round_off(report);
     if (report.is_lost_in_round_off)
       report.failure = describe_round_off(report.force);
     else {
       for (const auto &contact : body_contacts_)
         report.failure += contact->describe_restless();
-      report.failure += describe_residual();
+      report.failure += describe_slipping_tools() + describe_residual();
     }
   }
   report.linear_iterations = linear_->take_iterations();
@@ -512,10 +527,11 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     contact.restart();
   for (auto &contact : body_contacts_)
     contact->restart();
-  report = iterate(offsets, x);
+  report = is_led_by_softer_ ? iterate_from_softer(offsets, x) : iterate(offsets, x);
   if (!needs_no_solution)
     report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
-  report.hardest = report.iterations.size();
+  if (!is_led_by_softer_)
+    report.hardest = report.iterations.size();
   augment(report, offsets, x);
 
   // A tool that has gone too far is drawn back to where it presses with its stop force.
@@ -607,6 +623,7 @@ void QuasiStatic::commit(const double t) {
 
   const std::vector<ContactLoad> loads_n = state_.tool_loads;
   const std::vector<Placement> placements_n = state_.placements;
+  find_slipping_tools();
   std::fill(state_.tool_loads.begin(), state_.tool_loads.end(), ContactLoad());
   for (auto &contact : contacts_) {
     state_.tool_loads[contact.tool()] += contact.compute_load();

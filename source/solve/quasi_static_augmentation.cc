@@ -65,13 +65,15 @@ double QuasiStatic::find_penetration() const {
 }
 
 double QuasiStatic::find_spring_round_off() const {
-  double spring = 0.;
-  for (const double of_contact : of_contacts([](const auto &contact) { return contact.largest_spring(); }))
-    spring = std::max(spring, of_contact);
+  const double reach = discretization_.centre().norm() + discretization_.radius();
+  double force = 0.;
+  for (const auto &contact : contacts_)
+    force = std::max(force, contact.largest_spring() * (reach + contact.tool_reach()));
+  for (const auto &contact : body_contacts_)
+    force = std::max(force, contact->largest_spring() * reach);
   // Three times what the last bit of a position makes.
   return 3. * std::numeric_limits<double>::epsilon() *
-         dealii::Utilities::MPI::max(spring, discretization_.communicator()) *
-         (discretization_.centre().norm() + discretization_.radius());
+         dealii::Utilities::MPI::max(force, discretization_.communicator());
 }
 
 std::vector<double> QuasiStatic::stiffening_left() const {

@@ -85,6 +85,50 @@ bool QuasiStatic::is_lost_in_round_off(const double t, NewtonReport &report) {
   return true;
 }
 
+bool QuasiStatic::may_be_round_off(const NewtonReport &report) const {
+  if (motion_ || report.iterations.empty())
+    return false;
+  constexpr double by_much = 10.; // as solve_newton() has it
+  return spring_round_off_ > most_round_off * force_scale_ &&
+         report.force * force_scale_ <= by_much * spring_round_off_;
+}
+
+void QuasiStatic::find_slipping_tools() {
+  slipping_tools_.clear();
+  for (const std::size_t tool : unknown_tools_) {
+    const Tool &which = scene_.tools()[tool];
+    std::vector<double> sums(3);
+    for (const auto &contact : contacts_)
+      if (contact.tool() == tool && scene_.pairs()[contact.pair()].has_friction()) {
+        const RigidContact::Grip grip = contact.grip(
+            which.control() == Tool::Control::moment ? RigidContact::ToolRate{{}, which.rotation_axis()}
+                                                     : RigidContact::ToolRate{which.force_direction(), {}});
+        sums[0] += grip.touching;
+        sums[1] += grip.slipping;
+        sums[2] += grip.power_of_pressure;
+      }
+    dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+    constexpr double nearly_all = 0.9, part_of_friction = 0.5;
+    if (sums[0] > 0. && sums[1] >= nearly_all * sums[0] &&
+        std::abs(sums[2]) <= part_of_friction * std::abs(which.load(time_)))
+      slipping_tools_.push_back(tool);
+  }
+}
+
+std::string QuasiStatic::describe_slipping_tools() const {
+  std::ostringstream text;
+  for (const std::size_t tool : slipping_tools_) {
+    const Tool &which = scene_.tools()[tool];
+    const bool turns = which.control() == Tool::Control::moment;
+    text << "; at the end of the last step tool '" << which.name()
+         << "' slips on nearly all that it touches: friction has reached its limit, and cannot bear a "
+         << (turns ? "moment" : "force") << " of " << which.load(time_)
+         << ". Try a smaller one, more pressure or friction, or move the tool by its "
+         << (turns ? "'Rotation angle'" : "'Translation'");
+  }
+  return text.str();
+}
+
 std::string QuasiStatic::describe_residual() {
   const Epetra_Vector x = pack(trial_, offsets_);
   Epetra_Vector residual(x);
@@ -116,15 +160,6 @@ std::string QuasiStatic::describe_residual() {
   std::ostringstream text;
   text << "; the largest residual is in body '" << scene_.bodies()[static_cast<std::size_t>(worst[4])].name
        << "' at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ")";
-  const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
-  for (const auto &contact : contacts_)
-    if (!all_ranks(!contact.has_node_on_border(position))) {
-      text << ", which lies on the edge of tool '" << scene_.tools()[contact.tool()].name()
-           << "', where contact comes and goes with each correction: draw the tool larger or smaller by a "
-              "part "
-              "of a facet, or give its edge a fillet";
-      break;
-    }
   return text.str();
 }
 

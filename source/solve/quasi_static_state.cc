@@ -30,6 +30,8 @@ void QuasiStatic::save(StateWriter &writer) const {
   save_nodal(writer, "support forces", nodes, support_forces_n_);
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
+  if (tangent_ != scene_.contact_tangent())
+    writer.write("exact tangent", {1.});
   if (probe_ && probe_->time > state_.time)
     writer.in("probe", [&] {
       writer.write("time", {probe_->time});
@@ -153,6 +155,8 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
             std::make_unique<ProbedState>(ProbedState{reader.number("time"), u_n_, reader.read("offsets")});
         load_nodal(reader, "displacements", nodes, probe_->displacements);
       });
+    if (reader.has("exact tangent"))
+      take_exact_tangent();
     const std::vector<double> scales = reader.read("scales");
     lasting_scale_ = scales.at(0);
     has_lost_pace_ = scales.at(1) != 0.;
@@ -250,7 +254,7 @@ void QuasiStatic::update_contacts(StateReader &reader, const bool is_exact) {
     if (const auto found = find_group(reader, "body pair", scene_.body_pairs()[p].name);
         couplings_are_known && found)
       reader.in(group("body pair", *found),
-                [&] { couplings_are_known = contact.load_couplings(reader, scene_.contact_tangent()); });
+                [&] { couplings_are_known = contact.load_couplings(reader, tangent_); });
   }
   build_matrix(couplings_are_known);
 }

@@ -278,10 +278,16 @@ check 'so in explicit scenes', sub {
   return @depths >= 1 ? '' : "says $said";
 };
 
-check "a tool's edge that lies on nodes is named", sub {
-  billet('Plane: Shape = rectangle & Plane: - Point & Plane: Centre = 0, 0, 2 & Plane: Direction = 1, 0, 0'
-    . ' & Plane: Length = 2 & Plane: Width = 2', code => 3);
-  return $complained =~ /the largest residual is in body 'block' at \([^)]*\), which lies on the edge of tool 'die', .*: draw the tool larger or smaller/
+check "a tool's edge may lie on nodes: pressure fades beyond it, which takes a part of the force", sub {
+  my $edge = 'Plane: Shape = rectangle & Plane: - Point & Plane: Centre = 0, 0, 2 & Plane: Direction = 1, 0, 0 & Plane: Width = 2';
+  my $on_nodes = billet("$edge & Plane: Length = 4");
+  my $half     = billet("$edge & Plane: Length = 2");
+  my ($f, $h, $whole) = (force($on_nodes, 'die'), force($half, 'die'), force($reference, 'die'));
+  return $h > 0.4 * $whole && $h < $f && $f < $whole ? '' : "forces $h, $f, $whole";
+};
+check 'a moment that friction cannot bear is named', sub {
+  billet('Motion: Moment = 10*t^2', code => 3);
+  return $complained =~ /tool 'die' slips on nearly all that it touches: friction has reached its limit, and cannot bear a moment of [\d.]+\. Try a smaller one/
     ? '' : "says $complained";
 };
 

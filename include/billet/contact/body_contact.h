@@ -51,7 +51,11 @@ public:
 
   /// As RigidContact's.
   void stiffen(const double factor) { contact_->stiffen(factor); }
+  void scale_penalties(const double normal, const double tangential) {
+    contact_->scale_penalties(normal, tangential);
+  }
   double stiffening_left() const { return most_stiffening_ / contact_->stiffening(); }
+  double tangential_stiffening_left() const { return most_tangential_stiffening_ / contact_->stiffening(); }
   /// As RigidContact::penetration().
   Penetration penetration() const { return contact_->penetration(); }
   const std::string &name() const { return pair_.name; }
@@ -126,9 +130,11 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it
   std::vector<SurfaceFacet> facets_;
-  std::vector<double> areas_;                                        ///< of the undeformed facets
-  double least_reach_ = std::numeric_limits<double>::infinity();     ///< of this rank's facets
-  double most_stiffening_ = std::numeric_limits<double>::infinity(); ///< until penalties are 10 E/h
+  std::vector<double> areas_;                                    ///< of the undeformed facets
+  double least_reach_ = std::numeric_limits<double>::infinity(); ///< of this rank's facets
+  /// Until penalties, the normal and the tangential ones, are 10 E/h.
+  double most_stiffening_ = std::numeric_limits<double>::infinity(),
+         most_tangential_stiffening_ = std::numeric_limits<double>::infinity();
   std::unique_ptr<FacetContact> contact_;
   FacetContact::Positions positions_n_, positions_;
   FacetContact::Positions forces_; ///< of one step, as row_sums_

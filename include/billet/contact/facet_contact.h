@@ -188,7 +188,9 @@ public:
   /// facets; after add_forces(). On this rank.
   double augmentation_error() const;
   /// Makes all penalties so many times as stiff; what augmentation holds stays. After augment().
-  void stiffen(double factor);
+  void stiffen(const double factor) { scale_penalties(factor, factor); }
+  /// The same, with a factor of their own for the tangential ones.
+  void scale_penalties(double normal, double tangential);
   double stiffening() const { return stiffening_; } ///< so far
   /// How deep this rank's nodes are.
   Penetration penetration() const;

@@ -28,6 +28,10 @@ namespace billet {
 /// what makes a uniform pressure a uniform stress, and a facet that does not face the tool (the side of a
 /// billet, before it folds onto the die) has no share.
 ///
+/// Where the tool's surface ends its pressure fades, (M34), (M35): a node beyond its border by d keeps the
+/// part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it, and is pushed out by what
+/// that takes of the energy ½ k s g² per area, −½ k g² s′ e, e pointing away from the border.
+///
 /// Node states are kept, and computed alike, on every rank that owns a facet at the node.
 class RigidContact {
 public:
@@ -72,14 +76,17 @@ public:
   ///   ∂F_a/∂s = ω × F_a + Σ_b K_ab v_b,   ∂P/∂u_b = −Σ_a v_a·K_ab + ω × F_b·,   ∂P/∂s = Σ_a v_a·∂F_a/∂s.
   double add_tool_derivatives(const ToolRate &rate, Vector &column, Vector &row) const;
 
+  /// How friction holds the body on the tool, at the last update() and a rate of the tool: Σ A p |v_t| of the
+  /// nodes that touch, and of those that slip, v_t the rate along the tool's surface, and the power of the
+  /// pressure on the body, Σ A p v_n. On this rank.
+  struct Grip {
+    double touching = 0., slipping = 0., power_of_pressure = 0.;
+  };
+  Grip grip(const ToolRate &rate) const;
+
   /// How far the tool has to go along `direction` (unit) until it touches a node, at the last update();
   /// infinite if it cannot. On this rank.
   double distance_to_touch(const dealii::Tensor<1, 3> &direction) const;
-
-  /// Whether the pair has a node there, at the last update(), that lies on a border of the tool's surface,
-  /// but for a hundredth of the facets around it: contact then comes and goes as the node moves. On this
-  /// rank.
-  bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
 
   /// Adds what the tool does where it touches a node of this rank, at the last update(); none if it is
   /// removed.
@@ -97,10 +104,16 @@ public:
   /// Relative to what the pair asks for; 0 if it asks for none. On this rank.
   double augmentation_error() const;
   /// Makes penalties so many times as stiff; what augmentation holds stays. After augment().
-  void stiffen(double factor);
+  void stiffen(const double factor) { scale_penalties(factor, factor); }
+  /// The same, with a factor of their own for the tangential ones.
+  void scale_penalties(double normal, double tangential);
   /// How many times as stiff penalties may become until those of a node of this rank are 10 E/h; below 1
   /// where one is stiffer.
   double stiffening_left() const;
+  /// The same of the tangential ones, whatever augmentation has done; infinite without friction.
+  double tangential_stiffening_left() const;
+  /// Tangents from now on.
+  void set_tangent(const ContactTangent tangent) { tangent_ = tangent; }
   /// How deep this rank's nodes are.
   Penetration penetration() const;
 
@@ -134,6 +147,9 @@ public:
   std::size_t history_size() const;
   /// Of this rank's nodes, the largest penalty times the facets' size squared [force/length].
   double largest_spring() const;
+  /// The radius of the tool's curvature before this rank's nodes at the start, at most its size: numbers as
+  /// large go into gaps. 0 where it is flat [length].
+  double tool_reach() const { return tool_reach_; }
 
   /// The state at the start of the step.
   void save(StateWriter &writer, const NodeKeys &keys) const;
@@ -169,6 +185,16 @@ private:
     double slip_increment = 0.;
     double dissipation = 0.;       ///< per area, in this step
     double tangential_energy = 0.; ///< per area; of a node that has lifted off, what its spring held before
+    double share = 1.;             ///< s, of the normal penalty
+    double fading_stiffness = 0.;  ///< beside that of the penalties [stress/length]
+  };
+  /// What a node beyond a border adds, with the penalty k in full.
+  struct Fading {
+    double share;
+    dealii::Tensor<1, 3> push;           ///< [stress]
+    dealii::Tensor<1, 3> pressure_slope; ///< ∂p/∂x at a fixed gap [stress/length]
+    dealii::Tensor<2, 3> tangent; ///< −∂(push + p n)/∂x, but for that of p at a fixed s [stress/length]
+    double stiffness;             ///< no less than the norm of what `tangent` has besides [stress/length]
   };
   /// Only with friction.
   struct FrictionHistory {
@@ -201,8 +227,9 @@ private:
   NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
                      FrictionHistory *history) const;
   template <class Law>
-  void apply_friction(const Law &law, const Node &node, NodeState &state, const FrictionHistory &history_n,
-                      FrictionHistory &history) const;
+  void apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
+                      const FrictionHistory &history_n, FrictionHistory &history) const;
+  static Fading fade(const RigidSurface::Border &border, double width, double penalty, double gap);
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   template <class DisplacementOf>
@@ -215,7 +242,7 @@ private:
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
-  /// −Σ_a e_a ∂A_a/∂x_b, e the stored energy: with these, normal forces at any depth have the potential
+  /// −Σ_a e_a ∂A_a/∂x_b (M36), e the stored energy: with these, normal forces at any depth have the potential
   /// Σ A_a e_a. And what they add to bounds.
   void add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) const;
   /// Counts what the tangential springs of nodes held that have lifted off in this step as dissipated.
@@ -231,7 +258,7 @@ private:
   const ContactPair &pair_;
   const Tool &tool_;
   const MPI_Comm communicator_;
-  const ContactTangent tangent_;
+  ContactTangent tangent_;
   const bool is_explicit_;    ///< works are those of the trapezoidal rule
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
@@ -245,8 +272,10 @@ private:
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
+  double tool_reach_ = 0.;
   double stiffening_ = 1.; ///< of all penalties, by stiffen()
   double most_stiffening_ = std::numeric_limits<double>::infinity();
+  double most_tangential_stiffening_ = std::numeric_limits<double>::infinity(); ///< of the penalties as given
   bool is_removed_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction};
 };

@@ -26,9 +26,10 @@ struct ContactStiffness {
 /// area.
 struct FrameTraction {
   ContactStatus status;
-  double pressure;                  ///< p = k_n <−g> >= 0 [stress], eq. (9)
-  std::array<double, 2> tangential; ///< on q and r [stress]
-  std::array<double, 2> slip;       ///< irreversible part of the increment, on q and r [length]
+  double pressure;                      ///< p = k_n <−g> >= 0 [stress], eq. (9)
+  std::array<double, 2> tangential;     ///< on q and r [stress]
+  std::array<double, 2> slip;           ///< irreversible part of the increment, on q and r [length]
+  std::array<double, 2> pressure_slope; ///< ∂(t_q, t_r)/∂p of a node that slips
   /// −∂(t_q, t_r, p)/∂(u_q, u_r, u_n) of the node's motion relative to the tool [stress/length]
   std::array<std::array<double, 3>, 3> tangent;
 };

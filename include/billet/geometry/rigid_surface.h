@@ -24,11 +24,28 @@ public:
     double gap; ///< (x − x_P)·n, positive outside; without contact point, the distance [length]
     dealii::Tensor<2, 3> turning; ///< ∂n/∂x [1/length]
     unsigned int patch;           ///< the nearest, to start from the next time
+    /// Where the surface does not lie before the point: how far, along its tangent plane at the border, the
+    /// point is beyond that [length].
+    double beyond = 0.;
   };
 
   /// The contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)). The answer does not depend on
   /// `first_patch`, a guess of the nearest one; the cost does.
   Projection project(const dealii::Tensor<1, 3> &x, unsigned int first_patch = 0) const;
+
+  /// How the surface ends beside a point beyond its border: the nearest point x_b of the border, and the
+  /// surface's normal n there.
+  struct Border {
+    dealii::Tensor<1, 3> normal;    ///< n
+    double gap;                     ///< g = (x − x_b)·n [length]
+    dealii::Tensor<2, 3> turning;   ///< ∂n/∂x, along the border [1/length]
+    double beyond;                  ///< d = |x − x_b − g n| > 0 [length]
+    dealii::Tensor<1, 3> outward;   ///< e = ∂d/∂x
+    dealii::Tensor<2, 3> spreading; ///< ∂e/∂x: 0 at a straight border, of a corner's fan 1/d [1/length]
+  };
+  /// Of a point whose projection does not exist; `patch` is that projection's. Borders with torsion are taken
+  /// as if they had none.
+  Border border(const dealii::Tensor<1, 3> &x, unsigned int patch) const;
 
   std::size_t n_patches() const { return patches_.size(); }
   const BoundingBox &bounding_box() const { return box_; }

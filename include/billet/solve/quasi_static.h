@@ -68,6 +68,10 @@ public:
   void set_penetration_allowed(const double factor) { penetration_allowed_ = factor; }
   /// Residuals, and their work, have to be this part of what the solver's tolerances allow; in (0, 1].
   void set_accuracy(const double factor) { accuracy_ = factor; }
+  /// Where steps with another contact tangent fail: from here on it is the exact one, of an unsymmetric
+  /// matrix. Returns a line about it; empty, and nothing is done, where it is exact already, or nothing can
+  /// touch. Collective.
+  std::string take_exact_tangent();
 
   /// Of the last step that was tried, in dynamic scenes: see ImplicitMotion::step_error().
   double time_error() const { return time_error_; }
@@ -221,6 +225,12 @@ private:
   /// What the user should know of the penalties after a step, each once; lines. In
   /// solve/quasi_static_guards.cc.
   std::string watch_penalties();
+  /// Of a failed static step: whether round-off of its contacts may be as large as what is left. Collective.
+  bool may_be_round_off(const NewtonReport &report) const;
+  /// At the end of a step: tools whose load friction bears, and that slip nearly all over. Collective.
+  void find_slipping_tools();
+  /// Of a failed step: what that may have to do with it.
+  std::string describe_slipping_tools() const;
   /// Where the residual of a failed step is largest. Collective.
   std::string describe_residual();
   /// forces(), at the trial state.
@@ -229,6 +239,19 @@ private:
   /// of a step that has converged. Adds its iterations.
   void measure_penetration(const Epetra_Vector &accepted, NewtonReport &report);
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
+  // Ways out where Newton's method fails, in solve/quasi_static_continuation.cc.
+  /// By how many octaves, factors of 2, the penalties of a contact are stiffer than 10 E/h.
+  struct Octaves {
+    int normal = 0, tangential = 0;
+  };
+  /// Of each contact, tools first. Collective.
+  std::vector<Octaves> octaves_above_enough() const;
+  /// Whether a static step that fails may be led to by softer penalties. Collective.
+  bool has_stiff_contacts() const;
+  /// As iterate(), with penalties of 10 E/h first, which then grow to what they are.
+  NewtonReport iterate_from_softer(std::vector<double> &offsets, Vector &displacements);
+  /// Once: that a step needed that.
+  std::string tell_softer_penalties();
   double fading(double t, std::size_t tool) const;
   void remove_tools(double t);
   /// A rigid motion of the body that supports and contacts do not hold, if there is one. On all ranks.
@@ -257,6 +280,7 @@ private:
   std::vector<std::unique_ptr<BodyContact>> body_contacts_;
   std::unique_ptr<ImplicitMotion> motion_; ///< none in statics
 
+  ContactTangent tangent_;
   Matrix matrix_;
   NodalGeometry undeformed_; ///< where the linear solver is iterative
   std::unique_ptr<TangentSolver> linear_;
@@ -286,6 +310,8 @@ private:
   };
   std::unique_ptr<ProbedState> probe_; ///< of the last probe, while steps may start from it
   bool is_probing_ = false;
+  bool is_led_by_softer_ = false; ///< of the step that is tried
+  bool has_told_softer_ = false;
   double penetration_allowed_ = 1., accuracy_ = 1.;
   double penetration_ = 0.;
   bool measures_penetration_ = false;
@@ -295,6 +321,7 @@ private:
   bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
+  std::vector<std::size_t> slipping_tools_;         ///< at the end of the last accepted step
   std::vector<std::size_t> unknown_tools_;          ///< those whose offset is unknown in this step
   std::unique_ptr<Epetra_Map> map_;                 ///< of displacements and unknown offsets
   std::vector<std::unique_ptr<Placement>> stopped_; ///< where tools have stopped for good
