@@ -151,7 +151,7 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
     message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step
             << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
                                         : ":")
-            << " try a softer penalty, another 'Contact tangent', more 'Most iterations', or look at the "
+            << " try a softer penalty, more 'Most iterations', or look at the "
                "last picture for "
                "an unstable or torn mesh";
   return message.str() + computed.str();

@@ -44,7 +44,7 @@ constexpr std::array<Row, 28> rows = {{
     {statics, "Time stepping", "Smallest step", "1e-6 T", "1e-6 T", "1e-6 T"},
     {statics_with_path, "Time stepping", "Largest step", "0.1 T", "0.02 T", "0.1 T"},
     {statics_without_path, "Time stepping", "Largest step", "0.1 T", "0.02 T", "0.2 T"},
-    {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.5 E"},
+    {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.4 E"},
     {implicit_dynamics, "Time stepping", "Initial step", "", "", "0.01 T"},
     {implicit_dynamics, "Time stepping", "Smallest step", "", "", "1e-7 T"},
     {implicit_dynamics, "Time stepping", "Largest step", "", "", "0.1 T"},
@@ -64,7 +64,7 @@ constexpr std::array<Row, 28> rows = {{
     // Contact: augmented where accuracy counts, but in dynamics, where nodes that have come in would have to
     // stop within a step; in explicit scenes stiffer, and better resolved in time.
     {statics, "Contact pairs", "Penetration tolerance", "", "1e-3", "1e-5"},
-    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "20", "0.03 / E"},
+    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "20", "0.045 / E"},
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
     {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.9", "0.4", "0.9"},
     {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", ""},

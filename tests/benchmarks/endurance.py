@@ -85,6 +85,24 @@ with tempfile.TemporaryDirectory() as folder:
     memory.append(["two blocks turned by 360°, implicit", int(turned.rows[-1]["step"])]
                   + [number(turned.at(part), 4) for part in (0.05, 0.5, 1.0)])
 
+with tempfile.TemporaryDirectory() as folder:
+    n_cycles = 1000 if options.quick else 100_000
+    cycled = WatchedRun(ROOT / "tests/benchmarks/friction_cycles.prm", {"Time stepping/End time": n_cycles}, folder)
+    memory.append([f"{n_cycles} cycles of friction, implicit", int(cycled.rows[-1]["step"])]
+                  + [number(cycled.at(part), 4) for part in (0.05, 0.5, 1.0)])
+
+
+def cycle(rows, last):
+    """Largest sideways force of the four steps of the cycle that ends then, the force down, and what friction takes in it."""
+    steps = {row["time"]: row for row in rows if last - 1 <= row["time"] <= last}
+    return (max(steps[last - part]["plate.force_x"] for part in (0, 0.25, 0.5, 0.75)), steps[last]["plate.force_z"],
+            steps[last]["friction_dissipation"] - steps[last - 1]["friction_dissipation"])
+
+
+early_cycle, last_cycle = cycle(cycled.rows, 100), cycle(cycled.rows, n_cycles)
+cycles = [[name, f"{a:.15g}", f"{b:.15g}", number(abs(b / a - 1), 2)] for name, a, b in zip(
+    ("largest sideways force [N]", "force down [N]", "taken by friction in the cycle [mJ]"), early_cycle, last_cycle)]
+
 publish(
     "endurance", "Long runs", options,
     f"## A stack at rest\n\nThree blocks of rubber on each other and on the ground (`tests/benchmarks/resting_stack.prm`), friction 0.3, "
@@ -94,5 +112,8 @@ publish(
     f"Kinetic energy: {number(kinetic[0], 2)} J early, {number(kinetic[1], 2)} J at the end, of {number(rows and float(rows[0][1]), 3)} J "
     f"elastic energy. Largest sideways force on the ground after 1.5 s: {number(largest_side / weight, 2)} of the weight. Displacements of "
     f"all nodes between half of the time and the end: at most {number(moved, 2)} of the largest one (pictures hold single precision).",
+    f"## Cycles of friction\n\nA brick under a plate that presses it and goes to and fro with friction (`tests/benchmarks/friction_cycles.prm`), {n_cycles} "
+    "cycles of four steps: what a cycle gives early and at the end. Friction's work is a difference of sums that grow, whose last bits are lost.",
+    table(["quantity", "cycle 100", f"cycle {n_cycles}", "difference"], cycles),
     "## Memory\n\nResident memory in MB when 5, 50 and 100 % of the steps were done, sampled twice a second.",
     table(["run", "steps", "5 %", "50 %", "100 %"], memory))
