@@ -664,7 +664,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       problem.prepare_step(event);
     });
     if (problem.n_steps() == 0)
-      outputs.progress.show_number_of_steps(events.end() / problem.step_length(), problem.step_length());
+      outputs.progress.show_number_of_steps(events.end() / problem.usual_step(), problem.usual_step());
     if (is_due)
       put_out();
     else if (problem.n_steps() % steps_between_looks == 0)

@@ -99,10 +99,10 @@ void FacetContact::rebuild() {
       const auto found = index.find(keys[s]);
       touched_n_[s].facet = found == index.end() ? TouchedFacet::none : found->second;
     }
-  const std::size_t bytes = search_.n_candidates() * sizeof(unsigned int) +
-                            search_.facets().size() * sizeof(SurfaceFacet) +
-                            slaves_.size() * (sizeof(SlaveNode) + sizeof(SlaveState));
+  const std::size_t bytes =
+      search_.n_candidates() * sizeof(unsigned int) + search_.facets().size() * sizeof(SurfaceFacet);
   memory_.set(bytes);
+  contact_memory_.set(slaves_.size() * (sizeof(SlaveNode) + sizeof(SlaveState)));
   if (settings_.partners == FacetSearch::Partners::other_surfaces_and_self)
     self_memory_.set(bytes);
   if (edges_)

@@ -667,6 +667,7 @@ void RigidContact::restart() {
 
 void RigidContact::augment() {
   Usage::count(Capability::augmentation, nodes_.size());
+  augmentation_memory_.set(2 * nodes_.size() * sizeof(Node::lift));
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     nodes_[i].lift = states_[i].share == 1. ? states_[i].pressure / nodes_[i].stiffness.normal
                                             : states_[i].share * std::max(0., -states_[i].gap);

@@ -365,9 +365,9 @@ private:
   std::vector<std::vector<std::uint64_t>> coupled_;
   Positions nodal_forces_; ///< with ghosts, of one step
   std::vector<double> nodal_sums_;
-  HeldMemory memory_{Capability::body_contact}, friction_memory_{Capability::friction},
-      self_memory_{Capability::self_contact}, edge_memory_{Capability::edges},
-      augmentation_memory_{Capability::augmentation};
+  HeldMemory memory_{Capability::body_contact}, contact_memory_{Capability::contact},
+      friction_memory_{Capability::friction}, self_memory_{Capability::self_contact},
+      edge_memory_{Capability::edges}, augmentation_memory_{Capability::augmentation};
 };
 
 } // namespace billet

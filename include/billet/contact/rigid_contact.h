@@ -277,7 +277,8 @@ private:
   double most_stiffening_ = std::numeric_limits<double>::infinity();
   double most_tangential_stiffening_ = std::numeric_limits<double>::infinity(); ///< of the penalties as given
   bool is_removed_ = false;
-  HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction};
+  HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction},
+      augmentation_memory_{Capability::augmentation};
 };
 
 } // namespace billet

@@ -40,9 +40,12 @@ public:
   /// An accepted step of length `h`. `residual`: of the forces, at its end, as part of them; `penetration`:
   /// the deepest, see measure_penetration().
   void accept(double h, const Forces &forces, double residual, double penetration);
-  /// Whether they should before a step of this length: where the last ones were much shorter.
+  /// Whether they should before a step of this length: where the last ones were much shorter, or where it is
+  /// the last occasion for the first comparison.
   bool wants_measurement(const double h) const {
-    return wants_measurement() || (n_measurements_ > 0 && h > 1.5 * measured_step_);
+    constexpr double longer = 1.5, rounding = 1e-9;
+    return wants_measurement() ||
+           (n_measurements_ > 0 ? h > longer * measured_step_ : time_ + 3. * h > end_time_ * (1. + rounding));
   }
   /// After the second of two steps of length `h`: what one of twice the length gave. What `residuals` make of
   /// the difference, as part of the forces, does not count.

@@ -12,6 +12,7 @@
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -42,6 +43,10 @@ public:
 
   double time() const { return time_; }
   double step_length() const { return step_; }
+  /// What steps grow to as long as nothing comes through a surface.
+  double usual_step() const {
+    return std::max(step_, step_factor_ * parameters_.safety_factor * element_step_);
+  }
   unsigned int n_steps() const { return n_steps_; }
   /// By mass scaling, on all ranks [mass].
   double added_mass() const { return added_mass_; }
