@@ -10,7 +10,7 @@ namespace billet {
 
 namespace {
 
-// Of the target error, what penetrations may make; half is for the steps, the rest for what is estimated
+// Of the target error, what penetrations may make; 0.4 of it is for the steps, the rest for what is estimated
 // badly.
 constexpr double part_of_penetration = 0.3;
 
