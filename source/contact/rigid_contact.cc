@@ -164,6 +164,42 @@ RigidContact::Fading RigidContact::fade(const RigidSurface::Border &border, cons
   return fading;
 }
 
+void RigidContact::introduce(std::vector<RigidContact> &contacts) {
+  for (auto &contact : contacts)
+    for (const auto &other : contacts)
+      if (&other != &contact && other.body() == contact.body())
+        contact.others_.push_back(&other);
+}
+
+bool RigidContact::goes_on(const Tensor<1, 3> &position, const double near) const {
+  return std::any_of(others_.begin(), others_.end(), [&](const RigidContact *other) {
+    if (other->is_removed_)
+      return false;
+    const auto projection = other->tool_.surface().project(other->placement_.to_tool(position));
+    return projection.exists && std::abs(projection.gap) < near;
+  });
+}
+
+bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
+  constexpr double same = 1e-8, near = 0.1; // facet sizes
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const double size = nodes_[i].size;
+    if (is_removed_ || (states_[i].position - position).norm() > same * size)
+      continue;
+    const Tensor<1, 3> x = placement_.to_tool(position);
+    const auto here = tool_.surface().project(x, nodes_[i].patch);
+    if (states_[i].share < 1.)
+      return true;
+    if (std::abs(here.gap) > size)
+      continue;
+    const Frame along = Frame::from_normal(here.normal);
+    for (const auto &way : {along.q, -along.q, along.r, -along.r})
+      if (tool_.surface().project(x + near * size * way, nodes_[i].patch).exists != here.exists)
+        return true;
+  }
+  return false;
+}
+
 template <class Law>
 RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t i,
                                                const Tensor<1, 3> &position, FrictionHistory *history) const {
@@ -173,7 +209,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
   auto projection = tool_.surface().project(on_tool, node.patch);
   const double width = fading_width * node.size;
-  const bool fades = !projection.exists && projection.beyond < width;
+  const bool fades = !projection.exists && projection.beyond < width && !goes_on(position, node.size);
   Fading fading{};
   if (fades) {
     RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch);

@@ -57,7 +57,7 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
   const double force = sum_of_norms(forces);
   work_ += 0.5 * (last_force_ + force) * h;
   time_ += h;
-  if (n_measurements_ == 0 && tolerances_.steps > 0.) // what steps make is not known yet
+  if (n_measurements_ == 0 && !has_given_up() && tolerances_.steps > 0.) // what steps make is not known yet
     longest_step_ = std::min(longest_step_, h);
   force_rate_ = last_force_ > 0. ? (force - last_force_) / h : 0.;
   last_force_ = force;
@@ -204,8 +204,12 @@ void ErrorControl::miss_measurement(const double h, const bool failed) {
   }
   n_failed_ = failed ? n_failed_ + 1 : 0;
   until_measurement_ = shortest_interval;
-  // Something may just have happened there; twice in a row it is the length.
-  if (n_failed_ > 1 && tolerances_.steps > 0.)
+  // Something may just have happened there; twice in a row it is the length; and where shorter ones fail like
+  // longer ones it is neither.
+  if (has_given_up()) {
+    until_measurement_ = longest_interval;
+    longest_step_ = std::numeric_limits<double>::infinity();
+  } else if (n_failed_ > 1 && tolerances_.steps > 0.)
     longest_step_ = std::min(longest_step_, 0.5 * h);
 }
 
@@ -255,7 +259,8 @@ void ErrorControl::save(StateWriter &writer) const {
                           static_cast<double>(until_penetration_),
                           static_cast<double>(penetration_interval_),
                           is_little_ ? 1. : 0.,
-                          part_});
+                          part_,
+                          static_cast<double>(n_failed_)});
   save(writer, "errors by steps", slopes_);
   save(writer, "errors of forces", errors_);
 }
@@ -287,6 +292,7 @@ void ErrorControl::load(const StateReader &reader) {
   penetration_interval_ = static_cast<unsigned int>(state.at(22));
   is_little_ = state.at(23) > 0.;
   part_ = state.at(24);
+  n_failed_ = state.size() > 25 ? static_cast<unsigned int>(state[25]) : 0;
   slopes_ = load(reader, "errors by steps");
   errors_ = load(reader, "errors of forces");
 }

@@ -160,6 +160,12 @@ void ErrorWatch::after_failure() {
 }
 
 std::string ErrorWatch::take_note(const StepControl &control) {
+  if (errors_.has_given_up() && !has_told_surrender_) {
+    has_told_surrender_ = true;
+    return "Steps cannot be compared with ones of twice the length, which do not converge: what steps make "
+           "of "
+           "the error is not known from here on. Try another 'Contact tangent' or a softer penalty";
+  }
   constexpr double very_many = 2000., many_more = 10.;
   if (control.is_finished() || !(control.next_step() > 0.) || probe_length_ > 0.)
     return "";

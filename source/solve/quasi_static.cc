@@ -52,6 +52,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
                                                       : PenaltyWatch::Motion::slow) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     contacts_.emplace_back(scene, p, discretization, tangent_);
+  RigidContact::introduce(contacts_);
   if (!scene.body_pairs().empty())
     nodes_ = std::make_unique<LocalNodes>(discretization);
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {

@@ -160,6 +160,14 @@ std::string QuasiStatic::describe_residual() {
   std::ostringstream text;
   text << "; the largest residual is in body '" << scene_.bodies()[static_cast<std::size_t>(worst[4])].name
        << "' at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ")";
+  const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
+  for (const auto &contact : contacts_)
+    if (!all_ranks(!contact.has_node_on_border(position))) {
+      text << ", which lies on the edge of tool '" << scene_.tools()[contact.tool()].name()
+           << "', where contact comes and goes with each correction: draw the tool larger or smaller by a "
+              "part of a facet, or give its edge a fillet";
+      break;
+    }
   return text.str();
 }
 

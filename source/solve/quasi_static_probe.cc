@@ -62,6 +62,10 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
       sum += force.norm();
     return sum;
   };
+  if (!of_penetration_ && (!(force_scale_ > 0.) || !(find_penetration() > 0.))) {
+    of_penetration_ = OfPenetration(); // nothing touches
+    return;
+  }
   Epetra_Vector x(accepted), residual(accepted), dx(accepted);
   double left = 0.;
   if (of_penetration_) { // tractions have been augmented in this step
@@ -93,8 +97,8 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
       const double force = size(change);
       for (std::size_t i = 0; i < change.size(); ++i)
         change[i] -= of_penetration_->forces[i];
-      is_accurate = of_penetration_->residual <=
-                    std::max(accuracy_ * solver.force_tolerance, accurate * size(change) / force);
+      is_accurate = of_penetration_->residual * force <=
+                    std::max(accuracy_ * solver.force_tolerance * force, accurate * size(change));
     }
     if (is_admissible && is_accurate) {
       of_penetration_->without = trial_forces();

@@ -114,6 +114,11 @@ public:
   double tangential_stiffening_left() const;
   /// Tangents from now on.
   void set_tangent(const ContactTangent tangent) { tangent_ = tangent; }
+  /// All of a scene, which stay where they are: pressure does not fade where another tool goes on.
+  static void introduce(std::vector<RigidContact> &contacts);
+  /// Whether a node that is there now has the border of the tool's surface within a tenth of a facet. Of this
+  /// rank.
+  bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
   /// How deep this rank's nodes are.
   Penetration penetration() const;
 
@@ -239,6 +244,8 @@ private:
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   void add_to_load(ContactLoad &load, std::size_t i, double area) const;
+  /// Whether another tool has a surface there, nearer than this.
+  bool goes_on(const dealii::Tensor<1, 3> &position, double near) const;
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
@@ -267,8 +274,9 @@ private:
   std::vector<std::array<double, 2>>
       base_; ///< what this step's friction starts from: that of friction_n_, or augmented
   std::vector<Facet> facets_;
-  std::vector<unsigned int> local_nodes_; ///< of each slave node, after bind()
-  std::vector<bool> is_owned_;            ///< as LocalNodes has it
+  std::vector<const RigidContact *> others_; ///< of the same body
+  std::vector<unsigned int> local_nodes_;    ///< of each slave node, after bind()
+  std::vector<bool> is_owned_;               ///< as LocalNodes has it
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;

@@ -61,6 +61,8 @@ public:
   /// Two steps of this length cannot be compared with one: another measurement is due soon. If that one
   /// `failed`, of shorter ones.
   void miss_measurement(double h, bool failed);
+  /// So many comparisons in a row have failed that steps are left to Newton's method until one succeeds.
+  bool has_given_up() const { return n_failed_ > most_failed; }
 
   /// The next step should not be longer.
   double longest_step() const { return longest_step_; }
@@ -85,6 +87,7 @@ public:
 private:
   /// Steps between measurements, where little changes from one to the next.
   static constexpr unsigned int longest_interval = 8;
+  static constexpr unsigned int most_failed = 5; ///< in a row
 
   double force_scale() const;
   void add_step_errors(double h_squared);

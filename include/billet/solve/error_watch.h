@@ -61,6 +61,7 @@ private:
   double last_residual_ = 0.;
   unsigned int n_iterations_ = 0;
   double told_steps_ = 0.; ///< so many to come have been told
+  bool has_told_surrender_ = false;
   HeldMemory memory_{Capability::error_control};
 };
 

@@ -21,6 +21,12 @@ public:
   bool is_gone(const double t) const { return t >= tool_.removal_time(); }
   /// Whether kick() has to know the contact forces of all ranks.
   bool wants_load() const { return tool_.control() != Tool::Control::motion; }
+  /// Whether it starts with a speed, or goes somewhere within this time from the start on.
+  bool moves(const double within) const {
+    const Placement start = tool_.placement(0.), then = tool_.placement(within);
+    return rate_ != 0. || start.translation != then.translation ||
+           start.rotation_angle != then.rotation_angle;
+  }
   /// 1/m; 0 of a tool that moves as told, or is gone.
   double inverse_inertia() const { return is_free() && !is_removed_ ? 1. / inertia_ : 0.; }
 
