@@ -20,7 +20,7 @@ namespace {
 
 using Path = SceneFile::Path;
 
-/// Schemes for which a row counts; statics with and without materials, or friction, that depend on the path.
+/// Schemes for which a row counts; statics with and without materials that depend on the path.
 constexpr unsigned int statics_with_path = 1, statics_without_path = 8, implicit_dynamics = 2,
                        explicit_dynamics = 4, statics = statics_with_path | statics_without_path,
                        implicit = statics | implicit_dynamics;
@@ -87,7 +87,8 @@ double number_in(const std::string &text, const double otherwise) {
   }
 }
 
-/// Whether stresses or tractions depend on how they came about.
+/// Whether stresses depend on how they came about. Tractions of friction do, too, but slip soon forgets the
+/// steps that led to it: they ask for no shorter ones.
 bool depends_on_path(const SceneFile &file) {
   const std::vector<std::string> bodies = file.names_below({"Bodies"});
   return std::any_of(bodies.begin(), bodies.end(), [&file](const std::string &name) {
