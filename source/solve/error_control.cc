@@ -29,8 +29,9 @@ double distance(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
   return sum;
 }
 
-// Steps between measurements, at least.
-constexpr unsigned int shortest_interval = 1;
+// Steps between measurements, at least: with fewer they cost more than they save, and no target was missed for
+// that. Where one was not possible, the next step may be the occasion.
+constexpr unsigned int shortest_interval = 4, soon = 1;
 
 // Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they fade.
 // This is what the first makes of them.
@@ -59,7 +60,7 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
   time_ += h;
   if (n_measurements_ == 0 && !has_given_up() && tolerances_.steps > 0.) // what steps make is not known yet
     longest_step_ = std::min(longest_step_, h);
-  force_rate_ = last_force_ > 0. ? (force - last_force_) / h : 0.;
+  force_rate_ = (force - last_force_) / h;
   last_force_ = force;
   iterations_ += residual * force * h;
   if (slopes_.size() == forces.size())
@@ -148,7 +149,7 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   longest_step_ = h * std::max(least, std::min(most, factor));
   // Where steps matter at all: not so long that c could change beyond recognition between two measurements,
   // nor so short that what happens once in a while, whatever the step, would decide.
-  constexpr double matters = 0.05, longest = 0.75, shortest = 3.;
+  constexpr double matters = 0.05, longest = 0.65, shortest = 3.;
   const double span = end_time_ - start_;
   if (growth_of_errors * most_slope * h * span > 2. * matters * tolerances_.steps * force_scale()) {
     const double most_span = longest * std::sqrt(tolerances_.steps) * span;
@@ -203,7 +204,7 @@ void ErrorControl::miss_measurement(const double h, const bool failed) {
     return;
   }
   n_failed_ = failed ? n_failed_ + 1 : 0;
-  until_measurement_ = shortest_interval;
+  until_measurement_ = soon;
   // Something may just have happened there; twice in a row it is the length; and where shorter ones fail like
   // longer ones it is neither.
   if (has_given_up()) {
