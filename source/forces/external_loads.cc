@@ -103,9 +103,12 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
     for (const unsigned int node : acceleration.nodes)
       add_vector(forces.data(), node, masses_[node] * a);
   }
-  for (const auto &pressure : pressures_)
+  for (const auto &pressure : pressures_) {
+    const Expression &pressure_at = pressure.load->values[0];
+    double p = pressure_at.is_uniform() ? pressure_at.value(t) : 0.;
     for (const auto &facet : pressure.facets) {
-      const double p = pressure.load->values[0].value(t, facet.centre);
+      if (!pressure_at.is_uniform())
+        p = pressure_at.value(t, facet.centre);
       std::array<Tensor<1, 3>, 4> positions;
       for (unsigned int a = 0; a < 4; ++a)
         positions[a] = get_vector(nodes_.positions().data(), facet.nodes[a]) +
@@ -116,6 +119,7 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
           add_vector(forces.data(), facet.nodes[a], -p * point.N[a] * area);
       }
     }
+  }
   for (const auto &resistance : resistances_) {
     Tensor<1, 3> force = -resistance.stiffness * get_vector(displacements.data(), resistance.node) -
                          resistance.damping * get_vector(velocities.data(), resistance.node);

@@ -5,6 +5,7 @@
 #include "billet/without_traps.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -38,6 +39,24 @@ bool has_free_comma(const std::string &text) {
   });
 }
 
+/// Whether the text has one of the names x, y, z.
+bool has_position(const std::string &text) {
+  const auto is_of_name = [](const char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  std::string name;
+  for (const char c : text + " ") {
+    if (is_of_name(c)) {
+      name += c;
+      continue;
+    }
+    if (name == "x" || name == "y" || name == "z")
+      return true;
+    name.clear();
+  }
+  return false;
+}
+
 } // namespace
 
 Expression::Expression(const std::string &text, const Variables variables,
@@ -46,7 +65,7 @@ Expression::Expression(const std::string &text, const Variables variables,
       // The parser wants three coordinates; names that no amplitude can have hide them where they make no
       // sense.
       variables_(variables == Variables::time ? "_no_x,_no_y,_no_z,t" : "x,y,z,t"),
-      amplitudes_(std::move(amplitudes)) {
+      amplitudes_(std::move(amplitudes)), is_uniform_(!has_position(text)) {
   // deal.II tells muParser's complaints to the console, too.
   std::ostringstream complaints;
   std::streambuf *console = std::cerr.rdbuf(complaints.rdbuf());

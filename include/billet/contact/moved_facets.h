@@ -53,7 +53,13 @@ public:
 
   const PlanedFacet &plane(const unsigned int facet) const { return get(facet).plane; }
   const FacetAreas &areas(const unsigned int facet) const { return get(facet).areas; }
-  const FacetReaction &reaction(const unsigned int facet) const { return get(facet).reaction; }
+  /// Asked for only where a facet is pressed, which few are.
+  const FacetReaction &reaction(const unsigned int facet) const {
+    const Kept &kept = get(facet);
+    if (!kept.reaction)
+      kept.reaction.emplace(facet::Expansion(corners(facet)));
+    return *kept.reaction;
+  }
 
   /// The projection of x onto a facet as a Facet sees it: PlanedFacet, MeanGapFacet or BilinearFacet.
   template <class Facet>
@@ -69,10 +75,10 @@ public:
 
 private:
   struct Kept {
-    explicit Kept(const facet::Expansion &surface) : plane(surface), areas(surface), reaction(surface) {}
+    explicit Kept(const facet::Expansion &surface) : plane(surface), areas(surface) {}
     PlanedFacet plane;
     FacetAreas areas;
-    FacetReaction reaction;
+    mutable std::optional<FacetReaction> reaction;
   };
 
   const Kept &get(const unsigned int facet) const {

@@ -28,6 +28,8 @@ public:
 
   /// Throws SolutionFailure, on the calling rank, if the value is not finite.
   double value(double t, const dealii::Point<3> &position = {}) const;
+  /// Whether the value is the same anywhere, as far as the text shows.
+  bool is_uniform() const { return is_uniform_; }
 
 private:
   void parse(double t) const;
@@ -35,6 +37,7 @@ private:
   std::string text_, origin_;
   std::string variables_;
   std::vector<parameters::Amplitude> amplitudes_;
+  bool is_uniform_ = true;
   // The parser takes amplitudes as constants and is made anew when the time changes, if the text has any.
   mutable std::unique_ptr<dealii::FunctionParser<3>> parser_;
   mutable double parsed_time_ = 0.;
