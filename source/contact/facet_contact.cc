@@ -186,10 +186,15 @@ void FacetContact::find_overlaps(const std::size_t s) {
     state.touched = TouchedFacet();
 }
 
-void FacetContact::compute_areas(const SlaveNode &slave, SlaveState &state) const {
-  search_.visit_around(slave.node, [&](const unsigned int f) {
+void FacetContact::compute_areas(const std::size_t s, SlaveState &state) const {
+  // What is only near counts in bounds alone, which want to know it about: undeformed, a quarter of each
+  // facet.
+  const double quarter = 0.25 * sizes_[s] * sizes_[s];
+  search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
     const double share =
-        moved_.areas(f).share(corner_of(search_.facets()[f], slave.node), state.contact.normal);
+        state.is_near
+            ? quarter
+            : moved_.areas(f).share(corner_of(search_.facets()[f], slaves_[s].node), state.contact.normal);
     state.area += share;
     if (f < exchange_.n_own_facets())
       state.own_area += share;
@@ -266,7 +271,7 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s) {
   }
   state.end_of_shares = shares_.size();
   if (state.end_of_shares > state.first_share)
-    compute_areas(slaves_[s], state);
+    compute_areas(s, state);
 }
 
 SlaveMotion FacetContact::compute_motion(const std::size_t s, const double duration) const {
@@ -408,9 +413,14 @@ void FacetContact::add_row_sums(std::vector<double> &row_sums) {
 void FacetContact::add_crossings(Crossings &crossings) const {
   if (duration_ == 0.)
     return;
+  double farthest = 0.;
+  for (std::size_t i = 0; i < positions_.size(); ++i)
+    farthest = std::max(farthest, (positions_[i] - positions_n_[i]).norm_square());
+  // A node and a facet may go towards each other; Crossings looks twice as far.
+  farthest = 4. * std::sqrt(farthest);
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    if (!(state.own_area > 0.))
+    if (!(state.own_area > 0.) || std::abs(state.contact.gap) > farthest)
       continue;
     double area = 0.;
     Tensor<1, 3> moved;

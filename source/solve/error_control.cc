@@ -29,8 +29,8 @@ double distance(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
   return sum;
 }
 
-// Steps between measurements, at least: with fewer they cost more than they save, and no target was missed for
-// that. Where one was not possible, the next step may be the occasion.
+// Steps between measurements, at least: with fewer they cost more than they save, and no target was missed
+// for that. Where one was not possible, the next step may be the occasion.
 constexpr unsigned int shortest_interval = 4, soon = 1;
 
 // Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they fade.

@@ -313,7 +313,7 @@ private:
   void add_exact_tangent(const Law &law, std::size_t s, const AddTangent &add) const;
   template <class Facet, class Law>
   void add_numerical_tangent(const Law &law, std::size_t s, const AddTangent &add) const;
-  void compute_areas(const SlaveNode &slave, SlaveState &state) const;
+  void compute_areas(std::size_t s, SlaveState &state) const;
   /// Calls visit(share, force on the slave, reaction on the corners) for each facet that slave s touches.
   template <class Visit> void visit_forces(std::size_t s, const Visit &visit) const;
   /// k of a crossing [pressure/length].
