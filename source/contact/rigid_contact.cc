@@ -212,7 +212,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const bool fades = !projection.exists && projection.beyond < width && !goes_on(position, node.size);
   Fading fading{};
   if (fades) {
-    RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch);
+    RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch, width);
     projection = {true, border.normal, border.gap, border.turning, projection.patch};
     border.normal = placement_.rotation * border.normal;
     border.outward = placement_.rotation * border.outward;
