@@ -773,7 +773,7 @@ ContactLoad RigidContact::local_load() const {
 
 void RigidContact::add_released(ContactLoad &load) const {
   const auto is_released = [](const NodeState &state) {
-    return state.status == ContactStatus::open && state.tangential_energy > 0.;
+    return state.status == ContactStatus::open && state.tangential_energy != 0.;
   };
   if (friction_.empty() || std::none_of(states_.begin(), states_.end(), is_released))
     return;
