@@ -23,6 +23,9 @@ constexpr double near_gap = 0.25, near_steps = 20.;
 /// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
 constexpr double fading_width = 0.05;
 
+/// Deeper than this part of the facets around a node, what springs hold stands on areas that do not change.
+constexpr double depth_on_current_areas = 0.02;
+
 } // namespace
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
@@ -69,6 +72,8 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
   const auto sizes = compute_facet_sizes(discretization, boundary_facets);
   for (const auto &boundary : boundary_facets) {
     Facet facet{};
+    facet.key = boundary.key;
+    facet.first_areas.fill(not_touching);
     for (unsigned int a = 0; a < 4; ++a) {
       const auto found = index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(nodes_.size()));
       if (found.second) {
@@ -377,11 +382,15 @@ RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, 
   return result;
 }
 
+bool RigidContact::touches(const FacetStates &states) {
+  return std::any_of(states.begin(), states.end(),
+                     [](const NodeState *state) { return state->status != ContactStatus::open; });
+}
+
 template <class Add> void RigidContact::for_each_area(const Add &add) const {
   for (const auto &facet : facets_) {
     const FacetStates states = states_of(facet);
-    if (std::all_of(states.begin(), states.end(),
-                    [](const NodeState *state) { return state->status == ContactStatus::open; }))
+    if (!touches(states))
       continue;
     const FacetAreas areas = compute_areas(states, false);
     for (unsigned int a = 0; a < 4; ++a)
@@ -410,9 +419,9 @@ void RigidContact::add_forces(Vector &residual) const {
   });
 }
 
-ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const {
+ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) {
   ContactLoad load;
-  for (const auto &facet : facets_)
+  for (auto &facet : facets_)
     add_forces(facet, forces, bounds, load);
   for_each_near([&](const unsigned int i, const double area) {
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
@@ -451,19 +460,28 @@ double RigidContact::stored_energy(const std::size_t i) const {
          (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
 }
 
-void RigidContact::add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds,
-                              ContactLoad &load) const {
+RigidContact::Springs RigidContact::springs_of(const std::size_t i) const {
+  const double energy = stored_energy(i);
+  const double depth = depth_on_current_areas * nodes_[i].size;
+  const double limit = 0.5 * nodes_[i].stiffness.normal * depth * depth;
+  if (!is_explicit_ || energy <= limit)
+    return {energy, energy, 1.};
+  const double share = std::sqrt(limit / energy);
+  return {energy, share * (2. - share) * energy, share};
+}
+
+void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) {
   const FacetStates states = states_of(facet);
   std::array<double, 4> areas{}, energies{};
   double depth = 0.; // that goes with the largest energy
-  bool touches = false;
   for (unsigned int a = 0; a < 4; ++a)
     if (states[a]->status != ContactStatus::open) {
-      touches = true;
-      energies[a] = stored_energy(facet.nodes[a]);
-      depth = std::max(depth, 2. * energies[a] / nodes_[facet.nodes[a]].stiffness.normal);
-    }
-  if (!touches)
+      const Springs springs = springs_of(facet.nodes[a]);
+      energies[a] = springs.on_current_area;
+      depth = std::max(depth, 2. * springs.energy / nodes_[facet.nodes[a]].stiffness.normal);
+    } else
+      facet.first_areas[a] = not_touching;
+  if (!touches(states))
     return;
   depth = std::sqrt(depth);
   std::array<Tensor<1, 3>, 4> by_area; // −Σ_a e_a ∂A_a/∂x_b
@@ -490,12 +508,15 @@ void RigidContact::add_forces(const Facet &facet, NodalVectors &forces, NodalVec
     Tensor<1, 3> force = by_area[b];
     load.force += force;
     load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), force);
-    bound += nodes_[i].stiffness.normal * depth * (nodes_[i].size + depth);
-    if (areas[b] > 0.) {
-      force += areas[b] * states[b]->traction;
-      bound += areas[b] * (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
-                           states[b]->fading_stiffness);
-      add_to_load(load, i, areas[b]);
+    bound += nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas * nodes_[i].size) *
+             (nodes_[i].size + depth);
+    if (states[b]->status != ContactStatus::open) {
+      if (facet.first_areas[b] == not_touching)
+        facet.first_areas[b] = areas[b];
+      force += add_to_load(load, facet, b, areas[b]);
+      bound += largest_area(facet, b, areas[b]) *
+               (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
+                states[b]->fading_stiffness);
     }
     add_vector(forces.data(), local_nodes_[i], force);
   }
@@ -529,7 +550,15 @@ double RigidContact::stiffness_against_tool() const {
   };
   if (is_removed_ || (tool_.control() != Tool::Control::force && tool_.control() != Tool::Control::moment))
     return sum;
-  for_each_area(add);
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status != ContactStatus::open)
+        add(facet.nodes[a], largest_area(facet, a, areas.areas[a]));
+  }
   for_each_near(add);
   return sum;
 }
@@ -548,9 +577,7 @@ void RigidContact::add_tangent(const TangentSystem &system) const {
 }
 
 bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
-  const FacetStates states = states_of(facet);
-  if (std::all_of(states.begin(), states.end(),
-                  [](const NodeState *state) { return state->status == ContactStatus::open; }))
+  if (!touches(states_of(facet)))
     return false;
   matrix = 0.;
   if (tangent_ == ContactTangent::numerical)
@@ -753,20 +780,40 @@ double RigidContact::augmentation_error() const {
   return worst / pair_.penetration_tolerance;
 }
 
-void RigidContact::add_to_load(ContactLoad &load, const std::size_t i, const double area) const {
+double RigidContact::largest_area(const Facet &facet, const unsigned int corner, const double area) const {
+  return springs_of(facet.nodes[corner]).share < 1. ? std::max(area, facet.first_areas[corner]) : area;
+}
+
+Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
+                                       const double area) const {
+  const std::size_t i = facet.nodes[corner];
   const NodeState &state = states_[i];
-  const Tensor<1, 3> force = area * state.traction;
+  const Springs springs = springs_of(i);
+  const double first = facet.first_areas[corner] == not_touching ? area : facet.first_areas[corner];
+  const double counted = springs.share < 1. ? springs.share * area + (1. - springs.share) * first : area;
+  if (!(counted > 0.))
+    return {};
+  const Tensor<1, 3> force = counted * state.traction;
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  load.stored_energy += area * stored_energy(i);
-  load.dissipation += area * state.dissipation;
+  load.stored_energy += area * springs.on_current_area + first * (springs.energy - springs.on_current_area);
+  load.dissipation += counted * state.dissipation;
   load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
+  return force;
 }
 
 ContactLoad RigidContact::local_load() const {
   ContactLoad load;
-  for_each_area([&](const unsigned int i, const double area) { add_to_load(load, i, area); });
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status != ContactStatus::open)
+        add_to_load(load, facet, a, areas.areas[a]);
+  }
   add_released(load);
   return load;
 }

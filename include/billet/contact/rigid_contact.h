@@ -135,7 +135,7 @@ public:
   /// Adds F_c [force], those on areas that change among them: without friction F_c = −∂Π/∂u, Π the stored
   /// energy. Returns local_load() with these. Also adds to component 0 of `bounds` what the penalties of this
   /// rank's facets add to a bound on the stiffness at a node [force/length].
-  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) const;
+  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds);
   /// Adds this rank's, after update() and before commit().
   void add_crossings(Crossings &crossings) const;
   /// The same at the start of all, of a step at these velocities; the tool rests. After update().
@@ -213,6 +213,16 @@ private:
   /// Nodes ordered so that the area vector points out of the body.
   struct Facet {
     std::array<unsigned int, 4> nodes;
+    std::uint64_t key;
+    /// Of explicit scenes: each corner's area when its node touched first; not_touching where it does not.
+    std::array<double, 4> first_areas;
+  };
+  static constexpr double not_touching = -1.;
+  /// In the penalty springs of a node that touches [energy/length²].
+  struct Springs {
+    double energy;
+    double on_current_area; ///< what of it areas weigh as they are; the rest those of the first touch
+    double share;           ///< ∂(on_current_area)/∂(energy)
   };
   using FacetStates = std::array<const NodeState *, 4>;
   struct FacetAreas {
@@ -243,15 +253,21 @@ private:
   template <class Add> void for_each_area(const Add &add) const;
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
-  void add_to_load(ContactLoad &load, std::size_t i, double area) const;
+  static bool touches(const FacetStates &states);
+  /// Of a corner whose node touches, with its area at the facet; the force on the body.
+  dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
+                                   double area) const;
+  /// What its springs stand on at most.
+  double largest_area(const Facet &facet, unsigned int corner, double area) const;
   /// Whether another tool has a surface there, nearer than this.
   bool goes_on(const dealii::Tensor<1, 3> &position, double near) const;
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
+  Springs springs_of(std::size_t i) const;
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
-  /// −Σ_a e_a ∂A_a/∂x_b (M36), e the stored energy: with these, normal forces at any depth have the potential
-  /// Σ A_a e_a. And what they add to bounds.
-  void add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) const;
+  /// −Σ_a ê_a ∂A_a/∂x_b (M36), ê what areas as they are weigh of the stored energy e: with these, normal
+  /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
+  void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
   /// Counts what the tangential springs of nodes held that have lifted off in this step as dissipated.
   void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
