@@ -52,23 +52,6 @@ void check_border(const std::string &name, const testing::SurfacePart &small,
   }
 }
 
-/// However near a point is to the border, d ∂²d/∂x² is known; at a distance from the origin that makes
-/// round-off.
-void check_near_border() {
-  const auto disc = testing::make_surface("disc", "set Centre = 100, 0, 0\nset Radius = 1");
-  testing::WorstError error;
-  for (int k = 2; k <= 9; ++k) {
-    const double beyond = std::pow(10., -k), angle = 0.3 * k;
-    const dealii::Tensor<1, 3> e({std::cos(angle), std::sin(angle), 0.}),
-        along({-std::sin(angle), std::cos(angle), 0.}), centre({100., 0., 0.}), deep({0., 0., -1e-3});
-    const auto border = disc->border(centre + (1. + beyond) * e + deep, 0, 0.05);
-    error.add((border.beyond * border.spreading -
-               border.beyond / (1. + border.beyond) * dealii::outer_product(along, along))
-                  .norm());
-  }
-  check("disc: next to its border", error.value(), 1e-6);
-}
-
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -80,6 +63,5 @@ int main(int argc, char *argv[]) {
   check_border("disc", {"disc", flat + "set Radius = 0.703"}, {"disc", flat + "set Radius = 0.72"});
   check_border("zone of a sphere", {"sphere", round + "set From latitude = 81.92"},
                {"sphere", round + "set From latitude = 81.82"});
-  check_near_border();
   return billet::testing::exit_code();
 }
