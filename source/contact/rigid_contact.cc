@@ -32,7 +32,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
                            const ContactTangent tangent)
     : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
       communicator_(discretization.communicator()), tangent_(tangent),
-      is_explicit_(scene.parameters().is_explicit()),
+      is_explicit_(scene.parameters().is_explicit()), is_dynamic_(scene.parameters().is_dynamic()),
       touching_gap_(scene.parameters().is_dynamic() && !scene.parameters().is_explicit() ? 0.
                                                                                          : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
@@ -399,6 +399,18 @@ template <class Add> void RigidContact::for_each_area(const Add &add) const {
   }
 }
 
+template <class Add> void RigidContact::for_each_counted_area(const Add &add) const {
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status != ContactStatus::open)
+        add(facet.nodes[a], counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a])));
+  }
+}
+
 template <class Add> void RigidContact::for_each_near(const Add &add) const {
   for (unsigned int i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
@@ -411,7 +423,7 @@ template <class Add> void RigidContact::for_each_near(const Add &add) const {
 }
 
 void RigidContact::add_forces(Vector &residual) const {
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     std::array<double, 3> values{};
     for (unsigned int c = 0; c < 3; ++c)
       values[c] = -area * states_[i].traction[c];
@@ -453,18 +465,18 @@ void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &veloc
   }
 }
 
-double RigidContact::stored_energy(const std::size_t i) const {
+double RigidContact::stored_energy(const std::size_t i, const NodeState &state) const {
   // What augmented tractions hold is no stretch of a spring.
-  const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
-  return 0.5 * states_[i].share * nodes_[i].stiffness.normal * gap * gap +
-         (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
+  const double gap = state.gap + nodes_[i].lift; // but for what is allowed
+  return 0.5 * state.share * nodes_[i].stiffness.normal * gap * gap +
+         (pair_.penetration_tolerance > 0. ? 0. : state.tangential_energy);
 }
 
-RigidContact::Springs RigidContact::springs_of(const std::size_t i) const {
-  const double energy = stored_energy(i);
+RigidContact::Springs RigidContact::springs_of(const std::size_t i, const NodeState &state) const {
+  const double energy = stored_energy(i, state);
   const double depth = depth_on_current_areas * nodes_[i].size;
   const double limit = 0.5 * nodes_[i].stiffness.normal * depth * depth;
-  if (!is_explicit_ || energy <= limit)
+  if (!is_dynamic_ || energy <= limit)
     return {energy, energy, 1.};
   const double share = std::sqrt(limit / energy);
   return {energy, share * (2. - share) * energy, share};
@@ -592,13 +604,25 @@ void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<dou
   const FacetAreas areas = compute_areas(states_of(facet), exact);
   for (unsigned int a = 0; a < 4; ++a) {
     const NodeState &state = states_[facet.nodes[a]];
-    const Tensor<1, 3> turned = exact ? state.turning * areas.normal_derivatives[a] : Tensor<1, 3>();
+    const Springs springs = springs_of(facet.nodes[a]);
+    const double area = counted_area(facet, a, areas.areas[a], springs);
+    Tensor<1, 3> by_node; // ∂(counted area)/∂x_a, but for ∂A_a/∂x_a at a normal that is held
+    if (exact)
+      by_node = springs.share * (state.turning * areas.normal_derivatives[a]);
+    if (exact && springs.share < 1. && facet.first_areas[a] != not_touching) {
+      const ContactStiffness &k = nodes_[facet.nodes[a]].stiffness;
+      const Tensor<1, 3> t = state.traction - (state.traction * state.normal) * state.normal;
+      const double p = -state.share * k.normal * state.gap;
+      const Tensor<1, 3> by_energy = // −∂e/∂x
+          p * state.normal + (t * state.tangent + p * (state.turning * t)) / k.tangential;
+      by_node += (areas.areas[a] - facet.first_areas[a]) * springs.share / (2. * springs.energy) * by_energy;
+    }
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j) {
-        matrix(3 * a + i, 3 * a + j) += areas.areas[a] * state.tangent[i][j] - state.traction[i] * turned[j];
+        matrix(3 * a + i, 3 * a + j) += area * state.tangent[i][j] - state.traction[i] * by_node[j];
         if (exact)
           for (unsigned int b = 0; b < 4; ++b)
-            matrix(3 * a + i, 3 * b + j) -= state.traction[i] * areas.derivatives[a][b][j];
+            matrix(3 * a + i, 3 * b + j) -= springs.share * state.traction[i] * areas.derivatives[a][b][j];
       }
   }
 }
@@ -618,9 +642,12 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
               FacetStates states = states_of(facet);
               states[b] = &moved;
               const FacetAreas areas = compute_areas(states, false);
-              for (unsigned int a = 0; a < 4; ++a)
+              for (unsigned int a = 0; a < 4; ++a) {
+                const double area =
+                    counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a], *states[a]));
                 for (unsigned int i = 0; i < 3; ++i)
-                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
+                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * area * states[a]->traction[i];
+              }
             }
         }
       },
@@ -628,7 +655,7 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
 }
 
 void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
     const Tensor<1, 3> force = area * (state.tangent * motion);
@@ -649,7 +676,7 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
       const NodeState &state = states_[facet.nodes[a]];
       v[a] = rate.translation +
              dealii::cross_product_3d(rate.rotation, state.position - placement_.moved_centre());
-      F[a] = areas.areas[a] * state.traction;
+      F[a] = counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a])) * state.traction;
     }
     for (unsigned int a = 0; a < 4; ++a) {
       Tensor<1, 3> along = dealii::cross_product_3d(rate.rotation, F[a]); // ∂F_a/∂s
@@ -694,7 +721,7 @@ void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
 
 RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
   Grip grip;
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     const Tensor<1, 3> v = rate.translation + dealii::cross_product_3d(
                                                   rate.rotation, state.position - placement_.moved_centre());
@@ -720,6 +747,24 @@ void RigidContact::commit() {
   }
   base_.clear();
   friction_n_ = friction_;
+  if (is_dynamic_ && !is_explicit_) // else add_forces() has done it
+    note_first_areas();
+}
+
+void RigidContact::note_first_areas() {
+  for (auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states)) {
+      facet.first_areas.fill(not_touching);
+      continue;
+    }
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status == ContactStatus::open)
+        facet.first_areas[a] = not_touching;
+      else if (facet.first_areas[a] == not_touching)
+        facet.first_areas[a] = areas.areas[a];
+  }
 }
 
 void RigidContact::restart() {
@@ -784,13 +829,20 @@ double RigidContact::largest_area(const Facet &facet, const unsigned int corner,
   return springs_of(facet.nodes[corner]).share < 1. ? std::max(area, facet.first_areas[corner]) : area;
 }
 
+double RigidContact::counted_area(const Facet &facet, const unsigned int corner, const double area,
+                                  const Springs &springs) {
+  const double first = facet.first_areas[corner];
+  return springs.share == 1. || first == not_touching ? area
+                                                      : springs.share * area + (1. - springs.share) * first;
+}
+
 Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
                                        const double area) const {
   const std::size_t i = facet.nodes[corner];
   const NodeState &state = states_[i];
   const Springs springs = springs_of(i);
   const double first = facet.first_areas[corner] == not_touching ? area : facet.first_areas[corner];
-  const double counted = springs.share < 1. ? springs.share * area + (1. - springs.share) * first : area;
+  const double counted = counted_area(facet, corner, area, springs);
   if (!(counted > 0.))
     return {};
   const Tensor<1, 3> force = counted * state.traction;

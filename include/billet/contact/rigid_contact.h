@@ -214,7 +214,7 @@ private:
   struct Facet {
     std::array<unsigned int, 4> nodes;
     std::uint64_t key;
-    /// Of explicit scenes: each corner's area when its node touched first; not_touching where it does not.
+    /// Of dynamic scenes: each corner's area when its node touched first; not_touching where it does not.
     std::array<double, 4> first_areas;
   };
   static constexpr double not_touching = -1.;
@@ -254,6 +254,11 @@ private:
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   static bool touches(const FacetStates &states);
+  /// Calls add(index of the slave node that touches, the area at one facet that its traction stands on).
+  template <class Add> void for_each_counted_area(const Add &add) const;
+  static double counted_area(const Facet &facet, unsigned int corner, double area, const Springs &springs);
+  /// Of nodes that touch since this step, and no more of those that have ceased to.
+  void note_first_areas();
   /// Of a corner whose node touches, with its area at the facet; the force on the body.
   dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
                                    double area) const;
@@ -262,8 +267,9 @@ private:
   /// Whether another tool has a surface there, nearer than this.
   bool goes_on(const dealii::Tensor<1, 3> &position, double near) const;
   /// In the penalty springs of a node that touches [energy/length²].
-  double stored_energy(std::size_t i) const;
-  Springs springs_of(std::size_t i) const;
+  double stored_energy(std::size_t i, const NodeState &state) const;
+  Springs springs_of(std::size_t i, const NodeState &state) const;
+  Springs springs_of(const std::size_t i) const { return springs_of(i, states_[i]); }
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
   /// −Σ_a ê_a ∂A_a/∂x_b (M36), ê what areas as they are weigh of the stored energy e: with these, normal
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
@@ -283,6 +289,7 @@ private:
   const MPI_Comm communicator_;
   ContactTangent tangent_;
   const bool is_explicit_;    ///< works are those of the trapezoidal rule
+  const bool is_dynamic_;     ///< deep nodes stand on the areas of their first touch
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()
