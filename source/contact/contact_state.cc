@@ -55,9 +55,9 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   std::vector<double> areas;
   for (const auto &facet : facets_) {
     facet_keys.push_back(facet.key);
-    areas.insert(areas.end(), facet.first_areas.begin(), facet.first_areas.end());
+    areas.insert(areas.end(), facet.shallow_areas.begin(), facet.shallow_areas.end());
   }
-  writer.write_rows("first areas", areas_width, facet_keys, areas);
+  writer.write_rows("shallow areas", areas_width, facet_keys, areas);
 }
 
 void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
@@ -77,13 +77,13 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
     nodes_[i].lift = nodes_[i].lift_n = row.number();
     nodes_[i].initial_depth = row.number();
   }
-  if (is_dynamic_ && reader.has("first areas")) {
+  if (is_dynamic_ && reader.has("shallow areas")) {
     std::vector<std::uint64_t> facet_keys;
     for (const auto &facet : facets_)
       facet_keys.push_back(facet.key);
-    const std::vector<double> areas = reader.read_rows("first areas", areas_width, facet_keys);
+    const std::vector<double> areas = reader.read_rows("shallow areas", areas_width, facet_keys);
     for (std::size_t f = 0; f < facets_.size(); ++f)
-      std::copy_n(&areas[areas_width * f], areas_width, facets_[f].first_areas.begin());
+      std::copy_n(&areas[areas_width * f], areas_width, facets_[f].shallow_areas.begin());
   }
   if (!pair_.has_friction() || !reader.has("friction")) // a law that is new begins without traction
     return;
@@ -123,7 +123,7 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
   }
   friction_ = friction_n_;
   for (auto &facet : facets_)
-    facet.first_areas.fill(not_touching);
+    facet.shallow_areas.fill(not_touching);
 }
 
 void RigidContact::begin(const Placement &placement, const Vector &displacements) {

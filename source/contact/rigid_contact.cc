@@ -23,7 +23,8 @@ constexpr double near_gap = 0.25, near_steps = 20.;
 /// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
 constexpr double fading_width = 0.05;
 
-/// Deeper than this part of the facets around a node, what springs hold stands on areas that do not change.
+/// Deeper than this part of the facets around a node, what springs hold stands on areas that do not change:
+/// those of the step in which it went so deep.
 constexpr double depth_on_current_areas = 0.02;
 
 } // namespace
@@ -73,7 +74,7 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
   for (const auto &boundary : boundary_facets) {
     Facet facet{};
     facet.key = boundary.key;
-    facet.first_areas.fill(not_touching);
+    facet.shallow_areas.fill(not_touching);
     for (unsigned int a = 0; a < 4; ++a) {
       const auto found = index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(nodes_.size()));
       if (found.second) {
@@ -489,10 +490,12 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
   for (unsigned int a = 0; a < 4; ++a)
     if (states[a]->status != ContactStatus::open) {
       const Springs springs = springs_of(facet.nodes[a]);
+      if (springs.share == 1.)
+        facet.shallow_areas[a] = not_touching; // what it is here is found below
       energies[a] = springs.on_current_area;
       depth = std::max(depth, 2. * springs.energy / nodes_[facet.nodes[a]].stiffness.normal);
     } else
-      facet.first_areas[a] = not_touching;
+      facet.shallow_areas[a] = not_touching;
   if (!touches(states))
     return;
   depth = std::sqrt(depth);
@@ -523,8 +526,8 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
     bound += nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas * nodes_[i].size) *
              (nodes_[i].size + depth);
     if (states[b]->status != ContactStatus::open) {
-      if (facet.first_areas[b] == not_touching)
-        facet.first_areas[b] = areas[b];
+      if (facet.shallow_areas[b] == not_touching)
+        facet.shallow_areas[b] = areas[b];
       force += add_to_load(load, facet, b, areas[b]);
       bound += largest_area(facet, b, areas[b]) *
                (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
@@ -609,13 +612,14 @@ void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<dou
     Tensor<1, 3> by_node; // ∂(counted area)/∂x_a, but for ∂A_a/∂x_a at a normal that is held
     if (exact)
       by_node = springs.share * (state.turning * areas.normal_derivatives[a]);
-    if (exact && springs.share < 1. && facet.first_areas[a] != not_touching) {
+    if (exact && springs.share < 1. && facet.shallow_areas[a] != not_touching) {
       const ContactStiffness &k = nodes_[facet.nodes[a]].stiffness;
       const Tensor<1, 3> t = state.traction - (state.traction * state.normal) * state.normal;
       const double p = -state.share * k.normal * state.gap;
       const Tensor<1, 3> by_energy = // −∂e/∂x
           p * state.normal + (t * state.tangent + p * (state.turning * t)) / k.tangential;
-      by_node += (areas.areas[a] - facet.first_areas[a]) * springs.share / (2. * springs.energy) * by_energy;
+      by_node +=
+          (areas.areas[a] - facet.shallow_areas[a]) * springs.share / (2. * springs.energy) * by_energy;
     }
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j) {
@@ -748,22 +752,22 @@ void RigidContact::commit() {
   base_.clear();
   friction_n_ = friction_;
   if (is_dynamic_ && !is_explicit_) // else add_forces() has done it
-    note_first_areas();
+    note_shallow_areas();
 }
 
-void RigidContact::note_first_areas() {
+void RigidContact::note_shallow_areas() {
   for (auto &facet : facets_) {
     const FacetStates states = states_of(facet);
     if (!touches(states)) {
-      facet.first_areas.fill(not_touching);
+      facet.shallow_areas.fill(not_touching);
       continue;
     }
     const FacetAreas areas = compute_areas(states, false);
     for (unsigned int a = 0; a < 4; ++a)
       if (states[a]->status == ContactStatus::open)
-        facet.first_areas[a] = not_touching;
-      else if (facet.first_areas[a] == not_touching)
-        facet.first_areas[a] = areas.areas[a];
+        facet.shallow_areas[a] = not_touching;
+      else if (facet.shallow_areas[a] == not_touching || springs_of(facet.nodes[a]).share == 1.)
+        facet.shallow_areas[a] = areas.areas[a];
   }
 }
 
@@ -826,14 +830,14 @@ double RigidContact::augmentation_error() const {
 }
 
 double RigidContact::largest_area(const Facet &facet, const unsigned int corner, const double area) const {
-  return springs_of(facet.nodes[corner]).share < 1. ? std::max(area, facet.first_areas[corner]) : area;
+  return springs_of(facet.nodes[corner]).share < 1. ? std::max(area, facet.shallow_areas[corner]) : area;
 }
 
 double RigidContact::counted_area(const Facet &facet, const unsigned int corner, const double area,
                                   const Springs &springs) {
-  const double first = facet.first_areas[corner];
-  return springs.share == 1. || first == not_touching ? area
-                                                      : springs.share * area + (1. - springs.share) * first;
+  const double before = facet.shallow_areas[corner];
+  return springs.share == 1. || before == not_touching ? area
+                                                       : springs.share * area + (1. - springs.share) * before;
 }
 
 Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
@@ -841,7 +845,7 @@ Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, co
   const std::size_t i = facet.nodes[corner];
   const NodeState &state = states_[i];
   const Springs springs = springs_of(i);
-  const double first = facet.first_areas[corner] == not_touching ? area : facet.first_areas[corner];
+  const double before = facet.shallow_areas[corner] == not_touching ? area : facet.shallow_areas[corner];
   const double counted = counted_area(facet, corner, area, springs);
   if (!(counted > 0.))
     return {};
@@ -849,7 +853,7 @@ Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, co
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  load.stored_energy += area * springs.on_current_area + first * (springs.energy - springs.on_current_area);
+  load.stored_energy += area * springs.on_current_area + before * (springs.energy - springs.on_current_area);
   load.dissipation += counted * state.dissipation;
   load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
   return force;

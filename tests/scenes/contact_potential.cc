@@ -15,8 +15,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// Nodes at most so deep, in shallow contact on areas as they are, in deep contact on those of the first
-/// touch, too.
+/// Nodes so deep: while that is little they stand on areas as they are, deep down on those before, too.
 void test_potential(const std::string &name, const testing::SurfacePart &part, const double shallowest,
                     const double deepest) {
   parameters::Scene parameters = testing::read_test_scene("hard_blow.prm");
@@ -46,7 +45,7 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
     contact.update(u);
     return contact.add_forces(forces, bounds);
   };
-  press(); // they touch first where they are not later on
+  press(); // they go deep where they are not later on
   const ContactLoad load = press();
 
   Tensor<1, 3> sum, moment;

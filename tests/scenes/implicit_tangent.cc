@@ -67,7 +67,7 @@ int main(int argc, char *argv[]) {
   scene.implicit_dynamics.mass = parameters::ImplicitDynamics::Mass::lumped;
   check_scene("HHT, lumped mass", scene);
 
-  // Nodes so deep that they stand on the areas of their first touch, too.
+  // Nodes so deep that they stand on areas from before they were, too.
   parameters::Scene soft = make_scene();
   soft.pairs[0].normal_penalty = 0.5;
   soft.pairs[0].tangential_penalty = 1.;

@@ -214,14 +214,15 @@ private:
   struct Facet {
     std::array<unsigned int, 4> nodes;
     std::uint64_t key;
-    /// Of dynamic scenes: each corner's area when its node touched first; not_touching where it does not.
-    std::array<double, 4> first_areas;
+    /// Of dynamic scenes: each corner's area in the last step in which its node was not deep, or in its first
+    /// one; not_touching where it does not touch.
+    std::array<double, 4> shallow_areas;
   };
   static constexpr double not_touching = -1.;
   /// In the penalty springs of a node that touches [energy/length²].
   struct Springs {
     double energy;
-    double on_current_area; ///< what of it areas weigh as they are; the rest those of the first touch
+    double on_current_area; ///< what of it areas weigh as they are; the rest those before it was deep
     double share;           ///< ∂(on_current_area)/∂(energy)
   };
   using FacetStates = std::array<const NodeState *, 4>;
@@ -257,8 +258,8 @@ private:
   /// Calls add(index of the slave node that touches, the area at one facet that its traction stands on).
   template <class Add> void for_each_counted_area(const Add &add) const;
   static double counted_area(const Facet &facet, unsigned int corner, double area, const Springs &springs);
-  /// Of nodes that touch since this step, and no more of those that have ceased to.
-  void note_first_areas();
+  /// Of nodes that are not deep, or touch since this step.
+  void note_shallow_areas();
   /// Of a corner whose node touches, with its area at the facet; the force on the body.
   dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
                                    double area) const;
@@ -289,7 +290,7 @@ private:
   const MPI_Comm communicator_;
   ContactTangent tangent_;
   const bool is_explicit_;    ///< works are those of the trapezoidal rule
-  const bool is_dynamic_;     ///< deep nodes stand on the areas of their first touch
+  const bool is_dynamic_;     ///< deep nodes stand on areas from before they were deep
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()
