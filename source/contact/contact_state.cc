@@ -21,6 +21,7 @@ void restore(RowReader &row, Frame &frame) {
 }
 
 constexpr std::size_t gap_width = 4, friction_width = 20; // of a node on a tool
+constexpr std::size_t areas_width = 4;                    // of a facet
 constexpr std::size_t touch_width = 9, slave_width = 17;  // of a node on facets
 
 // A facet's key has more bits than a double keeps.
@@ -48,6 +49,15 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   writer.write_rows("gaps", gap_width, node_keys, gaps);
   if (pair_.has_friction())
     writer.write_rows("friction", friction_width, node_keys, friction);
+  if (!is_dynamic_)
+    return;
+  std::vector<std::uint64_t> facet_keys;
+  std::vector<double> areas;
+  for (const auto &facet : facets_) {
+    facet_keys.push_back(facet.key);
+    areas.insert(areas.end(), facet.shallow_areas.begin(), facet.shallow_areas.end());
+  }
+  writer.write_rows("shallow areas", areas_width, facet_keys, areas);
 }
 
 void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
@@ -66,6 +76,14 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
     nodes_[i].patch = static_cast<unsigned int>(row.number());
     nodes_[i].lift = nodes_[i].lift_n = row.number();
     nodes_[i].initial_depth = row.number();
+  }
+  if (is_dynamic_ && reader.has("shallow areas")) {
+    std::vector<std::uint64_t> facet_keys;
+    for (const auto &facet : facets_)
+      facet_keys.push_back(facet.key);
+    const std::vector<double> areas = reader.read_rows("shallow areas", areas_width, facet_keys);
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      std::copy_n(&areas[areas_width * f], areas_width, facets_[f].shallow_areas.begin());
   }
   if (!pair_.has_friction() || !reader.has("friction")) // a law that is new begins without traction
     return;
@@ -104,6 +122,8 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
     }
   }
   friction_ = friction_n_;
+  for (auto &facet : facets_)
+    facet.shallow_areas.fill(not_touching);
 }
 
 void RigidContact::begin(const Placement &placement, const Vector &displacements) {

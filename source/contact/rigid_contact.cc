@@ -23,13 +23,17 @@ constexpr double near_gap = 0.25, near_steps = 20.;
 /// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
 constexpr double fading_width = 0.05;
 
+/// Deeper than this part of the facets around a node, what springs hold stands on areas that do not change:
+/// those of the step in which it went so deep.
+constexpr double depth_on_current_areas = 0.02;
+
 } // namespace
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
                            const ContactTangent tangent)
     : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
       communicator_(discretization.communicator()), tangent_(tangent),
-      is_explicit_(scene.parameters().is_explicit()),
+      is_explicit_(scene.parameters().is_explicit()), is_dynamic_(scene.parameters().is_dynamic()),
       touching_gap_(scene.parameters().is_dynamic() && !scene.parameters().is_explicit() ? 0.
                                                                                          : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
@@ -69,6 +73,8 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
   const auto sizes = compute_facet_sizes(discretization, boundary_facets);
   for (const auto &boundary : boundary_facets) {
     Facet facet{};
+    facet.key = boundary.key;
+    facet.shallow_areas.fill(not_touching);
     for (unsigned int a = 0; a < 4; ++a) {
       const auto found = index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(nodes_.size()));
       if (found.second) {
@@ -212,7 +218,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const bool fades = !projection.exists && projection.beyond < width && !goes_on(position, node.size);
   Fading fading{};
   if (fades) {
-    RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch);
+    RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch, width);
     projection = {true, border.normal, border.gap, border.turning, projection.patch};
     border.normal = placement_.rotation * border.normal;
     border.outward = placement_.rotation * border.outward;
@@ -377,16 +383,32 @@ RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, 
   return result;
 }
 
+bool RigidContact::touches(const FacetStates &states) {
+  return std::any_of(states.begin(), states.end(),
+                     [](const NodeState *state) { return state->status != ContactStatus::open; });
+}
+
 template <class Add> void RigidContact::for_each_area(const Add &add) const {
   for (const auto &facet : facets_) {
     const FacetStates states = states_of(facet);
-    if (std::all_of(states.begin(), states.end(),
-                    [](const NodeState *state) { return state->status == ContactStatus::open; }))
+    if (!touches(states))
       continue;
     const FacetAreas areas = compute_areas(states, false);
     for (unsigned int a = 0; a < 4; ++a)
       if (areas.areas[a] > 0.)
         add(facet.nodes[a], areas.areas[a]);
+  }
+}
+
+template <class Add> void RigidContact::for_each_counted_area(const Add &add) const {
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status != ContactStatus::open)
+        add(facet.nodes[a], counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a])));
   }
 }
 
@@ -402,7 +424,7 @@ template <class Add> void RigidContact::for_each_near(const Add &add) const {
 }
 
 void RigidContact::add_forces(Vector &residual) const {
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     std::array<double, 3> values{};
     for (unsigned int c = 0; c < 3; ++c)
       values[c] = -area * states_[i].traction[c];
@@ -410,9 +432,9 @@ void RigidContact::add_forces(Vector &residual) const {
   });
 }
 
-ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) const {
+ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) {
   ContactLoad load;
-  for (const auto &facet : facets_)
+  for (auto &facet : facets_)
     add_forces(facet, forces, bounds, load);
   for_each_near([&](const unsigned int i, const double area) {
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
@@ -444,26 +466,37 @@ void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &veloc
   }
 }
 
-double RigidContact::stored_energy(const std::size_t i) const {
+double RigidContact::stored_energy(const std::size_t i, const NodeState &state) const {
   // What augmented tractions hold is no stretch of a spring.
-  const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
-  return 0.5 * states_[i].share * nodes_[i].stiffness.normal * gap * gap +
-         (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
+  const double gap = state.gap + nodes_[i].lift; // but for what is allowed
+  return 0.5 * state.share * nodes_[i].stiffness.normal * gap * gap +
+         (pair_.penetration_tolerance > 0. ? 0. : state.tangential_energy);
 }
 
-void RigidContact::add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds,
-                              ContactLoad &load) const {
+RigidContact::Springs RigidContact::springs_of(const std::size_t i, const NodeState &state) const {
+  const double energy = stored_energy(i, state);
+  const double depth = depth_on_current_areas * nodes_[i].size;
+  const double limit = 0.5 * nodes_[i].stiffness.normal * depth * depth;
+  if (!is_dynamic_ || energy <= limit)
+    return {energy, energy, 1.};
+  const double share = std::sqrt(limit / energy);
+  return {energy, share * (2. - share) * energy, share};
+}
+
+void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) {
   const FacetStates states = states_of(facet);
   std::array<double, 4> areas{}, energies{};
   double depth = 0.; // that goes with the largest energy
-  bool touches = false;
   for (unsigned int a = 0; a < 4; ++a)
     if (states[a]->status != ContactStatus::open) {
-      touches = true;
-      energies[a] = stored_energy(facet.nodes[a]);
-      depth = std::max(depth, 2. * energies[a] / nodes_[facet.nodes[a]].stiffness.normal);
-    }
-  if (!touches)
+      const Springs springs = springs_of(facet.nodes[a]);
+      if (springs.share == 1.)
+        facet.shallow_areas[a] = not_touching; // what it is here is found below
+      energies[a] = springs.on_current_area;
+      depth = std::max(depth, 2. * springs.energy / nodes_[facet.nodes[a]].stiffness.normal);
+    } else
+      facet.shallow_areas[a] = not_touching;
+  if (!touches(states))
     return;
   depth = std::sqrt(depth);
   std::array<Tensor<1, 3>, 4> by_area; // −Σ_a e_a ∂A_a/∂x_b
@@ -490,12 +523,15 @@ void RigidContact::add_forces(const Facet &facet, NodalVectors &forces, NodalVec
     Tensor<1, 3> force = by_area[b];
     load.force += force;
     load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), force);
-    bound += nodes_[i].stiffness.normal * depth * (nodes_[i].size + depth);
-    if (areas[b] > 0.) {
-      force += areas[b] * states[b]->traction;
-      bound += areas[b] * (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
-                           states[b]->fading_stiffness);
-      add_to_load(load, i, areas[b]);
+    bound += nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas * nodes_[i].size) *
+             (nodes_[i].size + depth);
+    if (states[b]->status != ContactStatus::open) {
+      if (facet.shallow_areas[b] == not_touching)
+        facet.shallow_areas[b] = areas[b];
+      force += add_to_load(load, facet, b, areas[b]);
+      bound += largest_area(facet, b, areas[b]) *
+               (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
+                states[b]->fading_stiffness);
     }
     add_vector(forces.data(), local_nodes_[i], force);
   }
@@ -529,7 +565,15 @@ double RigidContact::stiffness_against_tool() const {
   };
   if (is_removed_ || (tool_.control() != Tool::Control::force && tool_.control() != Tool::Control::moment))
     return sum;
-  for_each_area(add);
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status != ContactStatus::open)
+        add(facet.nodes[a], largest_area(facet, a, areas.areas[a]));
+  }
   for_each_near(add);
   return sum;
 }
@@ -548,9 +592,7 @@ void RigidContact::add_tangent(const TangentSystem &system) const {
 }
 
 bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
-  const FacetStates states = states_of(facet);
-  if (std::all_of(states.begin(), states.end(),
-                  [](const NodeState *state) { return state->status == ContactStatus::open; }))
+  if (!touches(states_of(facet)))
     return false;
   matrix = 0.;
   if (tangent_ == ContactTangent::numerical)
@@ -565,13 +607,26 @@ void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<dou
   const FacetAreas areas = compute_areas(states_of(facet), exact);
   for (unsigned int a = 0; a < 4; ++a) {
     const NodeState &state = states_[facet.nodes[a]];
-    const Tensor<1, 3> turned = exact ? state.turning * areas.normal_derivatives[a] : Tensor<1, 3>();
+    const Springs springs = springs_of(facet.nodes[a]);
+    const double area = counted_area(facet, a, areas.areas[a], springs);
+    Tensor<1, 3> by_node; // ∂(counted area)/∂x_a, but for ∂A_a/∂x_a at a normal that is held
+    if (exact)
+      by_node = springs.share * (state.turning * areas.normal_derivatives[a]);
+    if (exact && springs.share < 1. && facet.shallow_areas[a] != not_touching) {
+      const ContactStiffness &k = nodes_[facet.nodes[a]].stiffness;
+      const Tensor<1, 3> t = state.traction - (state.traction * state.normal) * state.normal;
+      const double p = -state.share * k.normal * state.gap;
+      const Tensor<1, 3> by_energy = // −∂e/∂x
+          p * state.normal + (t * state.tangent + p * (state.turning * t)) / k.tangential;
+      by_node +=
+          (areas.areas[a] - facet.shallow_areas[a]) * springs.share / (2. * springs.energy) * by_energy;
+    }
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j) {
-        matrix(3 * a + i, 3 * a + j) += areas.areas[a] * state.tangent[i][j] - state.traction[i] * turned[j];
+        matrix(3 * a + i, 3 * a + j) += area * state.tangent[i][j] - state.traction[i] * by_node[j];
         if (exact)
           for (unsigned int b = 0; b < 4; ++b)
-            matrix(3 * a + i, 3 * b + j) -= state.traction[i] * areas.derivatives[a][b][j];
+            matrix(3 * a + i, 3 * b + j) -= springs.share * state.traction[i] * areas.derivatives[a][b][j];
       }
   }
 }
@@ -591,9 +646,12 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
               FacetStates states = states_of(facet);
               states[b] = &moved;
               const FacetAreas areas = compute_areas(states, false);
-              for (unsigned int a = 0; a < 4; ++a)
+              for (unsigned int a = 0; a < 4; ++a) {
+                const double area =
+                    counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a], *states[a]));
                 for (unsigned int i = 0; i < 3; ++i)
-                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
+                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * area * states[a]->traction[i];
+              }
             }
         }
       },
@@ -601,7 +659,7 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
 }
 
 void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
     const Tensor<1, 3> force = area * (state.tangent * motion);
@@ -622,7 +680,7 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
       const NodeState &state = states_[facet.nodes[a]];
       v[a] = rate.translation +
              dealii::cross_product_3d(rate.rotation, state.position - placement_.moved_centre());
-      F[a] = areas.areas[a] * state.traction;
+      F[a] = counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a])) * state.traction;
     }
     for (unsigned int a = 0; a < 4; ++a) {
       Tensor<1, 3> along = dealii::cross_product_3d(rate.rotation, F[a]); // ∂F_a/∂s
@@ -667,7 +725,7 @@ void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
 
 RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
   Grip grip;
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     const Tensor<1, 3> v = rate.translation + dealii::cross_product_3d(
                                                   rate.rotation, state.position - placement_.moved_centre());
@@ -693,6 +751,24 @@ void RigidContact::commit() {
   }
   base_.clear();
   friction_n_ = friction_;
+  if (is_dynamic_ && !is_explicit_) // else add_forces() has done it
+    note_shallow_areas();
+}
+
+void RigidContact::note_shallow_areas() {
+  for (auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states)) {
+      facet.shallow_areas.fill(not_touching);
+      continue;
+    }
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status == ContactStatus::open)
+        facet.shallow_areas[a] = not_touching;
+      else if (facet.shallow_areas[a] == not_touching || springs_of(facet.nodes[a]).share == 1.)
+        facet.shallow_areas[a] = areas.areas[a];
+  }
 }
 
 void RigidContact::restart() {
@@ -753,27 +829,54 @@ double RigidContact::augmentation_error() const {
   return worst / pair_.penetration_tolerance;
 }
 
-void RigidContact::add_to_load(ContactLoad &load, const std::size_t i, const double area) const {
+double RigidContact::largest_area(const Facet &facet, const unsigned int corner, const double area) const {
+  return springs_of(facet.nodes[corner]).share < 1. ? std::max(area, facet.shallow_areas[corner]) : area;
+}
+
+double RigidContact::counted_area(const Facet &facet, const unsigned int corner, const double area,
+                                  const Springs &springs) {
+  const double before = facet.shallow_areas[corner];
+  return springs.share == 1. || before == not_touching ? area
+                                                       : springs.share * area + (1. - springs.share) * before;
+}
+
+Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
+                                       const double area) const {
+  const std::size_t i = facet.nodes[corner];
   const NodeState &state = states_[i];
-  const Tensor<1, 3> force = area * state.traction;
+  const Springs springs = springs_of(i);
+  const double before = facet.shallow_areas[corner] == not_touching ? area : facet.shallow_areas[corner];
+  const double counted = counted_area(facet, corner, area, springs);
+  if (!(counted > 0.))
+    return {};
+  const Tensor<1, 3> force = counted * state.traction;
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  load.stored_energy += area * stored_energy(i);
-  load.dissipation += area * state.dissipation;
+  load.stored_energy += area * springs.on_current_area + before * (springs.energy - springs.on_current_area);
+  load.dissipation += counted * state.dissipation;
   load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
+  return force;
 }
 
 ContactLoad RigidContact::local_load() const {
   ContactLoad load;
-  for_each_area([&](const unsigned int i, const double area) { add_to_load(load, i, area); });
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status != ContactStatus::open)
+        add_to_load(load, facet, a, areas.areas[a]);
+  }
   add_released(load);
   return load;
 }
 
 void RigidContact::add_released(ContactLoad &load) const {
   const auto is_released = [](const NodeState &state) {
-    return state.status == ContactStatus::open && state.tangential_energy > 0.;
+    return state.status == ContactStatus::open && state.tangential_energy != 0.;
   };
   if (friction_.empty() || std::none_of(states_.begin(), states_.end(), is_released))
     return;

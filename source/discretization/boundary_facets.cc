@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/boundary_facets.h"
 
+#include "billet/discretization/node_keys.h"
 #include "billet/geometry/facet_projection.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discret
         std::swap(facet.corners[1], facet.corners[2]);
       }
       facet.thickness = element.cell->measure() / facet.area_vector().norm();
+      facet.key = dealii::GeometryInfo<3>::faces_per_cell * element_key(element.cell) + f;
       facets.push_back(facet);
     }
   return facets;

@@ -143,7 +143,8 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   return projection;
 }
 
-RigidSurface::Border RigidSurface::border(const Tensor<1, 3> &x, const unsigned int patch) const {
+RigidSurface::Border RigidSurface::border(const Tensor<1, 3> &x, const unsigned int patch,
+                                          const double width) const {
   const ClosestPoint nearest = patches_[patch]->closest_point(x);
   const Tensor<1, 3> arm = x - nearest.position;
   Border border{nearest.normal, arm * nearest.normal, {}, 0., {}, {}};
@@ -154,7 +155,7 @@ RigidSurface::Border RigidSurface::border(const Tensor<1, 3> &x, const unsigned 
   border.outward = aside / border.beyond;
   // How the border's point and normal go along with x, by central differences: patches do not tell.
   const Tensor<1, 3> along = dealii::cross_product_3d(border.normal, border.outward);
-  const double h = 1e-3 * border.beyond;
+  const double h = std::max(1e-3 * border.beyond, 1e-6 * width); // of less, little is left but round-off
   const ClosestPoint before = patches_[patch]->closest_point(x - h * along),
                      after = patches_[patch]->closest_point(x + h * along);
   const double carried = along * (after.position - before.position) / (2. * h);

@@ -473,6 +473,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     if (report.converged)
       softened += tell_softer_penalties();
   }
+  measures_penetration_ = false; // what is tried next may be no step to measure it in
   if (!report.converged) {
     probe_.reset(); // it may have led astray
     report.is_lost_in_round_off = report.is_lost_in_round_off || may_be_round_off(report);
@@ -540,10 +541,13 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   if (report.converged)
     stopping = tools_to_stop(t);
   if (!stopping.empty()) {
+    const bool has_measured = of_penetration_.has_value();
     pressing.insert(pressing.end(), stopping.begin(), stopping.end());
     choose_unknown_tools(pressing);
     report.append(iterate(offsets, x));
     augment(report, offsets, x);
+    if (has_measured) // with the tool where it is no more
+      of_penetration_ = OfPenetration();
   }
   if (report.converged) {
     // The line search may have looked further since: the histories have to be those of the accepted state.
@@ -559,7 +563,6 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();
-    measures_penetration_ = false;
     commit(t);
     has_lost_pace_ = has_lost_pace_ || !stopping.empty();
     for (const std::size_t tool : stopping)

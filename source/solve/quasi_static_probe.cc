@@ -62,6 +62,8 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
       sum += force.norm();
     return sum;
   };
+  if (of_penetration_ && of_penetration_->forces.empty()) // of no use any more
+    return;
   if (!of_penetration_ && (!(force_scale_ > 0.) || !(find_penetration() > 0.))) {
     of_penetration_ = OfPenetration(); // nothing touches
     return;

@@ -13,6 +13,8 @@ using dealii::Tensor;
 
 namespace {
 
+constexpr double width = 0.05; // beyond a border, as of facets of size 1
+
 struct Expected {
   double gap, beyond, spreading, turning;
   Tensor<1, 3> normal, outward;
@@ -29,7 +31,7 @@ void check_border(const std::string &name, const RigidSurface &surface, const Ex
     const Expected expected = expect(u, d, g, x);
     const auto projection = surface.project(x);
     is_beyond = is_beyond && !projection.exists;
-    const auto border = surface.border(x, projection.patch);
+    const auto border = surface.border(x, projection.patch, width);
     gap.add(std::abs(border.gap - expected.gap));
     beyond.add(std::abs(border.beyond - expected.beyond) + std::abs(projection.beyond - expected.beyond));
     directions.add((border.normal - expected.normal).norm() + (border.outward - expected.outward).norm());
@@ -44,6 +46,20 @@ void check_border(const std::string &name, const RigidSurface &surface, const Ex
   check(name + ": directions", directions.value(), 1e-11);
   check(name + ": how the way out spreads", spreading.value(), 1e-6);
   check(name + ": how the normal turns", turning.value(), 1e-6);
+}
+
+/// However near x is to the border, d ∂²d/∂x² is known; where coordinates are large, round-off is.
+void check_near_border() {
+  const auto disc = make_surface("disc", "set Centre = 100, 0, 0\nset Radius = 1");
+  WorstError error;
+  for (int k = 2; k <= 9; ++k) {
+    const double d = std::pow(10., -k), angle = 0.3 * k;
+    const Tensor<1, 3> e({std::cos(angle), std::sin(angle), 0.}),
+        along({-std::sin(angle), std::cos(angle), 0.}), centre({100., 0., 0.}), below({0., 0., -1e-3});
+    const auto border = disc->border(centre + (1. + d) * e + below, 0, width);
+    error.add((border.beyond * border.spreading - d / (1. + d) * dealii::outer_product(along, along)).norm());
+  }
+  check("disc: next to its border", error.value(), 1e-6);
 }
 
 } // namespace
@@ -77,5 +93,6 @@ int main() {
                  x = (radius + g) * n + (1.5 + d) * up;
                  return Expected{g, d, 0., 1. / (radius + g), n, up};
                });
+  check_near_border();
   return billet::testing::exit_code();
 }

@@ -66,6 +66,35 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
   check(name + ": iterations begin nearer to their end", n_from_probe <= n_otherwise);
 }
 
+/// A step that fails, or in which a tool stops after tractions have been augmented, leaves no measurement to
+/// the next one, and none that compares two places of the tool.
+void check_stop() {
+  parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
+  parameters.pairs[0].penetration_tolerance = 1e-5;
+  parameters.tools[0].motion.control = parameters::Motion::Control::stop;
+  parameters.tools[0].motion.load.value = "64000";
+  parameters.tools[0].motion.direction = dealii::Tensor<1, 3>({0., 0., -1.});
+  testing::set_fixed_steps(parameters, 40);
+  SceneRun run(parameters);
+  run.problem.measure_penetration();
+  check("stop: all of it in one step fails", !run.problem.step(1., 0.).converged);
+  run.advance();
+  check("stop: the step after that measures nothing", !run.problem.take_measurement());
+  testing::WorstError change;
+  unsigned int n_missed = 0;
+  for (unsigned int n = 0; n < 8; ++n) {
+    run.problem.measure_penetration();
+    run.advance();
+    const auto measured = run.problem.take_measurement();
+    if (!measured || measured->without.empty())
+      ++n_missed;
+    else
+      change.add(difference(measured->forces, run.problem.forces()));
+  }
+  check("stop: nothing is measured where the tool stops", n_missed == 1);
+  check("stop: penetrations make little of the forces", change.value(), 2e-3);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -75,5 +104,6 @@ int main(int argc, char *argv[]) {
   billet.pairs[0].penetration_tolerance = 1e-5;
   check_scene("billet, augmented", billet, 20);
   check_scene("ironing", testing::read_shipped_scene("ironing.prm"), 70);
+  check_stop();
   return billet::testing::exit_code();
 }

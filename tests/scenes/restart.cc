@@ -51,6 +51,17 @@ int main(int argc, char *argv[]) {
         [](auto &run, const double time, History &history) { run.run(time, 1, history); }, 1e-5);
   }
   {
+    parameters::Scene scene =
+        testing::read_test_scene("hard_blow.prm"); // deep, on areas from before
+    scene.bodies[0].initial_velocity.value = {"100", "200", "-1000"};
+    scene.pairs[0].friction_law = parameters::ContactPair::FrictionLaw::coulomb;
+    scene.pairs[0].friction_coefficient = 0.1;
+    scene.time_stepping.end_time = 0.4e-3;
+    testing::test_going_on<testing::ExplicitStops>(
+        "Deep blow", scene, {0.2e-3},
+        [](auto &run, const double time, History &history) { run.run(time, 1, history); });
+  }
+  {
     parameters::Scene scene = testing::read_test_scene("restart_ring.prm");
     double area = 0.;
     testing::test_going_on<testing::ExplicitStops>(

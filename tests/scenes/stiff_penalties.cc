@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Where Newton's method fails with stiff penalties softer ones lead to them, and nothing of those is left in
 // the solution; where it fails with another tangent the exact one takes over.
-#include "scene_run.h"
+#include "restart_run.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -26,12 +26,14 @@ parameters::Scene make_scene(const double penalty, const double tangential) {
   return scene;
 }
 
+bool tells(const NewtonReport &report) {
+  return report.note.find("needs softer ones that lead to it") != std::string::npos;
+}
+
 Drawn draw(const double penalty, const double tangential) {
   SceneRun run(make_scene(penalty, tangential));
   Drawn drawn;
-  run.finish([&](const NewtonReport &report) {
-    drawn.n_told += report.note.find("needs softer ones that lead to it") != std::string::npos ? 1 : 0;
-  });
+  run.finish([&](const NewtonReport &report) { drawn.n_told += tells(report) ? 1 : 0; });
   const ContactLoad &load = run.problem.state().body_pair_loads[0];
   drawn.force = load.force;
   for (const auto &reports : run.problem.report_contacts())
@@ -43,6 +45,32 @@ Drawn draw(const double penalty, const double tangential) {
 
 double difference(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b) {
   return (a - b).norm() / b.norm();
+}
+
+/// After a restart it is not told once more.
+void check_restart() {
+  parameters::Scene scene = make_scene(1e5, 1e5);
+  const auto advance = [](testing::QuasiStaticRun &run) {
+    const double to = run.control.next_time();
+    const NewtonReport report = run.problem.step(to, run.previous);
+    if (report.converged) {
+      run.previous = to - run.control.time();
+      run.control.accept(static_cast<unsigned int>(report.hardest), run.problem.time_error());
+    } else if (!run.control.reject())
+      throw SolutionFailure(report.failure);
+    return tells(report);
+  };
+  testing::QuasiStaticRun run(scene, MPI_COMM_WORLD);
+  while (!advance(run)) {
+  }
+  run.save("told.h5");
+  scene.restart.file.value = "told.h5";
+  testing::QuasiStaticRun resumed(scene, MPI_COMM_WORLD);
+  resumed.load("told.h5");
+  bool tells_again = false;
+  while (!resumed.control.is_finished())
+    tells_again = advance(resumed) || tells_again;
+  check("after a restart it is not told again", !tells_again);
 }
 
 } // namespace
@@ -61,6 +89,8 @@ int main(int argc, char *argv[]) {
       penalty.add(std::abs(spring / (100. * less.springs.at(dof)) - 1.));
   check("nodes press in both", stiff.springs.size() > 2 && less.springs.size() > 2);
   check("at the end penalties are those of the scene", penalty.value(), 1e-6);
+
+  check_restart();
 
   parameters::Scene symmetrised = make_scene(10., 10.), exact = symmetrised;
   symmetrised.solver.contact_tangent = parameters::ContactTangent::symmetrised_upper;

@@ -135,7 +135,7 @@ public:
   /// Adds F_c [force], those on areas that change among them: without friction F_c = −∂Π/∂u, Π the stored
   /// energy. Returns local_load() with these. Also adds to component 0 of `bounds` what the penalties of this
   /// rank's facets add to a bound on the stiffness at a node [force/length].
-  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) const;
+  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds);
   /// Adds this rank's, after update() and before commit().
   void add_crossings(Crossings &crossings) const;
   /// The same at the start of all, of a step at these velocities; the tool rests. After update().
@@ -213,6 +213,17 @@ private:
   /// Nodes ordered so that the area vector points out of the body.
   struct Facet {
     std::array<unsigned int, 4> nodes;
+    std::uint64_t key;
+    /// Of dynamic scenes: each corner's area in the last step in which its node was not deep, or in its first
+    /// one; not_touching where it does not touch.
+    std::array<double, 4> shallow_areas;
+  };
+  static constexpr double not_touching = -1.;
+  /// In the penalty springs of a node that touches [energy/length²].
+  struct Springs {
+    double energy;
+    double on_current_area; ///< what of it areas weigh as they are; the rest those before it was deep
+    double share;           ///< ∂(on_current_area)/∂(energy)
   };
   using FacetStates = std::array<const NodeState *, 4>;
   struct FacetAreas {
@@ -243,15 +254,27 @@ private:
   template <class Add> void for_each_area(const Add &add) const;
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
-  void add_to_load(ContactLoad &load, std::size_t i, double area) const;
+  static bool touches(const FacetStates &states);
+  /// Calls add(index of the slave node that touches, the area at one facet that its traction stands on).
+  template <class Add> void for_each_counted_area(const Add &add) const;
+  static double counted_area(const Facet &facet, unsigned int corner, double area, const Springs &springs);
+  /// Of nodes that are not deep, or touch since this step.
+  void note_shallow_areas();
+  /// Of a corner whose node touches, with its area at the facet; the force on the body.
+  dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
+                                   double area) const;
+  /// What its springs stand on at most.
+  double largest_area(const Facet &facet, unsigned int corner, double area) const;
   /// Whether another tool has a surface there, nearer than this.
   bool goes_on(const dealii::Tensor<1, 3> &position, double near) const;
   /// In the penalty springs of a node that touches [energy/length²].
-  double stored_energy(std::size_t i) const;
+  double stored_energy(std::size_t i, const NodeState &state) const;
+  Springs springs_of(std::size_t i, const NodeState &state) const;
+  Springs springs_of(const std::size_t i) const { return springs_of(i, states_[i]); }
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
-  /// −Σ_a e_a ∂A_a/∂x_b (M36), e the stored energy: with these, normal forces at any depth have the potential
-  /// Σ A_a e_a. And what they add to bounds.
-  void add_forces(const Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) const;
+  /// −Σ_a ê_a ∂A_a/∂x_b (M36), ê what areas as they are weigh of the stored energy e: with these, normal
+  /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
+  void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
   /// Counts what the tangential springs of nodes held that have lifted off in this step as dissipated.
   void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
@@ -267,6 +290,7 @@ private:
   const MPI_Comm communicator_;
   ContactTangent tangent_;
   const bool is_explicit_;    ///< works are those of the trapezoidal rule
+  const bool is_dynamic_;     ///< deep nodes stand on areas from before they were deep
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()

@@ -5,6 +5,7 @@
 #include "billet/discretization/discretization.h"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct BoundaryFacet {
   std::array<std::array<DofIndex, 3>, 4> dofs;
   std::array<dealii::Point<3>, 4> corners; ///< undeformed
   double thickness;                        ///< of the element below it: its volume over the facet's area
+  std::uint64_t key;                       ///< that no other has, the same on any number of ranks
 
   /// Of the undeformed facet, half the cross product of its diagonals [length²].
   dealii::Tensor<1, 3> area_vector() const {

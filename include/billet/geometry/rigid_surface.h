@@ -43,9 +43,9 @@ public:
     dealii::Tensor<1, 3> outward;   ///< e = ∂d/∂x
     dealii::Tensor<2, 3> spreading; ///< ∂e/∂x: 0 at a straight border, of a corner's fan 1/d [1/length]
   };
-  /// Of a point whose projection does not exist; `patch` is that projection's. Borders with torsion are taken
-  /// as if they had none.
-  Border border(const dealii::Tensor<1, 3> &x, unsigned int patch) const;
+  /// Of a point whose projection does not exist; `patch` is that projection's, `width` how far beyond the
+  /// border it matters. Borders with torsion are taken as if they had none.
+  Border border(const dealii::Tensor<1, 3> &x, unsigned int patch, double width) const;
 
   std::size_t n_patches() const { return patches_.size(); }
   const BoundingBox &bounding_box() const { return box_; }

@@ -53,8 +53,8 @@ public:
     double residual = 0.;          ///< of `without`, as part of the forces
     unsigned int n_iterations = 0; ///< that it took besides those of the step
   };
-  /// The next accepted step measures that. Where tractions are not augmented in it, anyway, one or a few
-  /// iterations more do it, and are taken back.
+  /// The next step measures that, if it is accepted. Where tractions are not augmented in it, anyway, one or
+  /// a few iterations more do it, and are taken back.
   void measure_penetration() { measures_penetration_ = true; }
   /// Of the last accepted step; once.
   std::optional<OfPenetration> take_measurement() { return std::exchange(of_penetration_, {}); }
