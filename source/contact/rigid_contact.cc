@@ -607,12 +607,15 @@ void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<dou
   const FacetAreas areas = compute_areas(states_of(facet), exact);
   for (unsigned int a = 0; a < 4; ++a) {
     const NodeState &state = states_[facet.nodes[a]];
-    const Springs springs = springs_of(facet.nodes[a]);
+    Springs springs = springs_of(facet.nodes[a]);
+    if (facet.shallow_areas[a] ==
+        not_touching) // in the step in which it comes, all stands on the area as it is
+      springs.share = 1.;
     const double area = counted_area(facet, a, areas.areas[a], springs);
     Tensor<1, 3> by_node; // ∂(counted area)/∂x_a, but for ∂A_a/∂x_a at a normal that is held
     if (exact)
       by_node = springs.share * (state.turning * areas.normal_derivatives[a]);
-    if (exact && springs.share < 1. && facet.shallow_areas[a] != not_touching) {
+    if (exact && springs.share < 1.) {
       const ContactStiffness &k = nodes_[facet.nodes[a]].stiffness;
       const Tensor<1, 3> t = state.traction - (state.traction * state.normal) * state.normal;
       const double p = -state.share * k.normal * state.gap;
