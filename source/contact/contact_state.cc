@@ -49,7 +49,7 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   writer.write_rows("gaps", gap_width, node_keys, gaps);
   if (pair_.has_friction())
     writer.write_rows("friction", friction_width, node_keys, friction);
-  if (!is_dynamic_)
+  if (!is_explicit_)
     return;
   std::vector<std::uint64_t> facet_keys;
   std::vector<double> areas;
@@ -77,7 +77,7 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
     nodes_[i].lift = nodes_[i].lift_n = row.number();
     nodes_[i].initial_depth = row.number();
   }
-  if (is_dynamic_ && reader.has("shallow areas")) {
+  if (is_explicit_ && reader.has("shallow areas")) {
     std::vector<std::uint64_t> facet_keys;
     for (const auto &facet : facets_)
       facet_keys.push_back(facet.key);

@@ -23,9 +23,9 @@ constexpr double near_gap = 0.25, near_steps = 20.;
 /// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
 constexpr double fading_width = 0.05;
 
-/// Deeper than this part of the facets around a node, what springs hold stands on areas that do not change:
-/// those of the step in which it went so deep.
-constexpr double depth_on_current_areas = 0.02;
+/// In explicit scenes what springs hold that is deeper than this part of the facets around a node stands on
+/// an area that does not change: that of the last step in which the node was not so deep.
+constexpr double depth_on_current_areas = 0.1;
 
 } // namespace
 
@@ -33,7 +33,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
                            const ContactTangent tangent)
     : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
       communicator_(discretization.communicator()), tangent_(tangent),
-      is_explicit_(scene.parameters().is_explicit()), is_dynamic_(scene.parameters().is_dynamic()),
+      is_explicit_(scene.parameters().is_explicit()),
       touching_gap_(scene.parameters().is_dynamic() && !scene.parameters().is_explicit() ? 0.
                                                                                          : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
@@ -400,18 +400,6 @@ template <class Add> void RigidContact::for_each_area(const Add &add) const {
   }
 }
 
-template <class Add> void RigidContact::for_each_counted_area(const Add &add) const {
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (!touches(states))
-      continue;
-    const FacetAreas areas = compute_areas(states, false);
-    for (unsigned int a = 0; a < 4; ++a)
-      if (states[a]->status != ContactStatus::open)
-        add(facet.nodes[a], counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a])));
-  }
-}
-
 template <class Add> void RigidContact::for_each_near(const Add &add) const {
   for (unsigned int i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
@@ -424,7 +412,7 @@ template <class Add> void RigidContact::for_each_near(const Add &add) const {
 }
 
 void RigidContact::add_forces(Vector &residual) const {
-  for_each_counted_area([&](const unsigned int i, const double area) {
+  for_each_area([&](const unsigned int i, const double area) {
     std::array<double, 3> values{};
     for (unsigned int c = 0; c < 3; ++c)
       values[c] = -area * states_[i].traction[c];
@@ -466,18 +454,17 @@ void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &veloc
   }
 }
 
-double RigidContact::stored_energy(const std::size_t i, const NodeState &state) const {
+double RigidContact::stored_energy(const std::size_t i) const {
   // What augmented tractions hold is no stretch of a spring.
-  const double gap = state.gap + nodes_[i].lift; // but for what is allowed
-  return 0.5 * state.share * nodes_[i].stiffness.normal * gap * gap +
-         (pair_.penetration_tolerance > 0. ? 0. : state.tangential_energy);
+  const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
+  return 0.5 * states_[i].share * nodes_[i].stiffness.normal * gap * gap +
+         (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
 }
 
-RigidContact::Springs RigidContact::springs_of(const std::size_t i, const NodeState &state) const {
-  const double energy = stored_energy(i, state);
+RigidContact::Springs RigidContact::springs_of(const std::size_t i, const double energy) const {
   const double depth = depth_on_current_areas * nodes_[i].size;
   const double limit = 0.5 * nodes_[i].stiffness.normal * depth * depth;
-  if (!is_dynamic_ || energy <= limit)
+  if (!is_explicit_ || energy <= limit)
     return {energy, energy, 1.};
   const double share = std::sqrt(limit / energy);
   return {energy, share * (2. - share) * energy, share};
@@ -494,8 +481,7 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
         facet.shallow_areas[a] = not_touching; // what it is here is found below
       energies[a] = springs.on_current_area;
       depth = std::max(depth, 2. * springs.energy / nodes_[facet.nodes[a]].stiffness.normal);
-    } else
-      facet.shallow_areas[a] = not_touching;
+    }
   if (!touches(states))
     return;
   depth = std::sqrt(depth);
@@ -607,29 +593,13 @@ void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<dou
   const FacetAreas areas = compute_areas(states_of(facet), exact);
   for (unsigned int a = 0; a < 4; ++a) {
     const NodeState &state = states_[facet.nodes[a]];
-    Springs springs = springs_of(facet.nodes[a]);
-    if (facet.shallow_areas[a] ==
-        not_touching) // in the step in which it comes, all stands on the area as it is
-      springs.share = 1.;
-    const double area = counted_area(facet, a, areas.areas[a], springs);
-    Tensor<1, 3> by_node; // ∂(counted area)/∂x_a, but for ∂A_a/∂x_a at a normal that is held
-    if (exact)
-      by_node = springs.share * (state.turning * areas.normal_derivatives[a]);
-    if (exact && springs.share < 1.) {
-      const ContactStiffness &k = nodes_[facet.nodes[a]].stiffness;
-      const Tensor<1, 3> t = state.traction - (state.traction * state.normal) * state.normal;
-      const double p = -state.share * k.normal * state.gap;
-      const Tensor<1, 3> by_energy = // −∂e/∂x
-          p * state.normal + (t * state.tangent + p * (state.turning * t)) / k.tangential;
-      by_node +=
-          (areas.areas[a] - facet.shallow_areas[a]) * springs.share / (2. * springs.energy) * by_energy;
-    }
+    const Tensor<1, 3> turned = exact ? state.turning * areas.normal_derivatives[a] : Tensor<1, 3>();
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j) {
-        matrix(3 * a + i, 3 * a + j) += area * state.tangent[i][j] - state.traction[i] * by_node[j];
+        matrix(3 * a + i, 3 * a + j) += areas.areas[a] * state.tangent[i][j] - state.traction[i] * turned[j];
         if (exact)
           for (unsigned int b = 0; b < 4; ++b)
-            matrix(3 * a + i, 3 * b + j) -= springs.share * state.traction[i] * areas.derivatives[a][b][j];
+            matrix(3 * a + i, 3 * b + j) -= state.traction[i] * areas.derivatives[a][b][j];
       }
   }
 }
@@ -649,12 +619,9 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
               FacetStates states = states_of(facet);
               states[b] = &moved;
               const FacetAreas areas = compute_areas(states, false);
-              for (unsigned int a = 0; a < 4; ++a) {
-                const double area =
-                    counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a], *states[a]));
+              for (unsigned int a = 0; a < 4; ++a)
                 for (unsigned int i = 0; i < 3; ++i)
-                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * area * states[a]->traction[i];
-              }
+                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
             }
         }
       },
@@ -662,7 +629,7 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
 }
 
 void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
-  for_each_counted_area([&](const unsigned int i, const double area) {
+  for_each_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
     const Tensor<1, 3> force = area * (state.tangent * motion);
@@ -683,7 +650,7 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
       const NodeState &state = states_[facet.nodes[a]];
       v[a] = rate.translation +
              dealii::cross_product_3d(rate.rotation, state.position - placement_.moved_centre());
-      F[a] = counted_area(facet, a, areas.areas[a], springs_of(facet.nodes[a])) * state.traction;
+      F[a] = areas.areas[a] * state.traction;
     }
     for (unsigned int a = 0; a < 4; ++a) {
       Tensor<1, 3> along = dealii::cross_product_3d(rate.rotation, F[a]); // ∂F_a/∂s
@@ -728,7 +695,7 @@ void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
 
 RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
   Grip grip;
-  for_each_counted_area([&](const unsigned int i, const double area) {
+  for_each_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     const Tensor<1, 3> v = rate.translation + dealii::cross_product_3d(
                                                   rate.rotation, state.position - placement_.moved_centre());
@@ -754,24 +721,11 @@ void RigidContact::commit() {
   }
   base_.clear();
   friction_n_ = friction_;
-  if (is_dynamic_ && !is_explicit_) // else add_forces() has done it
-    note_shallow_areas();
-}
-
-void RigidContact::note_shallow_areas() {
-  for (auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (!touches(states)) {
-      facet.shallow_areas.fill(not_touching);
-      continue;
-    }
-    const FacetAreas areas = compute_areas(states, false);
-    for (unsigned int a = 0; a < 4; ++a)
-      if (states[a]->status == ContactStatus::open)
-        facet.shallow_areas[a] = not_touching;
-      else if (facet.shallow_areas[a] == not_touching || springs_of(facet.nodes[a]).share == 1.)
-        facet.shallow_areas[a] = areas.areas[a];
-  }
+  if (is_explicit_) // not before what springs held is released
+    for (auto &facet : facets_)
+      for (unsigned int a = 0; a < 4; ++a)
+        if (states_[facet.nodes[a]].status == ContactStatus::open)
+          facet.shallow_areas[a] = not_touching;
 }
 
 void RigidContact::restart() {
@@ -843,12 +797,17 @@ double RigidContact::counted_area(const Facet &facet, const unsigned int corner,
                                                        : springs.share * area + (1. - springs.share) * before;
 }
 
+double RigidContact::energy_on(const Facet &facet, const unsigned int corner, const double area,
+                               const Springs &springs) {
+  const double before = facet.shallow_areas[corner] == not_touching ? area : facet.shallow_areas[corner];
+  return area * springs.on_current_area + before * (springs.energy - springs.on_current_area);
+}
+
 Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
                                        const double area) const {
   const std::size_t i = facet.nodes[corner];
   const NodeState &state = states_[i];
   const Springs springs = springs_of(i);
-  const double before = facet.shallow_areas[corner] == not_touching ? area : facet.shallow_areas[corner];
   const double counted = counted_area(facet, corner, area, springs);
   if (!(counted > 0.))
     return {};
@@ -856,7 +815,7 @@ Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, co
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  load.stored_energy += area * springs.on_current_area + before * (springs.energy - springs.on_current_area);
+  load.stored_energy += energy_on(facet, corner, area, springs);
   load.dissipation += counted * state.dissipation;
   load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
   return force;
@@ -887,14 +846,17 @@ void RigidContact::add_released(ContactLoad &load) const {
     const FacetStates states = states_of(facet);
     if (std::none_of(states.begin(), states.end(), [&](const NodeState *node) { return is_released(*node); }))
       continue;
+    std::array<double, 4> areas{};
     for (const auto &point : facet_points()) {
       const Tensor<1, 3> area_vector =
           point.area_vector([&](const unsigned int a) { return states[a]->position; });
       for (unsigned int a = 0; a < 4; ++a)
-        if (is_released(*states[a]))
-          load.dissipation +=
-              std::max(0., -(area_vector * states[a]->normal)) * point.N[a] * states[a]->tangential_energy;
+        areas[a] += std::max(0., -(area_vector * states[a]->normal)) * point.N[a];
     }
+    for (unsigned int a = 0; a < 4; ++a)
+      if (is_released(*states[a]))
+        load.dissipation +=
+            energy_on(facet, a, areas[a], springs_of(facet.nodes[a], states[a]->tangential_energy));
   }
 }
 

@@ -139,7 +139,8 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   constexpr double little = 0.1;
   is_little_ = growth_of_errors * most_slope * h * (end_time_ - start_) <=
                2. * little * tolerances_.steps * force_scale();
-  interval_ = is_steady || is_little_ ? std::min(2 * interval_, longest_interval) : shortest_interval;
+  interval_ = is_steady || is_little_ ? std::clamp(2 * interval_, shortest_interval, longest_interval)
+                                      : shortest_interval;
   until_measurement_ = interval_;
   if (tolerances_.steps == 0.)
     return;
@@ -185,9 +186,10 @@ void ErrorControl::measure_penetration(const double penetration, const Forces &f
   const bool is_steady =
       !is_first && penetration_slope_ <= 2. * last_slope && penetration_slope_ >= 0.5 * last_slope;
   const bool is_little = error <= little * tolerances_.penetration * force;
-  penetration_interval_ = is_little   ? longest_interval
-                          : is_steady ? std::min(2 * penetration_interval_, longest_interval)
-                                      : shortest_interval;
+  penetration_interval_ = is_little ? longest_interval
+                          : is_steady
+                              ? std::clamp(2 * penetration_interval_, shortest_interval, longest_interval)
+                              : shortest_interval;
   until_penetration_ = penetration_interval_;
   if (tolerances_.penetration == 0. || !(error > 0.))
     return;

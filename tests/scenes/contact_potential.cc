@@ -150,6 +150,20 @@ void test_hops() {
   }
 }
 
+/// A block that goes deep at several times the speed of its waves, aslant, and whose friction springs let go
+/// on areas that have changed since.
+void test_deep_friction() {
+  parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
+  scene.bodies[0].mesh.arguments = "2, 2, 2 : -0.5, -0.5, 0.02 : 0.5, 0.5, 1.02 : true";
+  scene.bodies[0].initial_velocity.value = {"500", "300", "-2000"};
+  scene.pairs[0].friction_coefficient = 2.;
+  scene.pairs[0].tangential_penalty = 0.5;
+  scene.time_stepping.end_time = 3e-3;
+  ExplicitRun run(scene);
+  run.finish(1e-5, [] {});
+  check("deep friction springs that let go: energy", run.worst_drift, 1e-2);
+}
+
 /// A cube that is one element, so that all of it is at the wall: the step gives way to what enters and
 /// leaves.
 void test_long_steps() {
@@ -177,6 +191,7 @@ int main(int argc, char *argv[]) {
   test_blows();
   test_bar();
   test_hops();
+  test_deep_friction();
   test_long_steps();
   return testing::exit_code();
 }

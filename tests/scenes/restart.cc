@@ -51,8 +51,7 @@ int main(int argc, char *argv[]) {
         [](auto &run, const double time, History &history) { run.run(time, 1, history); }, 1e-5);
   }
   {
-    parameters::Scene scene =
-        testing::read_test_scene("hard_blow.prm"); // deep, on areas from before
+    parameters::Scene scene = testing::read_test_scene("hard_blow.prm"); // deep, on areas from before
     scene.bodies[0].initial_velocity.value = {"100", "200", "-1000"};
     scene.pairs[0].friction_law = parameters::ContactPair::FrictionLaw::coulomb;
     scene.pairs[0].friction_coefficient = 0.1;

@@ -214,8 +214,8 @@ private:
   struct Facet {
     std::array<unsigned int, 4> nodes;
     std::uint64_t key;
-    /// Of dynamic scenes: each corner's area in the last step in which its node was not deep, or in its first
-    /// one; not_touching where it does not touch.
+    /// Of explicit scenes: each corner's area in the last step in which its node was not deep, or in its
+    /// first one; not_touching where it does not touch.
     std::array<double, 4> shallow_areas;
   };
   static constexpr double not_touching = -1.;
@@ -255,11 +255,9 @@ private:
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   static bool touches(const FacetStates &states);
-  /// Calls add(index of the slave node that touches, the area at one facet that its traction stands on).
-  template <class Add> void for_each_counted_area(const Add &add) const;
+  /// The area that a node's traction stands on; and what its springs hold on that.
   static double counted_area(const Facet &facet, unsigned int corner, double area, const Springs &springs);
-  /// Of nodes that are not deep, or touch since this step.
-  void note_shallow_areas();
+  static double energy_on(const Facet &facet, unsigned int corner, double area, const Springs &springs);
   /// Of a corner whose node touches, with its area at the facet; the force on the body.
   dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
                                    double area) const;
@@ -268,9 +266,9 @@ private:
   /// Whether another tool has a surface there, nearer than this.
   bool goes_on(const dealii::Tensor<1, 3> &position, double near) const;
   /// In the penalty springs of a node that touches [energy/length²].
-  double stored_energy(std::size_t i, const NodeState &state) const;
-  Springs springs_of(std::size_t i, const NodeState &state) const;
-  Springs springs_of(const std::size_t i) const { return springs_of(i, states_[i]); }
+  double stored_energy(std::size_t i) const;
+  Springs springs_of(std::size_t i, double energy) const;
+  Springs springs_of(const std::size_t i) const { return springs_of(i, stored_energy(i)); }
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
   /// −Σ_a ê_a ∂A_a/∂x_b (M36), ê what areas as they are weigh of the stored energy e: with these, normal
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
@@ -290,7 +288,6 @@ private:
   const MPI_Comm communicator_;
   ContactTangent tangent_;
   const bool is_explicit_;    ///< works are those of the trapezoidal rule
-  const bool is_dynamic_;     ///< deep nodes stand on areas from before they were deep
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()
