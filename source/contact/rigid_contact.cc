@@ -388,6 +388,18 @@ bool RigidContact::touches(const FacetStates &states) {
                      [](const NodeState *state) { return state->status != ContactStatus::open; });
 }
 
+template <class Visit> void RigidContact::for_each_touching(const Visit &visit) const {
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    if (!touches(states))
+      continue;
+    const FacetAreas areas = compute_areas(states, false);
+    for (unsigned int a = 0; a < 4; ++a)
+      if (states[a]->status != ContactStatus::open)
+        visit(facet, a, areas.areas[a]);
+  }
+}
+
 template <class Add> void RigidContact::for_each_area(const Add &add) const {
   for (const auto &facet : facets_) {
     const FacetStates states = states_of(facet);
@@ -551,15 +563,9 @@ double RigidContact::stiffness_against_tool() const {
   };
   if (is_removed_ || (tool_.control() != Tool::Control::force && tool_.control() != Tool::Control::moment))
     return sum;
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (!touches(states))
-      continue;
-    const FacetAreas areas = compute_areas(states, false);
-    for (unsigned int a = 0; a < 4; ++a)
-      if (states[a]->status != ContactStatus::open)
-        add(facet.nodes[a], largest_area(facet, a, areas.areas[a]));
-  }
+  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
+    add(facet.nodes[corner], largest_area(facet, corner, area));
+  });
   for_each_near(add);
   return sum;
 }
@@ -823,15 +829,9 @@ Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, co
 
 ContactLoad RigidContact::local_load() const {
   ContactLoad load;
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (!touches(states))
-      continue;
-    const FacetAreas areas = compute_areas(states, false);
-    for (unsigned int a = 0; a < 4; ++a)
-      if (states[a]->status != ContactStatus::open)
-        add_to_load(load, facet, a, areas.areas[a]);
-  }
+  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
+    add_to_load(load, facet, corner, area);
+  });
   add_released(load);
   return load;
 }

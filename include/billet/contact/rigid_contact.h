@@ -252,6 +252,8 @@ private:
   void begin_at(const Placement &placement, const DisplacementOf &displacement_of);
   /// Calls add(index of the slave node, its area at one facet).
   template <class Add> void for_each_area(const Add &add) const;
+  /// Calls visit(facet, corner, its area) for each corner whose node touches.
+  template <class Visit> void for_each_touching(const Visit &visit) const;
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   static bool touches(const FacetStates &states);
