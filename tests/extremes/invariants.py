@@ -362,6 +362,28 @@ class Running(unittest.TestCase):
                 verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
             self.assertEqual(verdict["outcome"], "right" if right else "wrong", (says, balanced))
 
+    def test_lost_symmetry(self):
+        # Excused only where a nudge at the start changes the end: where it does not, the program is not symmetric.
+        case = plan.Case("skid.implicit", {"mu": 2}, (), ())
+        for off, differs, right in ((0.01, 0.0, False), (0.01, 1e-12, False), (0.01, 0.5, True), (0.01, 0.0005, False), (1e-5, 0.0, True)):
+            runner = self.runner()
+            work = self.folder / "work"
+            work.mkdir(exist_ok=True)
+            (work / "stdout").write_text("")
+            setup = scenes.make("skid.implicit", {"mu": 2})
+            setup.checks = [lambda r: [must.Finding("mirror symmetry", off, 1e-4)]]
+            found, nudged = (made_up("skid.implicit", {"mu": 2}, move=lambda x: numpy.array([u, 0, 0])) for u in (1.0, 1.0 + differs))  # noqa: B023
+            with unittest.mock.patch.object(Result, "read", side_effect=[found, nudged]):
+                verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
+            self.assertEqual(verdict["outcome"], "right" if right else "wrong", (off, differs))
+            if right and off > 1e-4:
+                said = report.forgetful([{"name": "a/b", **verdict}])
+                self.assertIn("In 1 motion that rattles round-off grows", said)
+                self.assertIn("`a/b` (0.01, nudged 0.5)", said)
+                self.assertEqual(report.forgetful([{"name": "a/b", "outcome": "right", "errors": {}}]), "")
+        self.assertIsNone(scenes.nudged(scenes.make("upset", {}), 1e-13))
+        self.assertEqual(scenes.nudged(setup, 0.5)["Bodies"]["block"]["Initial velocity"], "10 + 5; 0 + 5; 0 + 5")
+
     def test_other_programs(self):
         runner = self.runner("exit 1")
         record = runner.run(plan.Case("upset", {}, (), ()))

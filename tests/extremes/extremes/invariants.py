@@ -423,6 +423,18 @@ def rattles(r):
     return "kinetic_energy" in r.history and r.knobs.penalty * max(ratio, 1 / ratio) >= 1e3
 
 
+# What round-off breaks in a motion that is chaotic, and how much of it a nudge is: some hundred roundings.
+SYMMETRIES = ("mirror symmetry", "diagonal symmetry", "symmetry of quarter turns", "momentum across")
+NUDGE = 1e-13
+
+
+def sensitivity(r, nudged):
+    """How far displacements at the end differ from those of the same motion with its first velocity nudged. A motion that
+    forgets how it began keeps no symmetry better than that."""
+    u = r.fields["displacement"]
+    return part(float(numpy.max(numpy.abs(nudged.fields["displacement"] - u))), float(numpy.max(numpy.abs(u))))
+
+
 def symmetry(r, name, map_point, map_vector):
     if r.knobs.distortion:
         return []

@@ -12,6 +12,7 @@ from matplotlib import pyplot  # noqa: E402
 from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
+from .invariants import NUDGE  # noqa: E402
 from .runner import AT_MOST, OUTCOMES, PATIENCE  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
@@ -145,6 +146,16 @@ def slow(records):
         for s, r in long[:20]) + ".")
 
 
+def forgetful(records):
+    """In words: motions in which a symmetry is lost to round-off."""
+    lost = [r for r in records if r["outcome"] == "right" and r.get("sensitivity")]
+    if not lost:
+        return ""
+    return (f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows until symmetry is lost; run once more with the first velocity changed by "
+            f"{NUDGE:g} of it, displacements at the end differ by as much: " + ", ".join(
+                f"`{r['name']}` ({r['errors'].get('mirror symmetry', 0):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:20]) + ".")
+
+
 def write(records, folder, planned=0, program=""):
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
@@ -159,7 +170,7 @@ def write(records, folder, planned=0, program=""):
              "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
              f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
              + slow(records),
-             " ".join(said for said in (units(records), programs(records, program)) if said),
+             " ".join(said for said in (units(records), forgetful(records), programs(records, program)) if said),
              table(["", *outcomes, "scenes"], [["all", *[whole[o] for o in outcomes], len(records)]]
                    + [[kind, *[sum(r["base"] in bases and r["outcome"] == o for r in records) for o in outcomes],
                        sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),

@@ -55,6 +55,18 @@ class Setup:
         self.knobs, self.frame, self.sections, self.checks, self.facts = knobs, frame, sections, checks, facts
 
 
+def nudged(setup, part):
+    """The sections of `setup` with every first velocity changed in all three directions by this part of it; None if nothing has one."""
+    bodies = {}
+    for name, of_body in setup.sections["Bodies"].items():
+        if "Initial velocity" in of_body:
+            v = of_body["Initial velocity"].split(";")
+            by = number(part * setup.facts["speed"] * setup.frame.speed)
+            of_body = {**of_body, "Initial velocity": ";".join(f"{x.rstrip()} + {by}" for x in v)}
+        bodies[name] = of_body
+    return {**setup.sections, "Bodies": bodies} if bodies != setup.sections["Bodies"] else None
+
+
 def frame_of(k):
     return Frame(k.length, k.stress, k.time, UPRIGHT, k.turned)
 
