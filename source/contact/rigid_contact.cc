@@ -177,12 +177,15 @@ void RigidContact::introduce(std::vector<RigidContact> &contacts) {
         contact.others_.push_back(&other);
 }
 
-bool RigidContact::goes_on(const Tensor<1, 3> &position, const double near) const {
+bool RigidContact::goes_on(const Tensor<1, 3> &position, const Tensor<1, 3> &normal,
+                           const double near) const {
+  constexpr double alike = 0.5; // cosine
   return std::any_of(others_.begin(), others_.end(), [&](const RigidContact *other) {
     if (other->is_removed_)
       return false;
     const auto projection = other->tool_.surface().project(other->placement_.to_tool(position));
-    return projection.exists && std::abs(projection.gap) < near;
+    return projection.exists && std::abs(projection.gap) < near &&
+           normal * (other->placement_.rotation * projection.normal) > alike;
   });
 }
 
@@ -215,7 +218,8 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
   auto projection = tool_.surface().project(on_tool, node.patch);
   const double width = fading_width * node.size;
-  const bool fades = !projection.exists && projection.beyond < width && !goes_on(position, node.size);
+  const bool fades = !projection.exists && projection.beyond < width &&
+                     !goes_on(position, placement_.rotation * projection.normal, node.size);
   Fading fading{};
   if (fades) {
     RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch, width);
