@@ -68,7 +68,7 @@ constexpr std::array<Row, 29> rows = {{
     {statics, "Contact pairs", "Facets", "planed", "", ""},
     {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "40", "0.045 / E"},
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
-    {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.9", "0.4", "0.9"},
+    {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.95", "0.4", "0.9"},
     {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", ""},
     // Elements and laws. A target error leaves the elements to the scene, as it does the mesh; the law with
     // the final instantaneous rotation differs from the multiplicative one by less than a thousandth where

@@ -37,6 +37,9 @@ constexpr unsigned int shortest_interval = 4, soon = 1;
 // This is what the first makes of them.
 constexpr double growth_of_errors = 1.4;
 
+// The sum of 1, ½, ¼, ...: of errors that two steps forget by half.
+constexpr double sum_of_fading = 2.;
+
 } // namespace
 
 double ErrorControl::force_scale() const {
@@ -47,10 +50,11 @@ double ErrorControl::force_scale() const {
                    last_force_ + std::min(0.5 * force_rate_ * left, most_growth * last_force_)});
 }
 
-void ErrorControl::add_step_errors(const double h_squared) {
+void ErrorControl::add_step_errors(const double h) {
   errors_.resize(slopes_.size()); // after a restart there may be other tools
   for (std::size_t i = 0; i < errors_.size(); ++i)
-    errors_[i] += growth_of_errors * h_squared * slopes_[i];
+    errors_[i] = tolerances_.fade ? sum_of_fading * growth_of_errors * 2. * h * h * slopes_[i]
+                                  : errors_[i] + growth_of_errors * h * h * slopes_[i];
 }
 
 void ErrorControl::accept(const double h, const Forces &forces, const double residual,
@@ -64,7 +68,7 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
   last_force_ = force;
   iterations_ += residual * force * h;
   if (slopes_.size() == forces.size())
-    add_step_errors(h * h);
+    add_step_errors(h);
   unmeasured_ += h * h;
   unmeasured_span_ += h;
   const double error = sum_of_norms(errors_);
@@ -89,6 +93,20 @@ double ErrorControl::allowed_rate() const {
   constexpr double least = 0.2, most = 6.;
   const double span = end_time_ - start_, even = 2. * tolerances_.steps * scale / span;
   return std::min(most * even, std::max(least * even * span * span / (left * left), rate));
+}
+
+double ErrorControl::left_at_the_end(const double slope, const double h) const {
+  return growth_of_errors * slope * h * (tolerances_.fade ? sum_of_fading * 2. * h : end_time_ - start_);
+}
+
+double ErrorControl::allowed_stretch(const double h) const {
+  constexpr double least = 0.5, most = 4.; // at once
+  if (!(last_slope_ > 0.))
+    return most;
+  const double stretch = tolerances_.fade
+                             ? std::sqrt(tolerances_.steps * force_scale() / left_at_the_end(last_slope_, h))
+                             : allowed_rate() / (growth_of_errors * last_slope_ * h);
+  return std::clamp(stretch, least, most);
 }
 
 void ErrorControl::measure_steps(const double h, const Forces &forces, const Forces &of_one_step,
@@ -116,8 +134,10 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   slopes_.resize(forces.size());
   errors_.resize(forces.size());
   for (std::size_t i = 0; i < forces.size(); ++i)
-    errors_[i] +=
-        growth_of_errors * (2. * h * h * now[i] + h_squared * between * now[i] - unmeasured_ * slopes_[i]);
+    errors_[i] = tolerances_.fade
+                     ? sum_of_fading * growth_of_errors * 2. * h * h * now[i]
+                     : errors_[i] + growth_of_errors * (2. * h * h * now[i] + h_squared * between * now[i] -
+                                                        unmeasured_ * slopes_[i]);
   const double error = sum_of_norms(errors_);
   steps_ += 0.5 * (error - last_error_) * unmeasured_span_;
   last_error_ = error;
@@ -137,22 +157,19 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   n_failed_ = 0;
   const bool is_steady = slope <= 2. * last_slope && slope >= 0.5 * last_slope && !is_first;
   constexpr double little = 0.1;
-  is_little_ = growth_of_errors * most_slope * h * (end_time_ - start_) <=
-               2. * little * tolerances_.steps * force_scale();
+  const double rough_target = tolerances_.fade ? tolerances_.steps : 2. * tolerances_.steps;
+  is_little_ = left_at_the_end(most_slope, h) <= little * rough_target * force_scale();
   interval_ = is_steady || is_little_ ? std::clamp(2 * interval_, shortest_interval, longest_interval)
                                       : shortest_interval;
   until_measurement_ = interval_;
   if (tolerances_.steps == 0.)
     return;
-  const double rate = growth_of_errors * last_slope_ * h;
-  constexpr double least = 0.5, most = 4.; // of the change at once
-  const double factor = rate > 0. ? allowed_rate() / rate : most;
-  longest_step_ = h * std::max(least, std::min(most, factor));
+  longest_step_ = h * allowed_stretch(h);
   // Where steps matter at all: not so long that c could change beyond recognition between two measurements,
   // nor so short that what happens once in a while, whatever the step, would decide.
   constexpr double matters = 0.05, longest = 0.65, shortest = 3.;
   const double span = end_time_ - start_;
-  if (growth_of_errors * most_slope * h * span > 2. * matters * tolerances_.steps * force_scale()) {
+  if (!tolerances_.fade && left_at_the_end(most_slope, h) > matters * rough_target * force_scale()) {
     const double most_span = longest * std::sqrt(tolerances_.steps) * span;
     longest_step_ = std::min(longest_step_, difference > noise ? most_span : std::max(most_span, h));
     if (longest_step_ < h)

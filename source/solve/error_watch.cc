@@ -33,23 +33,29 @@ bool may_choose_penetration(const parameters::Scene &parameters) {
                                                 })) == parameters.pairs.size();
 }
 
-/// Whether a step's length is part of its answer: stresses that return to a yield surface, rates of stress
-/// that are integrated, tractions that return to a friction cone.
-bool depends_on_steps(const Scene &scene) {
+/// Stresses that return to a yield surface, rates of stress that are integrated: what they were off stays.
+bool stresses_depend_on_steps(const Scene &scene) {
   const std::vector<parameters::Body> &bodies = scene.parameters().bodies;
-  return scene.capabilities().friction || scene.capabilities().plasticity ||
+  return scene.capabilities().plasticity ||
          std::any_of(bodies.begin(), bodies.end(), [](const parameters::Body &body) {
            return body.material.kinematics.value == parameters::Material::Kinematics::hypoelastic;
          });
 }
 
+/// Whether a step's length is part of its answer: that of stresses, or of tractions that return to a friction
+/// cone. These forget how they came there.
+bool depends_on_steps(const Scene &scene) {
+  return scene.capabilities().friction || stresses_depend_on_steps(scene);
+}
+
 ErrorControl::Tolerances tolerances_of(const Scene &scene) {
   const parameters::Scene &parameters = scene.parameters();
   const double target = parameters.target_error;
-  return {parameters.time_stepping.error_tolerance, !may_choose_penetration(parameters) ? 0.
-                                                    : depends_on_steps(scene)
-                                                        ? part_of_penetration * target
-                                                        : part_of_penetration_alone * target};
+  return {parameters.time_stepping.error_tolerance,
+          !may_choose_penetration(parameters) ? 0.
+          : depends_on_steps(scene)           ? part_of_penetration * target
+                                              : part_of_penetration_alone * target,
+          !stresses_depend_on_steps(scene)};
 }
 
 } // namespace

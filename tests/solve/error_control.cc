@@ -26,17 +26,19 @@ struct Result {
 
 constexpr double caution = 1.4; // of the estimate
 
-/// Steps until time 1, in twos where a measurement is wanted. `jump`: of the error, once, at time 0.5.
+/// Steps until time 1, in twos where a measurement is wanted. `jump`: of the error, once, at time 0.5. Errors
+/// that fade are halved every two steps.
 Result run(const ErrorControl::Tolerances &tolerances, const double slope, const double first_step,
            const double stretch = 1., double jump = 0.) {
   ErrorControl control(tolerances, 1.);
   double t = 0., h = first_step, error = 0., error_integral = 0., work = 0., force_before = 0.;
   unsigned int n = 0;
+  const double kept = tolerances.fade ? std::sqrt(0.5) : 1.;
   const auto advance = [&] {
     const double before = error;
     t += h;
     ++n;
-    error += slope * h * h;
+    error = kept * error + slope * h * h;
     error_integral += 0.5 * (before + error) * h;
     work += 0.5 * (force_before + 3. + 2. * t) * h;
     force_before = 3. + 2. * t;
@@ -45,7 +47,7 @@ Result run(const ErrorControl::Tolerances &tolerances, const double slope, const
   while (t < 1. - 1e-12) {
     h = std::min(h, 1. - t);
     if (control.wants_measurement(h) && t + 2. * h <= 1.) {
-      double of_one_step = error + slope * 4. * h * h;
+      double of_one_step = kept * kept * error + slope * 4. * h * h;
       advance();
       advance();
       if (t > 0.5) {
@@ -80,6 +82,18 @@ int main() {
     check("and use a good part of it", controlled.error > 0.2 * tolerance);
     check("the estimate is the error, with caution",
           near(controlled.estimate.steps, caution * controlled.error, 0.05));
+  }
+  // Errors that fade are no more than those of some steps, however many there were: these may be longer.
+  const Result fading = run({0., 0., true}, 0.5, 0.01);
+  check("equal steps whose errors fade: the estimate is no less than the error, nor thrice as much",
+        fading.estimate.steps > fading.error && fading.estimate.steps < 3. * fading.error);
+  for (const double tolerance : {1e-2, 1e-3}) {
+    const Result controlled = run({tolerance, 0., true}, 0.5, 0.2 * tolerance, 1.5);
+    check("controlled steps whose errors fade keep the tolerance",
+          controlled.error < tolerance && controlled.estimate.steps < 1.2 * tolerance);
+    check("and are longer than those whose errors add up",
+          controlled.error > 0.2 * tolerance &&
+              controlled.n_steps < 0.9 * run({tolerance, 0.}, 0.5, 0.2 * tolerance, 1.5).n_steps);
   }
   const Result exact = run({1e-3, 0.}, 0., 0.01, 1.5);
   check("without an error steps grow", exact.n_steps < 30 && exact.estimate.steps == 0.);

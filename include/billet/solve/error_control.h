@@ -18,7 +18,8 @@ namespace billet {
 ///
 /// A step of length h that returns stresses to a yield surface, or tractions to a friction cone, in the
 /// direction of its whole motion leaves an error c h², and errors of steps add up. From the same state one
-/// step of 2 h differs from two of h by 4 c h² − 2 c h²: by what the two are off.
+/// step of 2 h differs from two of h by 4 c h² − 2 c h²: by what the two are off. Tractions alone, without
+/// stresses that depend on their way, forget it: every two steps half of what was, so that 4 c h² is left.
 class ErrorControl {
 public:
   using Force = dealii::Tensor<1, 3>;
@@ -27,6 +28,7 @@ public:
   struct Tolerances {
     double steps = 0.;       ///< part of the forces; 0: steps are left alone
     double penetration = 0.; ///< part of the forces; 0: penetrations are left alone
+    bool fade = false;       ///< errors of steps fade, else they add up
   };
   ErrorControl(const Tolerances &tolerances, const double end_time)
       : tolerances_(tolerances), end_time_(end_time) {}
@@ -90,9 +92,13 @@ private:
   static constexpr unsigned int most_failed = 5; ///< in a row
 
   double force_scale() const;
-  void add_step_errors(double h_squared);
+  void add_step_errors(double h);
   /// The error that steps may add to the forces in a unit of time from now on.
   double allowed_rate() const;
+  /// What steps of length `h` leave of the forces at the end, if each pair of them makes `slope` times 2 h².
+  double left_at_the_end(double slope, double h) const;
+  /// How much longer than `h` steps may be.
+  double allowed_stretch(double h) const;
 
   Tolerances tolerances_;
   double end_time_;
