@@ -350,14 +350,16 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
   result.sources = {
       {"steps", estimate.steps,
        "try a smaller 'Largest step' or 'Initial step': no step is taken back for its error, and "
-       "where contacts come and go their estimate is on the safe side"},
+       "where contacts come and go their estimate is on the safe side",
+       !watch.measures_steps() || watch.control().n_measurements() > 0},
       {"penetrations", estimate.penetration,
        watch.controls_penetration()
            ? "what they are at the start, and where much begins to touch at once, is known afterwards only: "
              "try "
              "a smaller 'Initial step', or a 'Penetration tolerance' of your own in every pair"
            : "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error in all "
-             "pairs"},
+             "pairs",
+       !watch.measures_penetration() || watch.control().knows_penetration()},
       {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
   result.costs = {{"steps taken", report.step},
                   {"Newton iterations", report.total_iterations},

@@ -13,7 +13,7 @@ namespace billet {
 double ErrorReport::total() const {
   double sum = 0.;
   for (const auto &source : sources)
-    sum += source.error;
+    sum += source.is_known ? source.error : 0.;
   return sum;
 }
 
@@ -28,9 +28,17 @@ std::string ErrorReport::describe() const {
          << " that errors could be parts of: of a tool, between two bodies or, without these, of supports";
     return text.str();
   }
-  text << "believed error " << percent(total()) << " % of the " << of_what << " (";
-  for (const auto &source : sources)
-    text << (&source == sources.data() ? "" : ", ") << source.name << " " << percent(source.error) << " %";
+  const auto unknown =
+      std::find_if(sources.begin(), sources.end(), [](const Source &source) { return !source.is_known; });
+  text << "believed error " << (unknown == sources.end() ? "" : "at least ") << percent(total())
+       << " % of the " << of_what << " (";
+  for (const auto &source : sources) {
+    text << (&source == sources.data() ? "" : ", ") << source.name << " ";
+    if (source.is_known)
+      text << percent(source.error) << " %";
+    else
+      text << "unknown";
+  }
   text << ")";
   text.precision(7);
   for (const auto &[name, value] : costs)
@@ -40,7 +48,11 @@ std::string ErrorReport::describe() const {
     const auto worst = std::max_element(sources.begin(), sources.end(),
                                         [](const Source &a, const Source &b) { return a.error < b.error; });
     text << "\nThe target was not reached: " << worst->name << " make most of the error; " << worst->remedy;
-  }
+  } else if (target > 0. && unknown != sources.end())
+    text
+        << "\nWhether the target was reached is not known: there were too few steps, or none that succeeded, "
+           "to measure what "
+        << unknown->name << " make; " << unknown->remedy;
   text << "\nThe mesh is not part of this. Stresses jump between elements by " << percent(stress_jumps)
        << " % in the mean: what a finer mesh would smooth";
   if (target > 0. && stress_jumps > target)
@@ -54,10 +66,14 @@ void ErrorReport::write(const std::string &folder) const {
   file << "quantity,value\n";
   if (target > 0.)
     file << "target," << target << "\n";
-  const auto believed = [this](const double error) { return is_known ? error : std::nan(""); };
-  file << "error," << believed(total()) << "\n";
+  const auto believed = [this](const double error, const bool source_is_known) {
+    return is_known && source_is_known ? error : std::nan("");
+  };
+  const bool all_known =
+      std::all_of(sources.begin(), sources.end(), [](const Source &source) { return source.is_known; });
+  file << "error," << believed(total(), all_known) << "\n";
   for (const auto &source : sources)
-    file << source.name << "," << believed(source.error) << "\n";
+    file << source.name << "," << believed(source.error, source.is_known) << "\n";
   file << "stress jumps," << stress_jumps << "\n";
   file.precision(12);
   for (const auto &[what, value] : costs)

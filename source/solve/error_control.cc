@@ -53,7 +53,7 @@ double ErrorControl::force_scale() const {
 void ErrorControl::add_step_errors(const double h) {
   errors_.resize(slopes_.size()); // after a restart there may be other tools
   for (std::size_t i = 0; i < errors_.size(); ++i)
-    errors_[i] = tolerances_.fade ? sum_of_fading * growth_of_errors * 2. * h * h * slopes_[i]
+    errors_[i] = tolerances_.fade ? sum_of_fading * 2. * h * h * slopes_[i]
                                   : errors_[i] + growth_of_errors * h * h * slopes_[i];
 }
 
@@ -96,7 +96,8 @@ double ErrorControl::allowed_rate() const {
 }
 
 double ErrorControl::left_at_the_end(const double slope, const double h) const {
-  return growth_of_errors * slope * h * (tolerances_.fade ? sum_of_fading * 2. * h : end_time_ - start_);
+  return tolerances_.fade ? sum_of_fading * 2. * h * h * slope
+                          : growth_of_errors * slope * h * (end_time_ - start_);
 }
 
 double ErrorControl::allowed_stretch(const double h) const {
@@ -135,7 +136,7 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   errors_.resize(forces.size());
   for (std::size_t i = 0; i < forces.size(); ++i)
     errors_[i] = tolerances_.fade
-                     ? sum_of_fading * growth_of_errors * 2. * h * h * now[i]
+                     ? sum_of_fading * 2. * h * h * now[i]
                      : errors_[i] + growth_of_errors * (2. * h * h * now[i] + h_squared * between * now[i] -
                                                         unmeasured_ * slopes_[i]);
   const double error = sum_of_norms(errors_);
@@ -185,11 +186,12 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
 
 void ErrorControl::measure_penetration(const double penetration, const Forces &forces, const Forces &without,
                                        const double residuals) {
-  until_penetration_ = shortest_interval;
   const double force = sum_of_norms(forces), noise = residuals * force,
                error = std::max(0., distance(forces, without) - noise);
-  if (!(force > 0. && penetration > 0.))
+  if (!(force > 0. && penetration > 0.)) {
+    miss_penetration(false);
     return;
+  }
   const bool is_first = !has_penetration_;
   has_penetration_ = true;
   const double last_slope = penetration_slope_;

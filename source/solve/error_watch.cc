@@ -131,7 +131,7 @@ void ErrorWatch::take_measurement() {
     return;
   n_iterations_ += measured->n_iterations;
   if (measured->without.empty())
-    errors_.miss_penetration();
+    errors_.miss_penetration(measured->penetration > 0.);
   else
     errors_.measure_penetration(measured->penetration, measured->forces, measured->without,
                                 residual_factor_ * measured->residual);

@@ -15,6 +15,7 @@ struct ErrorReport {
     std::string name;
     double error;
     std::string remedy;
+    bool is_known = true; ///< else it could not be measured
   };
 
   std::string of_what;         ///< that the errors are parts of: forces, energies
@@ -24,6 +25,7 @@ struct ErrorReport {
   double stress_jumps = 0.;    ///< see stress_jumps()
   std::vector<std::pair<std::string, double>> costs;
 
+  /// Of what is known.
   double total() const;
   /// For the console.
   std::string describe() const;

@@ -36,8 +36,9 @@ public:
   /// Begins at this time.
   void begin(const double time) { time_ = start_ = time; }
 
-  /// Whether the next two steps should be compared with one of twice the length.
-  bool wants_measurement() const { return until_measurement_ == 0; }
+  /// Whether the next two steps should be compared with one of twice the length. Where nothing acts yet, or
+  /// no more, that would tell nothing.
+  bool wants_measurement() const { return until_measurement_ == 0 && last_force_ > 0.; }
 
   /// An accepted step of length `h`. `residual`: of the forces, at its end, as part of them; `penetration`:
   /// the deepest, see measure_penetration().
@@ -46,8 +47,9 @@ public:
   /// the last occasion for the first comparison.
   bool wants_measurement(const double h) const {
     constexpr double longer = 1.5, rounding = 1e-9;
-    return wants_measurement() ||
-           (n_measurements_ > 0 ? h > longer * measured_step_ : time_ + 3. * h > end_time_ * (1. + rounding));
+    return last_force_ > 0. &&
+           (wants_measurement() || (n_measurements_ > 0 ? h > longer * measured_step_
+                                                        : time_ + 3. * h > end_time_ * (1. + rounding)));
   }
   /// After the second of two steps of length `h`: what one of twice the length gave. What `residuals` make of
   /// the difference, as part of the forces, does not count.
@@ -58,8 +60,11 @@ public:
   /// What a step gave whose deepest penetration was `penetration`, as part of the tightest that may be asked
   /// for; and what without penetrations. What `residuals` make of the difference does not count.
   void measure_penetration(double penetration, const Forces &forces, const Forces &without, double residuals);
-  /// What penetrations make was not found: another measurement after some steps.
-  void miss_penetration() { until_penetration_ = longest_interval; }
+  /// What penetrations make was not found, where some bear, or nothing `touches`: another measurement after
+  /// some steps, or as soon as there is one to take.
+  void miss_penetration(bool touches) {
+    until_penetration_ = touches && has_penetration_ ? longest_interval : 0;
+  }
   /// Two steps of this length cannot be compared with one: another measurement is due soon. If that one
   /// `failed`, of shorter ones.
   void miss_measurement(double h, bool failed);
@@ -80,6 +85,8 @@ public:
   /// Whether there have been forces that errors can be parts of.
   bool has_forces() const { return work_ > 0.; }
   unsigned int n_measurements() const { return n_measurements_; }
+  /// Whether it has been measured what penetrations make, or there were none.
+  bool knows_penetration() const { return has_penetration_ || !(unmeasured_penetration_ > 0.); }
 
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);

@@ -33,6 +33,9 @@ public:
   const ErrorControl &control() const { return errors_; }
   /// Whether it chooses how deep contacts may go in; else the scene does.
   bool controls_penetration() const { return controls_penetration_; }
+  /// Whether steps, or penetrations, are a source of errors in this scene.
+  bool measures_steps() const { return measures_steps_; }
+  bool measures_penetration() const { return measures_penetration_; }
   /// What users should know before the end: that very many steps are to come; empty: nothing new.
   std::string take_note(const StepControl &control);
   /// Iterations of all measurements.
