@@ -133,6 +133,20 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
          "run, move the tool by its 'Translation', or let the material harden. ";
 }
 
+/// Shear and bulk modulus as far apart as here leave Newton's method few digits.
+std::string describe_incompressibility(const parameters::Scene &parameters) {
+  const double nearly = 0.49995;
+  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
+                                 [&](const auto &b) { return b.material.poisson_ratio > nearly; });
+  if (body == parameters.bodies.end())
+    return "";
+  std::ostringstream text;
+  text << ". Body '" << body->name
+       << "' is all but incompressible ('Poisson ratio' = " << body->material.poisson_ratio
+       << "): 0.4999 differs from that by a ten-thousandth of the bulk modulus, and is easier to solve";
+  return text.str();
+}
+
 std::string explain_failure(const parameters::Scene &parameters, const StepReport &report, const double from,
                             const double to) {
   std::ostringstream message;
@@ -154,7 +168,7 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
             << " try a softer penalty, more 'Most iterations', or look at the "
                "last picture for "
                "an unstable or torn mesh";
-  return message.str() + computed.str();
+  return message.str() + describe_incompressibility(parameters) + computed.str();
 }
 
 } // namespace
@@ -631,9 +645,11 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     if (is_finite)
       message << "fail to balance by " << 100. * problem.relative_drift()
               << " % of the largest energy so far, allowed are "
-              << 100. * parameters.explicit_dynamics.largest_drift
-              << " % ('Largest drift'): try a smaller 'Safety factor', a softer penalty or more bulk "
-                 "viscosity";
+              << 100. * parameters.explicit_dynamics.largest_drift << " % ('Largest drift'): "
+              << (problem.has_soft_penalties()
+                      ? "contact pairs are soft, and nodes that are deep make energy: try a larger 'Normal "
+                        "penalty'"
+                      : "try a smaller 'Safety factor', a softer penalty or more bulk viscosity");
     else
       message << "are not finite; a velocity, a load or a penalty may be too large for its units";
     message << ". What was computed until then is in '" << parameters.output.folder.value << "'.";

@@ -212,9 +212,7 @@ void ErrorControl::measure_penetration(const double penetration, const Forces &f
   until_penetration_ = penetration_interval_;
   if (tolerances_.penetration == 0. || !(error > 0.))
     return;
-  // In proportion; tighter than what is the tightest is not to be had. Augmentations leave less than what is
-  // allowed, about half of it in the mean.
-  constexpr double most_over_mean = 2.;
+  // In proportion; tighter than what is the tightest is not to be had.
   const double allowed = most_over_mean * tolerances_.penetration * std::max(force_scale(), force);
   penetration_allowed_ = std::max(1., penetration * allowed / error);
 }

@@ -96,7 +96,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
   // Of steps that are compared not the first: all have to go equally deep.
   if (measures_penetration_ && errors_.wants_penetration() && (is_second || probe_length_ == 0.))
-    problem_.measure_penetration();
+    problem_.measure_penetration(errors_.allowed_at_first());
   return n_iterations;
 }
 

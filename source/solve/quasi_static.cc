@@ -551,12 +551,19 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   }
   if (report.converged) {
     // The line search may have looked further since: the histories have to be those of the accepted state.
-    const Epetra_Vector accepted = pack(x, offsets);
+    Epetra_Vector accepted = pack(x, offsets);
     Epetra_Vector residual(accepted);
     compute_residual(accepted, residual);
     if (measures_penetration_ && !is_probing_) {
       measure_penetration(accepted, report);
       compute_residual(accepted, residual);
+      if (allow_less_penetration()) {
+        augment(report, offsets, x);
+        accepted = pack(x, offsets);
+        compute_residual(accepted, residual);
+        if (!report.converged)
+          return report;
+      }
     }
     if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) ||
         contact_makes_energy(t, report))

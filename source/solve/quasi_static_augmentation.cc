@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace billet {
@@ -25,11 +24,8 @@ public:
     const auto n = static_cast<unsigned int>(errors_.size()) - 1;
     return n >= 2 * window && std::log(errors_.back()) + (most - n) * std::log(ratio()) > 0.;
   }
-  /// So many more it would take; infinitely many where the error does not fall.
-  double to_go() const {
-    return ratio() < 1. ? std::ceil(-std::log(errors_.back()) / std::log(ratio()))
-                        : std::numeric_limits<double>::infinity();
-  }
+  /// So many more it would take; the error has to fall.
+  double to_go() const { return std::ceil(-std::log(errors_.back()) / std::log(ratio())); }
 
 private:
   static constexpr unsigned int window = 5;
@@ -159,9 +155,11 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
       std::ostringstream message;
       message << "after " << n << " augmentations contact is still " << error
               << " times its 'Penetration tolerance' from what it should be";
-      if (n < most)
+      if (n < most && pace.ratio() < 1.)
         message << ", and at their pace, each leaves " << pace.ratio() << " of that, it would take "
                 << pace.to_go() << " more";
+      else if (n < most)
+        message << ", and they no longer lessen it";
       message << ": try a larger penalty or 'Penetration tolerance', "
               << (motion_ ? "or none: nodes that have come in would have to stop within a step"
                           : "or more 'Most augmentations'");

@@ -9,6 +9,17 @@
 
 namespace billet {
 
+namespace {
+
+double size(const std::vector<dealii::Tensor<1, 3>> &forces) {
+  double sum = 0.;
+  for (const auto &force : forces)
+    sum += force.norm();
+  return sum;
+}
+
+} // namespace
+
 bool QuasiStatic::has_forces_of_contacts() const {
   const auto &pairs = scene_.body_pairs();
   return !contacts_.empty() ||
@@ -56,12 +67,6 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
 }
 
 void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonReport &report) {
-  const auto size = [](const std::vector<dealii::Tensor<1, 3>> &forces) {
-    double sum = 0.;
-    for (const auto &force : forces)
-      sum += force.norm();
-    return sum;
-  };
   if (of_penetration_ && of_penetration_->forces.empty()) // of no use any more
     return;
   if (!of_penetration_ && (!(force_scale_ > 0.) || !(find_penetration() > 0.))) {
@@ -119,6 +124,19 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
   for (std::size_t i = 0; i < of_penetration_->forces.size(); ++i)
     of_penetration_->without[i] +=
         left / (1. - left) * (of_penetration_->without[i] - of_penetration_->forces[i]);
+}
+
+bool QuasiStatic::allow_less_penetration() {
+  if (!of_penetration_ || of_penetration_->without.empty())
+    return false;
+  auto change = of_penetration_->without;
+  for (std::size_t i = 0; i < change.size(); ++i)
+    change[i] -= of_penetration_->forces[i];
+  const double error = size(change), allowed = allowed_at_measurement_ * size(of_penetration_->forces);
+  if (!(error > allowed && allowed > 0.))
+    return false;
+  penetration_allowed_ = std::max(1., of_penetration_->penetration * allowed / error);
+  return true;
 }
 
 bool QuasiStatic::follow_probe(const double t) {

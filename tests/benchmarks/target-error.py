@@ -9,7 +9,7 @@ from curve_runs import error, run_all, write_csv
 
 options = arguments("target-error")
 TARGETS = (0.1, 0.03, 0.01, 0.003)
-STEPS = (5, 10, 20, 40)
+STEPS = (2, 3, 5, 10, 20, 40)
 REFERENCE_STEPS = 640
 
 
@@ -35,7 +35,7 @@ class Implicit:
     def by_hand(self):
         """What a user might set: equal steps, penalties as they are or augmented, tolerances."""
         for n in STEPS:
-            for depth, tolerance in ((None, 1e-3), (1e-2, 1e-3), (1e-3, 1e-4)):
+            for depth, tolerance in ((None, 1e-2), (None, 1e-3), (1e-2, 1e-2), (1e-2, 1e-3), (1e-3, 1e-4)):
                 said = f"{n} steps, " + (f"augmented to {depth:g}" if depth else "penalties") + f", residual {tolerance:g}"
                 yield said, {**self.changes, **self.steps(n), **pairs(self.pairs, Penetration_tolerance=depth),
                              "Solver/Force tolerance": tolerance,

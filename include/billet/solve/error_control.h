@@ -57,6 +57,11 @@ public:
   /// Whether the next measurement should tell, too, what penetrations make: at first, and then the more
   /// seldom the less it is, or changes.
   bool wants_penetration() const { return until_penetration_ == 0; }
+  /// What penetrations may make of the forces, as part of them, in the step that is the first to measure it.
+  double allowed_at_first() const {
+    return has_penetration_ || tolerances_.penetration == 0. ? std::numeric_limits<double>::infinity()
+                                                             : most_over_mean * tolerances_.penetration;
+  }
   /// What a step gave whose deepest penetration was `penetration`, as part of the tightest that may be asked
   /// for; and what without penetrations. What `residuals` make of the difference does not count.
   void measure_penetration(double penetration, const Forces &forces, const Forces &without, double residuals);
@@ -97,6 +102,8 @@ private:
   /// Steps between measurements, where little changes from one to the next.
   static constexpr unsigned int longest_interval = 8;
   static constexpr unsigned int most_failed = 5; ///< in a row
+  /// Augmentations leave less than what is allowed, about half of it in the mean.
+  static constexpr double most_over_mean = 2.;
 
   double force_scale() const;
   void add_step_errors(double h);

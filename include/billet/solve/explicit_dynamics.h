@@ -61,6 +61,8 @@ public:
   void update_state();
   /// After prepare_step(): what the user should know of the penalties; lines. Collective.
   std::string watch_penalties();
+  /// Whether it has said so of any pair, ever.
+  bool has_soft_penalties() const { return soft_penalties_.has_soft_pairs(); }
   /// Part of the largest energy so far by which the energies of the last update fail to balance; of
   /// smallest_energy(), while that is larger.
   double relative_drift() const;

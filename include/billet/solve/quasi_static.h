@@ -16,6 +16,7 @@
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -54,8 +55,12 @@ public:
     unsigned int n_iterations = 0; ///< that it took besides those of the step
   };
   /// The next step measures that, if it is accepted. Where tractions are not augmented in it, anyway, one or
-  /// a few iterations more do it, and are taken back.
-  void measure_penetration() { measures_penetration_ = true; }
+  /// a few iterations more do it, and are taken back. If they make more than this part of the forces, that
+  /// step already augments tractions until no more than that is left.
+  void measure_penetration(const double allowed = std::numeric_limits<double>::infinity()) {
+    measures_penetration_ = true;
+    allowed_at_measurement_ = allowed;
+  }
   /// Of the last accepted step; once.
   std::optional<OfPenetration> take_measurement() { return std::exchange(of_penetration_, {}); }
   /// Of the tools and of pairs of bodies at the last accepted step; without either, or with pairs of a body
@@ -238,6 +243,8 @@ private:
   /// Completes what augmentations in the step have begun to measure, or makes it, from the state `accepted`
   /// of a step that has converged. Adds its iterations.
   void measure_penetration(const Epetra_Vector &accepted, NewtonReport &report);
+  /// Whether that was more than is allowed at once; then tractions are to be augmented further.
+  bool allow_less_penetration();
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
   // Ways out where Newton's method fails, in solve/quasi_static_continuation.cc.
   /// By how many octaves, factors of 2, the penalties of a contact are stiffer than 10 E/h.
@@ -315,6 +322,7 @@ private:
   double penetration_allowed_ = 1., accuracy_ = 1.;
   double penetration_ = 0.;
   bool measures_penetration_ = false;
+  double allowed_at_measurement_ = 0.; ///< part of the forces
   std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
   bool has_told_stiff_ = false; ///< by watch_penalties()
