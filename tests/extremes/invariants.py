@@ -203,7 +203,21 @@ class Invariants(unittest.TestCase):
         self.about(must.energy_not_made, make, lambda r: r.history.update(kinetic_energy=1.1 * r.history["kinetic_energy"]))
         free = lambda: made_up("bars.explicit", history={**history, "momentum_z": -3.0})  # noqa: E731
         self.about(must.momentum((0, 0, -3.0), 3.0), free, lambda r: r.history["momentum_z"].__setitem__(7, -3.0 + 1e-6), lambda r: r.history["momentum_x"].__setitem__(7, 1e-6))
-        self.about(must.impact_force("floor", 2 * mass * speed / 0.9, 0.1, 1.0), make, lambda r: r.history.update({"floor.force_z": 1.3 * r.history["floor.force_z"]}))
+        hits = lambda: made_up("bar.explicit", history=history)  # noqa: E731
+        self.about(must.impact_force("floor", 2 * mass * speed / 0.9, 0.1, 1.0), hits, lambda r: r.history.update({"floor.force_z": 1.3 * r.history["floor.force_z"]}))
+
+    def test_impacts_are_looked_at(self):
+        # what a check leaves out by the scene's knobs it must not leave out of every scene
+        for base, name in (("bar.explicit", "wall"), ("bars.implicit", "joint")):
+            r = made_up(base, history={**force(name, z=1.0), "kinetic_energy": 1.0})
+            r.history["time"] = numpy.linspace(0, float(r.setup.sections["Time stepping"]["End time"]), 10)
+            found = []
+            for check in r.setup.checks:
+                try:
+                    found += check(r)
+                except KeyError:  # of columns that this one is made up without
+                    pass
+            self.assertIn("stress of the impact", [f.name for f in found], base)
 
     def test_skidding(self):
         t = numpy.linspace(0.1, 1, 10)

@@ -5,7 +5,7 @@ import re
 
 WHERE = re.compile(r"scene\.prm(:\d+)?:|command line:")
 WHEN = re.compile(r"\b(time|step)\b")
-TODO = re.compile(r"\b(allowed|try|choose|take|place|name|give|say|make|makes|move|hold|use|add|set|need|needs|draw|raise|lower|leave|wants?)\b")
+TODO = re.compile(r"\b(allowed (is|are)|[Tt]ry (a|an|another|the|'|more|less|it|one|some)|draw the tool|[Ll]et )")
 WORTHLESS = re.compile(r"(?<![\w'])-?(nan|inf)\b", re.IGNORECASE)
 
 

@@ -94,6 +94,16 @@ def everything():  # noqa: C901
     yield from single("mu", FRICTIONAL, MU)
     for law in FRICTION_LAWS[1:]:
         yield from single("mu", ("slide", "twist", "drag", "skid.explicit", "skid.implicit"), MU[2::2], along={"friction law": law})
+    glides = ("glide.explicit", "glide.implicit")
+    yield from single("mu", glides, MU)
+    yield from product(("penalty", "mu"), glides[:1], PENALTIES[::2] + PENALTIES[-1:], [0.0, 0.3, 1.0])
+    yield from product(("penalty", "mu"), glides[1:], PENALTIES[:8:2], [0.0, 0.3, 1.0])
+    for law in FRICTION_LAWS[1:]:
+        yield from single("mu", glides, [0.1, 0.6, 2.0], along={"friction law": law})
+        yield from single("mu", ("clip", "fold.explicit", "fold.implicit"), [0.3], along={"friction law": law})
+    yield from single("mu", ("fold.explicit", "fold.implicit"), [0.3, 2.0, 10.0])
+    yield from single("modulus ratio", glides, [1e-4, 1e-2, 1e2, 1e4], along={"mu": 0.3})
+    yield from single("speed", glides, [1e-3, 0.1, 0.3], along={"mu": 0.3})
     yield from product(("penalty", "mu"), ("slide", "drag"), PENALTIES, [0.0, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0])
     yield from product(("penalty", "mu"), ("ball", "upset", "skid.explicit", "skid.implicit"), PENALTIES[::2], [0.01, 0.3, 1.0, 10.0])
     for facets in ("planed", "mean gap", "bilinear", "overlap"):
@@ -115,6 +125,7 @@ def everything():  # noqa: C901
     plastic = ("upset", "pull", "slide", "stack", "clip", "drop.explicit", "bars.explicit", "drop.implicit", "bars.implicit")
     yield from single("hardening modulus", plastic, hardenings, along=PLASTIC)
     yield from single("yield", plastic, yields, along=PLASTIC)
+    yield from single("yield", ("slide", "drag"), yields[::2], along={**PLASTIC, "mu": 0.3})
     yield from product(("yield", "hardening modulus"), ("upset", "pull"), yields[::2], hardenings[2:], along=PLASTIC)
     for hardening in ("Voce", "power law", "table"):
         yield from single("yield", ("upset", "pull", "drop.explicit", "drop.implicit"), yields[::2], along={**PLASTIC, "hardening": hardening})
@@ -131,6 +142,7 @@ def everything():  # noqa: C901
         for more in ({}, PLASTIC):
             yield from single("strain", ("upset",), STRAINS, along={"kinematics": law, **more})
             yield from single("strain", ("pull",), STRETCHES, along={"kinematics": law, **more})
+            yield from single("strain", ("upset",), STRAINS[:3], along={"kinematics": law, "mu": 0.3, **more})
     aspects = decades(-3, 3)
     yield from single("aspect", ("upset", "pull"), aspects)
     yield from product(("aspect", "strain"), ("upset",), decades(-3, 3), STRAINS[:6])
@@ -168,6 +180,13 @@ def everything():  # noqa: C901
             for mu in (0.0, 0.3):
                 yield Case(base, {"tangent": tangent, "mu": mu}, ("tangent",), (tangent,))
         yield Case("drag", {"tangent": tangent, "mu": 0.3}, ("tangent",), (tangent,))
+    for base in ("upset", "slide", "ball", "drag"):
+        for predictor in ("extrapolation", "tangent"):
+            yield Case(base, {"predictor": predictor, **ROUGH}, ("predictor",), (predictor,))
+        for search in ("energy", "none"):
+            yield Case(base, {"line search": search, **ROUGH}, ("line search",), (search,))
+        for tangent in ("exact", "symmetrised"):
+            yield Case(base, {"material tangent": tangent, **ROUGH, **PLASTIC}, ("material tangent",), (tangent,))
     yield from single("tolerance", ("upset", "slide", "ball", "stack", "drag", "drop.implicit"), [10.0 ** -e for e in range(1, 16, 2)], along=ROUGH)
     for solver in ("MUMPS", "MUMPS symmetric", "KLU", "CG", "GMRES"):
         for base in ("upset", "slide", "stack", "drag", "drop.implicit", "bars.implicit"):
@@ -231,7 +250,7 @@ def everything():  # noqa: C901
             more = {"number type": "float", **({"duration": 0.1} if base.startswith("skid") else {})}
             yield Case(base, {**more, "length": length, "stress": stress, "time": time}, ("units",), ("float, all by powers of 2",),
                        like=more, count="exact", loose=1e-9)
-        if base not in ("pull", "clip", "fold.explicit", "fold.implicit"):
+        if base not in ("clip", "fold.explicit", "fold.implicit"):  # whose meshes and velocities are formulas
             for degrees in (1e-6, 90.0, 137.0):
                 more = ROUGH if base in FRICTIONAL else {}
                 if base.startswith("skid"):

@@ -31,7 +31,8 @@ WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with aug
          "method": "`Method`", "profile": "`Profile`", "instructions": "`Instructions`", "number type": "`Number type`", "whole load": "whole load in the first step",
          "force": "force on a tool, E", "moment": "moment on a tool, E", "load": "pressure, E", "spring": "stiffness of springs, E", "edges": "`Edges`",
          "smoothing": "`Smoothing`", "margin": "`Search margin`", "target error": "`Target error`", "press": "travel of a tool, block sizes",
-         "explicit steps": "explicit steps of a resting pile"}
+         "explicit steps": "explicit steps of a resting pile", "predictor": "`Predictor`", "line search": "`Line search`",
+         "material tangent": "`Material tangent`"}
 COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda base: base.endswith(".implicit"),
            "explicit": lambda base: base.endswith(".explicit")}
 

@@ -67,6 +67,16 @@ def nudged(setup, part):
     return {**setup.sections, "Bodies": bodies} if bodies != setup.sections["Bodies"] else None
 
 
+def reach(k, end):
+    """When a scene of equal steps ends: with tiny ones after twenty."""
+    return end if k.step is None or k.step >= 0.01 else 20 * k.step
+
+
+def turn(k):
+    """When it has been pressed enough, and begins to slide: with tiny steps after ten."""
+    return 1.0 if k.step is None or k.step >= 0.01 else 10 * k.step
+
+
 def frame_of(k):
     return Frame(k.length, k.stress, k.time, UPRIGHT, k.turned)
 
@@ -236,7 +246,7 @@ def upset(k):
                           "Motion": pushed or {"Translation": f.expressions(("0", "0", f"{number(-travel)}*{{t}}"), f.length)}}},
         "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
                           "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
-        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+        **statics(k, f, end=reach(k, 1.0)),
     }
     checks = [must.finite, must.balanced("die", "ram"), must.yields, must.diagonal_symmetry, must.jacobians]
     if k.force:
@@ -260,7 +270,7 @@ def pull(k):
         "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, h)), [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
                                  Supports={"grip": {"Boundary ids": 5, "Components": "z",
                                                     "Displacement": f"0 ; 0 ; {f.expression(number(top_moves) + '*{t}', number(f.length) + '*')}"}})},
-        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+        **statics(k, f, end=reach(k, 1.0)),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.uniform_stress, must.bar_stress, must.jacobians],
                  height=h, strain=k.strain, layers=n)
@@ -275,15 +285,15 @@ def slide(k):
         along = f"{number(way)}*sin(2*pi*({{t}} - 1))*({{t}} > 1)"
     else:
         end = 2.0
-        along = f"{number(way)}*({{t}} - 1)*({{t}} > 1)"
-    down = f"{number(-press)}*(if({{t}} < 1, {{t}}, 1))"
+        along = f"{number(way)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})"
+    down = f"{number(-press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
     sections = {
         "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)),
                                  Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
         "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1)),
                           "Motion": {"Translation": f.expressions((along, "0", "0"), f.length)}}},
         "Contact pairs": {"foot": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4})},
-        **statics(k, f, end=end if k.step is None or k.cycles else min(end, 20 * k.step), stops=(1.0,) if k.step is None else ()),
+        **statics(k, f, end=end if k.cycles else reach(k, end), stops=(1.0,) if k.step is None else ()),
     }
     checks = [must.finite, must.yields, must.cone, must.force_cone("die"), must.mirror((0, 1, 0), 0.5), must.energies,
               must.pushes("die"), must.jacobians]
@@ -307,7 +317,7 @@ def ball(k):
                            "Motion": {"Translation": f.expressions(("0", "0", f"{number(-depth)}*{{t}}"), f.length)}}},
         "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
                           "high": pair(k, f, Body="block", Tool="ball", **{"Boundary ids": 5})},
-        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+        **statics(k, f, end=reach(k, 1.0)),
     }
     return Setup(k, f, sections, [must.finite, must.balanced("bed", "ball"), must.yields, must.diagonal_symmetry, must.cone,
                                   must.energies, must.depth_bound("ball", depth), must.jacobians],
@@ -318,8 +328,8 @@ def twist(k):
     """A plane tool pressed on a block and turned, or swung, about an axis through the middle node."""
     f, n = frame_of(k), k.bricks or 2
     angle = (f"{number(2 * math.pi * k.turns)}*sin(2*pi*{number(k.oscillations)}*({{t}} - 1))*({{t}} > 1)" if k.oscillations
-             else f"{number(2 * math.pi * k.turns)}*({{t}} - 1)*({{t}} > 1)")
-    down = f"{number(-k.press)}*(if({{t}} < 1, {{t}}, 1))"
+             else f"{number(2 * math.pi * k.turns)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})")
+    down = f"{number(-k.press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
     turned = {"Rotation angle": f.expression(angle)} if k.moment is None else {
         "Moment": f.expression(f"{number(k.moment * k.young)}*if({{t}} > 1, {{t}} - 1, 0)", number(f.energy) + "*")}
     sections = {
@@ -330,7 +340,7 @@ def twist(k):
                                      **turned, "Rotation axis": f.vector((0, 0, 1)),
                                      "Centre": f.vector((0, 0, 0.5), f.length)}}},
         "Contact pairs": {"head": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
-        **statics(k, f, end=2.0 if k.step is None else min(2.0, 20 * k.step), stops=(1.0,) if k.step is None else ()),
+        **statics(k, f, end=reach(k, 2.0), stops=(1.0,) if k.step is None else ()),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.sideways_free("ram"), must.quarter_turn,
                                   must.energies, must.moment_cone("ram"), must.jacobians,
@@ -383,7 +393,7 @@ def place(k):
                           "Motion": {"Translation": f.expressions(("0", "0", f"{number(-k.press)}*{{t}}"), f.length)}}},
         "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
                           "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
-        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+        **statics(k, f, end=reach(k, 1.0)),
     }
     checks = [must.finite, must.balanced("bed", "ram"), must.yields, must.cone, must.energies, must.depth_bound("ram", k.press), must.jacobians]
     if k.feature not in ("coplanar",) or k.mu == 0:
@@ -426,7 +436,7 @@ def stack(k):
                           Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
         "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
                                         **contact_of_bodies(k))},
-        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+        **statics(k, f, end=reach(k, 1.0)),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.stack(lower, upper), must.uniform_stress_of_bodies,
                                   must.energies, must.jacobians], friction=friction(k))
@@ -442,8 +452,8 @@ def touching(k):
 def drag(k):
     """A block pressed on a wider one and drawn over it."""
     f = frame_of(k)
-    along = f"{number(k.slide)}*({{t}} - 1)*({{t}} > 1)"
-    down = f"{number(-k.press)}*(if({{t}} < 1, {{t}}, 1))"
+    along = f"{number(k.slide)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})"
+    down = f"{number(-k.press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
     lower, upper = k.young, k.young * k.modulus_ratio
     sections = {
         "Bodies": {
@@ -452,7 +462,7 @@ def drag(k):
                           Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions((along, "0", down), f.length)}})},
         "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
                                         **contact_of_bodies(k))},
-        **statics(k, f, end=2.0 if k.step is None else min(2.0, 20 * k.step), stops=(1.0,) if k.step is None else ()),
+        **statics(k, f, end=reach(k, 2.0), stops=(1.0,) if k.step is None else ()),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.force_cone("joint"), must.mirror((0, 1, 0), 0.5),
                                   must.energies, must.jacobians], friction=friction(k), slip_rate=k.slide)
@@ -485,7 +495,7 @@ def clip(k):
             "above": {"Boundary ids": 8, "Components": "y", "Displacement": pinch("-")},
             "below": {"Boundary ids": 9, "Components": "y", "Displacement": pinch("")}})},
         "Contact pairs": {"ends": pair(k, f, Body="ring", **{"Boundary ids": "2, 3", "Second body": "ring"}, **contact_of_bodies(k))},
-        **statics(k, f, end=1.0 if k.step is None else min(1.0, 10 * k.step)),
+        **statics(k, f, end=reach(k, 1.0)),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.energies, must.jacobians,
                                   must.touches("ends")], friction=friction(k))
@@ -560,7 +570,7 @@ def bars(k, scheme):
     return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.drift, must.energy_not_made,
                                   must.momentum((0, 0, -mass * v), mass * v),
                                   *([must.impact_force("joint", force, 0.5 / max(speeds), 1.4 / max(speeds))]
-                                    if 1e-2 <= speeds[1] / speeds[0] <= 1e2 else []), must.jacobians],
+                                    if 0.3 <= speeds[1] / speeds[0] <= 3 else []), must.jacobians],
                  mass=mass, speed=v, friction=friction(k))
 
 
@@ -582,6 +592,26 @@ def skid(k, scheme):
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.drift,
                                   must.skidding(k.density * 0.5, v, g), must.jacobians], friction=friction(k), mass=0.5 * k.density, speed=v,
                  slip_rate=v)
+
+
+def glide(k, scheme):
+    """A block with a speed along a wider one that is held below, under gravity."""
+    f, n = frame_of(k), k.bricks or 2
+    c = bar_speed(k.young, k.density)
+    v, g = k.speed * c, 0.002 * c * c
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)), density=k.density,
+                                 **{"Initial velocity": velocity(f, (v, 0, 0)),
+                                    "Loads": {"gravity": {"Type": "acceleration",
+                                                          "Acceleration": f.expressions(("0", "0", number(-g)), f.acceleration)}}}),
+                   "bed": body(k, f, box((3, 3, 1), (-1.5, -0.9, -0.5), (1.5, 0.9, 0)), young=k.young * k.modulus_ratio, density=k.density,
+                               Supports={"foot": {"Boundary ids": 4}})},
+        "Contact pairs": {"foot": pair(k, f, Body="block", **{"Boundary ids": 4, "Second body": "bed", "Second boundary ids": 5},
+                                       **contact_of_bodies(k))},
+        **dynamics(k, f, scheme, 40.0 / c * k.duration),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.force_cone("foot"), must.mirror((0, 1, 0), 0.0), must.drift,
+                                  must.jacobians], friction=friction(k), mass=0.5 * k.density, speed=v, slip_rate=v)
 
 
 def fold(k, scheme):
@@ -665,18 +695,18 @@ BASES = {
     "upset": upset, "pull": pull, "slide": slide, "ball": ball, "twist": twist, "place": place, "rest": rest,
     "stack": stack, "touching": touching, "drag": drag, "clip": clip,
     **{f"{name}.explicit": with_scheme(scene, "explicit")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying), ("pile", pile), ("laden", laden))},
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("pile", pile), ("laden", laden))},
     **{f"{name}.implicit": with_scheme(scene, "implicit dynamics")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("fold", fold), ("lying", lying), ("laden", laden))},
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("laden", laden))},
 }
 
 KINDS = {  # what kind of run a base scene is
     "statics, tools": ("upset", "slide", "ball", "twist", "place", "rest"), "statics, no contact": ("pull",),
     "statics, bodies": ("stack", "touching", "drag"), "statics, self-contact": ("clip",),
     "explicit, tools": ("drop.explicit", "bar.explicit", "skid.explicit", "laden.explicit"),
-    "explicit, bodies": ("bars.explicit", "lying.explicit", "pile.explicit"), "explicit, self-contact": ("fold.explicit",),
+    "explicit, bodies": ("bars.explicit", "glide.explicit", "lying.explicit", "pile.explicit"), "explicit, self-contact": ("fold.explicit",),
     "implicit dynamics, tools": ("drop.implicit", "bar.implicit", "skid.implicit", "laden.implicit"),
-    "implicit dynamics, bodies": ("bars.implicit", "lying.implicit"), "implicit dynamics, self-contact": ("fold.implicit",),
+    "implicit dynamics, bodies": ("bars.implicit", "glide.implicit", "lying.implicit"), "implicit dynamics, self-contact": ("fold.implicit",),
 }
 
 
