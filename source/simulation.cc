@@ -649,6 +649,9 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
               << (problem.has_soft_penalties()
                       ? "contact pairs are soft, and nodes that are deep make energy: try a larger 'Normal "
                         "penalty'"
+                  : scene.capabilities().friction && !scene.body_pairs().empty()
+                      ? "bodies with friction that stick and hop make energy: try a larger 'Normal penalty', "
+                        "such as 1000 E/h; else a smaller 'Safety factor' or more bulk viscosity"
                       : "try a smaller 'Safety factor', a softer penalty or more bulk viscosity");
     else
       message << "are not finite; a velocity, a load or a penalty may be too large for its units";
