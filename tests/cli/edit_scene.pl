@@ -14,7 +14,8 @@ use File::Copy;
 
 my $folder_of_tests = dirname(__FILE__);
 
-my $time_limit = 60;        # seconds; ranks that wait for each other fail
+# Seconds; ranks that wait for each other fail. Sanitizers take their time.
+my $time_limit = $ENV{ASAN_OPTIONS} ? 900 : 60;
 my $memory_limit = 8000000; # kB of addresses for each process; MPI's libraries alone want a good part of it
 
 sub read_text

@@ -250,7 +250,7 @@ def everything():  # noqa: C901
             more = {"number type": "float", **({"duration": 0.1} if base.startswith("skid") else {})}
             yield Case(base, {**more, "length": length, "stress": stress, "time": time}, ("units",), ("float, all by powers of 2",),
                        like=more, count="exact", loose=1e-9)
-        if base not in ("clip", "fold.explicit", "fold.implicit"):  # whose meshes and velocities are formulas
+        if base not in ("pull", "clip", "fold.explicit", "fold.implicit"):  # supports along axes, meshes and velocities that are formulas
             for degrees in (1e-6, 90.0, 137.0):
                 more = ROUGH if base in FRICTIONAL else {}
                 if base.startswith("skid"):
