@@ -32,7 +32,7 @@ for level in LEVELS:
         run = Run({**mesh(level), **fixed_steps(n)}, options.ranks)
         rows.append([f"exact, {n} steps", run.steps, run.cuts, run.iterations,
                      percent(abs(run.forces[-1] / exact.forces[-1] - 1)) if run.converged else run.failure, ""])
-    for tangent in TANGENTS if level == 1 else TANGENTS[:2]:
+    for tangent in (*TANGENTS, "numerical") if level == 1 else TANGENTS[:2]:
         for search in ("none", "energy"):
             changes = {**mesh(level), TANGENT: tangent, "Solver/Line search": search}
             run = Run({**changes, **whole}, options.ranks)

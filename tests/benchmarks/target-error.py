@@ -5,7 +5,7 @@ import math
 
 from billet_runs import ROOT, arguments, number, percent, publish, table
 from hand_set import beside_hand_set
-from curve_runs import error, run_all, write_csv
+from curve_runs import CurveRun, error, run_all, write_csv
 
 options = arguments("target-error")
 TARGETS = (0.1, 0.03, 0.01, 0.003)
@@ -84,7 +84,17 @@ SCENES = {
         "Output/Interval": 0}),
 }
 
-rows, csv_rows, landed, works, times = [], [], 0, [], []
+TIMED = 1 if options.quick else 3  # runs, one at a time
+
+
+def time_again(scene, changes, run):
+    """Its seconds become the least of TIMED runs alone."""
+    if not hasattr(run, "timed"):
+        run.timed = True
+        run.seconds = min([CurveRun(scene.path, changes, options.ranks).seconds for _ in range(TIMED)])
+
+
+rows, csv_rows, landed, works, times, beliefs = [], [], 0, [], [], []
 for name, scene in SCENES.items():
     by_hand = list(scene.by_hand())
     reference, *runs = run_all(scene.path, [scene.reference()] + [changes for _, changes in by_hand]
@@ -92,15 +102,17 @@ for name, scene in SCENES.items():
     if not reference.finished:
         print(f"{name}: no reference: {reference.failure}")
         continue
-    hand = [(run.work, error(run, reference), said, run) for (said, _), run in zip(by_hand, runs)]
+    hand = [(run.work, error(run, reference), said, run, changes) for (said, changes), run in zip(by_hand, runs)]
     aimed = runs[len(by_hand):]
-    for work, off, said, run in hand:
-        csv_rows.append([name, "by hand", "", said, work, f"{run.seconds:.3g}", f"{off:.4g}", ""])
     for target, run in zip(TARGETS, aimed):
         off = error(run, reference)
         believed = run.believed.get("error", math.nan)
         enough = [entry for entry in hand if entry[1] <= target]
         cheapest = min(enough, key=lambda entry: entry[0]) if enough else None
+        time_again(scene, scene.target(target), run)
+        if cheapest:
+            time_again(scene, cheapest[4], cheapest[3])
+        beliefs.append(believed / off)
         ratio = run.work / cheapest[0] if cheapest else math.nan
         seconds = run.seconds / cheapest[3].seconds if cheapest else math.nan
         landed += off <= target
@@ -110,6 +122,8 @@ for name, scene in SCENES.items():
                          f"{believed:.4g}"])
         rows.append([name, percent(target), percent(off), percent(believed), run.steps, run.work, number(run.seconds),
                      f"{cheapest[2]}: {cheapest[0]}" if cheapest else "none", number(ratio), number(seconds)])
+    for work, off, said, run, _ in hand:
+        csv_rows.append([name, "by hand", "", said, work, f"{run.seconds:.3g}", f"{off:.4g}", ""])
 
 publish(
     "target-error", "Runs with a target error", options,
@@ -120,8 +134,10 @@ publish(
     "augmented to 1e-5 of a facet (ironing: 1e-4), residuals below 1e-9; in the explicit scene with a penalty factor of 300, a "
     "safety factor of 0.3 and a contact resolution of 4. Work: Newton iterations, with those of failed steps and of "
     "estimates, or element updates; "
-    "the ratio is that to the cheapest run by hand whose error is no larger than the target. Each run once.",
-    f"{landed} of {len(works)} runs are within their target. {beside_hand_set(works, times)}",
+    "the ratio is that to the cheapest run by hand whose error is no larger than the target: cheapest in work, as it turns out once all have been "
+    f"run and compared with the reference. CPU seconds: with set-up, of these the least of {TIMED} runs, one at a time.",
+    f"{landed} of {len(works)} runs are within their target. {beside_hand_set(works, times)} What they believe is {number(min(beliefs))} to "
+    f"{number(max(beliefs))} times their error, below it in {sum(b < 1 for b in beliefs)} of {len(beliefs)}.",
     table(["scene", "target", "error", "believed", "steps", "work", "CPU seconds", "cheapest by hand", "ratio of work",
            "of CPU seconds"], rows))
 if not options.quick:

@@ -396,7 +396,8 @@ class Running(unittest.TestCase):
                 self.assertIn("`a/b` (0.01, nudged 0.5)", said)
                 self.assertEqual(report.forgetful([{"name": "a/b", "outcome": "right", "errors": {}}]), "")
         self.assertIsNone(scenes.nudged(scenes.make("upset", {}), 1e-13))
-        self.assertEqual(scenes.nudged(setup, 0.5)["Bodies"]["block"]["Initial velocity"], "10 + 5; 0 + 5; 0 + 5")
+        # a speed of 10 and, over 0.04, one size
+        self.assertEqual(scenes.nudged(setup, 0.5)["Bodies"]["block"]["Initial velocity"], "10 + 17.5; 0 + -10.5; 0 + 5.25")
 
     def test_other_programs(self):
         runner = self.runner("exit 1")

@@ -152,8 +152,8 @@ def forgetful(records):
     lost = [r for r in records if r["outcome"] == "right" and r.get("sensitivity")]
     if not lost:
         return ""
-    return (f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows until symmetry is lost; run once more with the first velocity changed by "
-            f"{NUDGE:g} of it, displacements at the end differ by as much: " + ", ".join(
+    return (f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows until symmetry is lost; run once more, nudged at the start by "
+            f"{NUDGE:g} of velocity and size, displacements at the end differ by as much: " + ", ".join(
                 f"`{r['name']}` ({r['errors'].get('mirror symmetry', 0):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:20]) + ".")
 
 

@@ -56,13 +56,15 @@ class Setup:
 
 
 def nudged(setup, part):
-    """The sections of `setup` with every first velocity changed in all three directions by this part of it; None if nothing has one."""
+    """The sections of `setup` with every first velocity changed, so that no symmetry is left, by about this part of it, and by
+    what moves it until the end by this part of its size; None if nothing has one."""
     bodies = {}
+    end = float(setup.sections["Time stepping"]["End time"]) / setup.frame.time
     for name, of_body in setup.sections["Bodies"].items():
         if "Initial velocity" in of_body:
             v = of_body["Initial velocity"].split(";")
-            by = number(part * setup.facts["speed"] * setup.frame.speed)
-            of_body = {**of_body, "Initial velocity": ";".join(f"{x.rstrip()} + {by}" for x in v)}
+            by = [number(share * part * (setup.facts["speed"] + 1 / end) * setup.frame.speed) for share in (1.0, -0.6, 0.3)]
+            of_body = {**of_body, "Initial velocity": ";".join(f"{x.rstrip()} + {y}" for x, y in zip(v, by))}
         bodies[name] = of_body
     return {**setup.sections, "Bodies": bodies} if bodies != setup.sections["Bodies"] else None
 
