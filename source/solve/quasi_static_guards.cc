@@ -86,7 +86,7 @@ bool QuasiStatic::is_lost_in_round_off(const double t, NewtonReport &report) {
 }
 
 bool QuasiStatic::may_be_round_off(const NewtonReport &report) const {
-  if (motion_ || report.iterations.empty())
+  if (motion_ || report.iterations.empty() || !(report.force > 0.)) // or it has not come to a residual
     return false;
   constexpr double by_much = 10.; // as solve_newton() has it
   return spring_round_off_ > most_round_off * force_scale_ &&

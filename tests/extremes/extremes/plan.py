@@ -176,6 +176,9 @@ def everything():  # noqa: C901
     for base in ("upset", "slide", "ball", "stack", "drag", "clip"):
         yield Case(base, {"first step": 1.0, "largest step": 10.0, "mu": 0.2}, ("whole load",), ("at once",), like={"mu": 0.2}, count="", loose=0.1)
     for tangent in ("exact", "numerical", "consistent", "continuum", "symmetrised upper", "symmetrised lower", "symmetrised mean"):
+        for strain in (-0.5, -1.0):
+            yield Case("upset", {"tangent": tangent, "first step": 1.0, "largest step": 10.0, "strain": strain, **ROUGH}, ("tangent", "whole load"),
+                       (tangent, "at once"))
         for base in ("upset", "slide", "ball", "twist"):
             for mu in (0.0, 0.3):
                 yield Case(base, {"tangent": tangent, "mu": mu}, ("tangent",), (tangent,))
@@ -296,7 +299,8 @@ FIXED = (
     "upset/law=elastoplastic,hardening modulus=0", "upset/law=elastoplastic,hardening modulus=-0.1", "upset/element=one point,distortion=3",
     "upset/aspect=1000,strain=-0.5", "upset/mu=0.2,length=0.000976562,stress=1,time=1 like mu=0.2",
     "pull/kinematics=Hencky,strain=2", "slide/penalty=10000,mu=0.3", "slide/mu=10", "slide/friction law=shear limited,mu=0.6",
-    "slide/mu=0.2,turned=137 like mu=0.2", "ball/radius=0.001", "twist/turns=10,mu=0.2", "place/feature=seams", "place/feature=rectangle", "rest/penalty=1000",
+    "slide/mu=0.2,turned=137 like mu=0.2", "ball/radius=0.001", "twist/turns=10,mu=0.2", "place/feature=seams", "place/feature=rectangle",
+    "upset/tangent=numerical,first step=1,largest step=10,strain=-1,mu=0.2", "rest/penalty=1000",
     "stack/modulus ratio=1e+06", "stack/facets=planed,penalty=10", "drag/mu=0.3", "touching/mu=0.1", "clip/penalty=100",
     "drop.explicit/speed=0.3", "bar.explicit/safety=0.99", "bars.explicit/density ratio=100", "bars.explicit/turned=90 like the base",
     "skid.explicit/mu=0.3", "fold.explicit/speed=0.01", "lying.explicit/penalty=1000", "drop.implicit/nu=0.45", "bar.implicit/penalty=1",
