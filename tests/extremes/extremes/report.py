@@ -12,7 +12,7 @@ from matplotlib import pyplot  # noqa: E402
 from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
-from .invariants import NUDGE  # noqa: E402
+from .invariants import NUDGE, SYMMETRIES  # noqa: E402
 from .runner import AT_MOST, OUTCOMES, PATIENCE  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
@@ -154,7 +154,7 @@ def forgetful(records):
         return ""
     return (f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows until symmetry is lost; run once more, nudged at the start by "
             f"{NUDGE:g} of velocity and size, displacements at the end differ by as much: " + ", ".join(
-                f"`{r['name']}` ({r['errors'].get('mirror symmetry', 0):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:20]) + ".")
+                f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:20]) + ".")
 
 
 def write(records, folder, planned=0, program=""):
