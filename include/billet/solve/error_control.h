@@ -47,9 +47,9 @@ public:
   /// the last occasion for the first comparison.
   bool wants_measurement(const double h) const {
     constexpr double longer = 1.5, rounding = 1e-9;
-    return last_force_ > 0. &&
-           (wants_measurement() || (n_measurements_ > 0 ? h > longer * measured_step_
-                                                        : time_ + 3. * h > end_time_ * (1. + rounding)));
+    if (n_measurements_ == 0 && time_ + 3. * h > end_time_ * (1. + rounding))
+      return true;
+    return wants_measurement() || (n_measurements_ > 0 && last_force_ > 0. && h > longer * measured_step_);
   }
   /// After the second of two steps of length `h`: what one of twice the length gave. What `residuals` make of
   /// the difference, as part of the forces, does not count.
