@@ -86,6 +86,7 @@ public:
 private:
   static std::vector<BoundingBox> make_boxes(const std::vector<BoundaryFacet> &facets) {
     std::vector<BoundingBox> boxes;
+    boxes.reserve(facets.size());
     for (const auto &facet : facets)
       boxes.push_back(box_around(facet.corners));
     return boxes;
@@ -139,7 +140,7 @@ std::vector<ProbedFacet> gather_facets(const std::vector<BoundaryFacet> &facets,
   for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
     for (const auto &numbers : part) {
       ProbedFacet facet{{}, numbers[15], Tensor<1, 3>({numbers[12], numbers[13], numbers[14]})};
-      for (unsigned int a = 0; a < 4; ++a)
+      for (std::size_t a = 0; a < 4; ++a)
         facet.corners[a] = Tensor<1, 3>({numbers[3 * a], numbers[3 * a + 1], numbers[3 * a + 2]});
       all.push_back(facet);
     }
@@ -172,6 +173,7 @@ public:
   /// rank. Bodies in each other, of which neither is as a whole in the other, have such a side.
   void add_pierced_sides(const std::vector<BoundaryFacet> &facets, MPI_Comm communicator) {
     std::vector<BoundingBox> boxes;
+    boxes.reserve(facets.size());
     for (const auto &facet : facets)
       boxes.push_back(box_around(facet.corners));
     const BoxTree tree(boxes);
@@ -246,6 +248,7 @@ Overlap find_deepest(const Discretization &discretization, const std::vector<Ten
   const Elements elements(discretization.elements(body));
   const Faces surface(faces);
   std::vector<unsigned int> own_counts;
+  own_counts.reserve(points.size());
   for (const auto &x : points)
     own_counts.push_back(elements.count_around(dealii::Point<3>(x), tolerance));
   std::vector<unsigned int> counts(own_counts.size());

@@ -136,7 +136,7 @@ template <class Number>
 FacetProjectionOf<Number> BilinearFacet::follow(const facet::ExpansionOf<Number> &surface,
                                                 const Tensor<1, 3, Number> &x, const FacetLimits &limits,
                                                 const FacetProjection &found) {
-  const auto &[e_0, e_1, e_2, e_3] = surface;
+  const auto &e_0 = surface.e_0, &e_1 = surface.e_1, &e_2 = surface.e_2, &e_3 = surface.e_3;
   const auto difference = [&](const std::array<Number, 2> &at) {
     return (e_0 - x) + at[0] * e_1 + at[1] * e_2 + Number(at[0] * at[1]) * e_3;
   };

@@ -16,7 +16,6 @@ using Kind = CurveSketch::Kind;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double meeting = 1e-8; // parts of the patch's size: curves nearer than this meet
 // What a cell turns at most, in radians: Newton's method is safe from its middle, and its box is tight.
 constexpr double cell_angle = 0.2;

@@ -62,7 +62,7 @@ std::array<std::array<double, 3 * n>, 6> multiply_gradients(const GradientModuli
   std::array<std::array<double, 3 * n>, 6> result;
   for (unsigned int r = 0; r < 6; ++r)
     for (std::size_t b = 0; b < n; ++b)
-      for (unsigned int j = 0; j < 3; ++j)
+      for (std::size_t j = 0; j < 3; ++j)
         result[r][3 * b + j] = A[r][3 * j] * g[b][0] + A[r][3 * j + 1] * g[b][1] + A[r][3 * j + 2] * g[b][2];
   return result;
 }
