@@ -159,5 +159,20 @@ int main() {
   rough.measure_penetration(100., force(0.1, 0.), force(0.1, 1e-3), 1e-3);
   check("what residuals make of penetrations does not count", rough.estimate().penetration == 0.);
   check("penetrations that make little are measured seldom", n_wanted > 2 && n_wanted < 8);
+  // Bodies that meet late: what is found before would be nothing, and believed for long.
+  ErrorControl late({1e-3, 1e-3}, 1.);
+  for (unsigned int i = 1; i <= 4; ++i)
+    late.accept(0.1, force(0., -3.), 0., 0.);
+  check("nothing is compared before something acts", !late.wants_measurement(0.1));
+  late.measure_penetration(0., force(0., -3.), force(0., -3.), 0.);
+  check("and penetrations are asked for until there are some", late.wants_penetration());
+  late.accept(0.1, force(0.5, 0.), 0., 100.);
+  check("what has not been measured is not known", late.wants_measurement(0.1) && !late.knows_penetration());
+  check("the first step with some is held to its part at once", late.allowed_at_first() < 0.01);
+  late.measure_penetration(100., force(0.5, 0.), force(0.5, 0.01), 0.);
+  check("later ones by what has been found",
+        late.knows_penetration() && !late.wants_penetration() && late.allowed_at_first() > 1.);
+  ErrorControl hasty({1e-3, 0.}, 1.);
+  check("two steps are compared although nothing acts yet", hasty.wants_measurement(0.5));
   return billet::testing::exit_code();
 }
