@@ -405,15 +405,10 @@ template <class Visit> void RigidContact::for_each_touching(const Visit &visit) 
 }
 
 template <class Add> void RigidContact::for_each_area(const Add &add) const {
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (!touches(states))
-      continue;
-    const FacetAreas areas = compute_areas(states, false);
-    for (unsigned int a = 0; a < 4; ++a)
-      if (areas.areas[a] > 0.)
-        add(facet.nodes[a], areas.areas[a]);
-  }
+  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
+    if (area > 0.)
+      add(facet.nodes[corner], area);
+  });
 }
 
 template <class Add> void RigidContact::for_each_near(const Add &add) const {

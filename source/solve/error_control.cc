@@ -37,8 +37,12 @@ constexpr unsigned int shortest_interval = 4, soon = 1;
 // This is what the first makes of them.
 constexpr double growth_of_errors = 1.4;
 
-// The sum of 1, ½, ¼, ...: of errors that two steps forget by half.
-constexpr double sum_of_fading = 2.;
+/// What is left of the forces by steps of length h of which each pair makes 2 c h², in parts of c, and
+/// forgets half of what was: the sum of 1, ½, ¼, ...
+double left_where_errors_fade(const double h) {
+  constexpr double sum = 2.;
+  return sum * 2. * h * h;
+}
 
 } // namespace
 
@@ -53,7 +57,7 @@ double ErrorControl::force_scale() const {
 void ErrorControl::add_step_errors(const double h) {
   errors_.resize(slopes_.size()); // after a restart there may be other tools
   for (std::size_t i = 0; i < errors_.size(); ++i)
-    errors_[i] = tolerances_.fade ? sum_of_fading * 2. * h * h * slopes_[i]
+    errors_[i] = tolerances_.fade ? left_where_errors_fade(h) * slopes_[i]
                                   : errors_[i] + growth_of_errors * h * h * slopes_[i];
 }
 
@@ -96,7 +100,7 @@ double ErrorControl::allowed_rate() const {
 }
 
 double ErrorControl::left_at_the_end(const double slope, const double h) const {
-  return tolerances_.fade ? sum_of_fading * 2. * h * h * slope
+  return tolerances_.fade ? left_where_errors_fade(h) * slope
                           : growth_of_errors * slope * h * (end_time_ - start_);
 }
 
@@ -136,7 +140,7 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   errors_.resize(forces.size());
   for (std::size_t i = 0; i < forces.size(); ++i)
     errors_[i] = tolerances_.fade
-                     ? sum_of_fading * 2. * h * h * now[i]
+                     ? left_where_errors_fade(h) * now[i]
                      : errors_[i] + growth_of_errors * (2. * h * h * now[i] + h_squared * between * now[i] -
                                                         unmeasured_ * slopes_[i]);
   const double error = sum_of_norms(errors_);

@@ -79,6 +79,16 @@ def turn(k):
     return 1.0 if k.step is None or k.step >= 0.01 else 10 * k.step
 
 
+def pressed(k):
+    """How a part goes down: by `press` until its turn."""
+    return f"{number(-k.press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
+
+
+def drawn(k, rate):
+    """How a part goes along from then on."""
+    return f"{number(rate)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})"
+
+
 def frame_of(k):
     return Frame(k.length, k.stress, k.time, UPRIGHT, k.turned)
 
@@ -281,14 +291,14 @@ def pull(k):
 def slide(k):
     """A block pressed on a plane that is drawn away under it; or to and fro, `cycles` times."""
     f, n = frame_of(k), k.bricks or 2
-    press, way = k.press, k.slide
+    way = k.slide
     if k.cycles:
         end = 1.0 + k.cycles
         along = f"{number(way)}*sin(2*pi*({{t}} - 1))*({{t}} > 1)"
     else:
         end = 2.0
-        along = f"{number(way)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})"
-    down = f"{number(-press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
+        along = drawn(k, way)
+    down = pressed(k)
     sections = {
         "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)),
                                  Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
@@ -330,8 +340,8 @@ def twist(k):
     """A plane tool pressed on a block and turned, or swung, about an axis through the middle node."""
     f, n = frame_of(k), k.bricks or 2
     angle = (f"{number(2 * math.pi * k.turns)}*sin(2*pi*{number(k.oscillations)}*({{t}} - 1))*({{t}} > 1)" if k.oscillations
-             else f"{number(2 * math.pi * k.turns)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})")
-    down = f"{number(-k.press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
+             else drawn(k, 2 * math.pi * k.turns))
+    down = pressed(k)
     turned = {"Rotation angle": f.expression(angle)} if k.moment is None else {
         "Moment": f.expression(f"{number(k.moment * k.young)}*if({{t}} > 1, {{t}} - 1, 0)", number(f.energy) + "*")}
     sections = {
@@ -454,8 +464,7 @@ def touching(k):
 def drag(k):
     """A block pressed on a wider one and drawn over it."""
     f = frame_of(k)
-    along = f"{number(k.slide)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})"
-    down = f"{number(-k.press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
+    along, down = drawn(k, k.slide), pressed(k)
     lower, upper = k.young, k.young * k.modulus_ratio
     sections = {
         "Bodies": {
@@ -576,17 +585,22 @@ def bars(k, scheme):
                  mass=mass, speed=v, friction=friction(k))
 
 
+def flung(k, f, speed, gravity):
+    """A block with a speed along x, that weighs."""
+    n = k.bricks or 2
+    return body(k, f, box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)), density=k.density,
+                **{"Initial velocity": velocity(f, (speed, 0, 0)),
+                   "Loads": {"gravity": {"Type": "acceleration", "Acceleration": f.expressions(("0", "0", number(-gravity)), f.acceleration)}}})
+
+
 def skid(k, scheme):
     """A block with a speed along a plane, under gravity: friction takes no more momentum than its limit allows."""
-    f, n = frame_of(k), k.bricks or 2
+    f = frame_of(k)
     c = bar_speed(k.young, k.density)
     v, g = k.speed * c, 0.002 * c * c
     end = 40.0 / c * k.duration
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)), density=k.density,
-                                 **{"Initial velocity": velocity(f, (v, 0, 0)),
-                                    "Loads": {"gravity": {"Type": "acceleration",
-                                                          "Acceleration": f.expressions(("0", "0", number(-g)), f.acceleration)}}})},
+        "Bodies": {"block": flung(k, f, v, g)},
         "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
         "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
         **dynamics(k, f, scheme, end),
@@ -598,14 +612,11 @@ def skid(k, scheme):
 
 def glide(k, scheme):
     """A block with a speed along a wider one that is held below, under gravity."""
-    f, n = frame_of(k), k.bricks or 2
+    f = frame_of(k)
     c = bar_speed(k.young, k.density)
     v, g = k.speed * c, 0.002 * c * c
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)), density=k.density,
-                                 **{"Initial velocity": velocity(f, (v, 0, 0)),
-                                    "Loads": {"gravity": {"Type": "acceleration",
-                                                          "Acceleration": f.expressions(("0", "0", number(-g)), f.acceleration)}}}),
+        "Bodies": {"block": flung(k, f, v, g),
                    "bed": body(k, f, box((3, 3, 1), (-1.5, -0.9, -0.5), (1.5, 0.9, 0)), young=k.young * k.modulus_ratio, density=k.density,
                                Supports={"foot": {"Boundary ids": 4}})},
         "Contact pairs": {"foot": pair(k, f, Body="block", **{"Boundary ids": 4, "Second body": "bed", "Second boundary ids": 5},
