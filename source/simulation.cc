@@ -410,6 +410,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   EnergyWatch energies = largest_drift > 0.        ? EnergyWatch(EnergyWatch::Balance::is_kept, largest_drift)
                          : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_told)
                                                    : EnergyWatch(EnergyWatch::Balance::is_left);
+  const bool has_sticking_overlaps =
+      std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(), [](const BodyPair &pair) {
+        return pair.has_friction() && pair.facets == parameters::ContactPair::Facets::overlap;
+      });
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
@@ -477,8 +481,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
-      outputs.progress.warn(
-          energies.look(control.time(), problem.state().energies, problem.has_soft_penalties()));
+      outputs.progress.warn(energies.look(control.time(), problem.state().energies,
+                                          problem.has_soft_penalties() ? EnergyWatch::Cause::soft_penalties
+                                          : has_sticking_overlaps      ? EnergyWatch::Cause::sticking_overlaps
+                                                                       : EnergyWatch::Cause::steps));
       if (!energies.imbalance().empty()) {
         outputs.snapshots.write(problem);
         std::ostringstream message;

@@ -74,6 +74,7 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
     settings.most_changes = most_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
+  settings.has_trapezoidal_works = scene.parameters().is_explicit();
   const auto stiffness = compute_stiffness(scene);
   settings.touching_gap *= std::min(1., most_stiffening_);
   contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, stiffness, sizes_);

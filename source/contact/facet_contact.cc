@@ -289,6 +289,24 @@ SlaveMotion FacetContact::compute_motion(const std::size_t s, const double durat
   return mean;
 }
 
+double FacetContact::released_energy(const std::size_t s, const double duration) const {
+  const SlaveHistory &history_n = history_n_[s];
+  SlaveMotion motion{};
+  if (settings_.has_trapezoidal_works && touched_n_[s].exists()) {
+    const unsigned int facet = touched_n_[s].facet, node = slaves_[s].node;
+    const FacetCorners corners_n = corners_of(search_.facets()[facet], positions_n_);
+    motion = compute_slave_motion(corners_n, moved_.corners(facet),
+                                  PlanedFacet(corners_n).project(positions_n_[node], {}).weights,
+                                  positions_n_[node], positions_[node], duration);
+  }
+  double area = 0.;
+  search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
+    if (f < exchange_.n_own_facets())
+      area += moved_.areas(f).share(corner_of(search_.facets()[f], slaves_[s].node), history_n.frame.n);
+  });
+  return area * compute_trapezoidal_dissipation(history_n, history_[s], motion, stiffness_[s].tangential);
+}
+
 template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
   const SlaveState &state = states_[s];
   if (!state.presses() || !(state.own_area > 0.))
@@ -317,11 +335,17 @@ template <class Facet, class Law> void FacetContact::evaluate(const Law &law, co
       if (state.presses())
         state.traction = compute_slave_traction(law, stiffness_[s].normal, contact.normal, contact.gap);
     } else if (state.presses()) {
-      state.traction = compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap,
-                                              compute_motion(s, duration), base_[s], history_[s]);
+      const SlaveMotion motion = compute_motion(s, duration);
+      state.traction = compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap, motion,
+                                              base_[s], history_[s]);
+      if (settings_.has_trapezoidal_works)
+        state.traction.dissipation =
+            compute_trapezoidal_dissipation(history_n_[s], history_[s], motion, stiffness_[s].tangential);
     } else {
       history_[s] = SlaveHistory();
       history_[s].slip = history_n_[s].slip;
+      if (history_n_[s].is_active && lifts_.empty()) // what augmentation holds is no stretch of a spring
+        state.released = released_energy(s, duration);
     }
     visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
       if (share.slave_facet == FacetShare::none)
@@ -465,6 +489,7 @@ FacetContactLoad FacetContact::compute_load() const {
   FacetContactLoad load;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
+    load.dissipation += state.released;
     if (!state.presses())
       continue;
     visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
@@ -540,7 +565,7 @@ double FacetContact::largest_spring() const {
 double FacetContact::local_dissipation() const {
   double dissipation = 0.;
   for (const auto &state : states_)
-    dissipation += state.own_area * state.traction.dissipation;
+    dissipation += state.own_area * state.traction.dissipation + state.released;
   return dissipation;
 }
 

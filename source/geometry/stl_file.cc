@@ -156,7 +156,7 @@ TriangleMesh read_binary(const std::string &bytes) {
     const char *const facet = bytes.data() + header_size + i * facet_size;
     std::array<Tensor<1, 3>, 3> corners;
     for (unsigned int c = 0; c < 3; ++c) {
-      corners[c] = read_vector(facet + 12 * (c + 1));
+      corners[c] = read_vector(facet + std::size_t{12} * (c + 1));
       if (!std::isfinite(corners[c].norm_square()))
         throw std::invalid_argument("facet " + std::to_string(i + 1) +
                                     " of it has a corner that is not finite");

@@ -302,7 +302,7 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
       }
       for (unsigned int n = 0; n < n_linear_modes; ++n)
         for (unsigned int j = 0; j < 3; ++j) {
-          rates[n][j] += energy_rate * flow[3 * n + j];
+          rates[n][j] += energy_rate * flow[std::size_t{3} * n + j];
           for (unsigned int k = 0; k < 3; ++k)
             rates[n][j] += mean_rates[k][j] * reference.beta[n][k];
         }

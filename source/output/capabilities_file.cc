@@ -10,9 +10,9 @@
 namespace billet {
 
 void write_capabilities(const std::string &folder, MPI_Comm communicator) {
-  constexpr auto n = static_cast<unsigned int>(Capability::n);
+  constexpr auto n = static_cast<std::size_t>(Capability::n);
   std::vector<std::uint64_t> calls, sums(2 * n);
-  for (unsigned int i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const Usage::Entry &entry = Usage::of(static_cast<Capability>(i));
     calls.push_back(entry.calls);
     sums[2 * i] = entry.items;
@@ -24,7 +24,7 @@ void write_capabilities(const std::string &folder, MPI_Comm communicator) {
     return;
   std::ofstream file(folder + "/capabilities.csv");
   file << "capability,calls,items,bytes\n";
-  for (unsigned int i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i)
     file << name_of(static_cast<Capability>(i)) << "," << calls[i] << "," << sums[2 * i] << ","
          << sums[2 * i + 1] << "\n";
   if (!file.flush())

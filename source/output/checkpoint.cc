@@ -110,7 +110,7 @@ CheckpointWriter::CheckpointWriter(MPI_Comm communicator, std::string file_name)
       name_(std::move(file_name)) {
   if (is_first_) {
     silence_hdf5();
-    std::ofstream((name_ + ".tmp"), std::ios::trunc);
+    std::ofstream(name_ + ".tmp", std::ios::trunc).close();
     if (reserve(0)) {
       const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
       H5Pset_userblock(creation.id(), header_size);

@@ -9,19 +9,24 @@ namespace billet {
 
 namespace {
 
-std::string advise(const bool penalties_are_soft) {
-  return penalties_are_soft ? "contact pairs are soft, and penalties on areas that grow while nodes are deep "
-                              "make energy. Try "
-                              "a larger 'Normal penalty'"
-                            : "steps do not resolve how contacts open and close. Try a smaller 'Error "
-                              "tolerance' or 'Largest "
-                              "step', a softer penalty, or a smaller 'Spectral radius'";
+std::string advise(const EnergyWatch::Cause cause) {
+  switch (cause) {
+  case EnergyWatch::Cause::soft_penalties:
+    return "contact pairs are soft, and penalties on areas that grow while nodes are deep make energy. Try a "
+           "larger 'Normal penalty'";
+  case EnergyWatch::Cause::sticking_overlaps:
+    return "what bodies with friction overlap by changes while they stick. Try 'Facets = bilinear' for their "
+           "contact pairs, or a smaller 'Error tolerance'";
+  case EnergyWatch::Cause::steps:
+    break;
+  }
+  return "steps do not resolve how contacts open and close. Try a smaller 'Error tolerance' or 'Largest "
+         "step', a softer penalty, or a smaller 'Spectral radius'";
 }
 
 } // namespace
 
-std::string EnergyWatch::look(const double time, const EnergyLedger &energies,
-                              const bool penalties_are_soft) {
+std::string EnergyWatch::look(const double time, const EnergyLedger &energies, const Cause cause) {
   constexpr double doubtful_hourglass = 0.1;
   constexpr double counts = 0.01; // less than that of the largest energy is no matter
   // What is there counts half only, as in explicit dynamics: energy from nowhere must not hide itself.
@@ -36,11 +41,10 @@ std::string EnergyWatch::look(const double time, const EnergyLedger &energies,
     what.precision(3);
     what << "the energies fail to balance by " << 100. * drift / largest_ << " % of the largest so far";
     if (balance_ == Balance::is_kept) {
-      what << ", allowed are " << 100. * allowed_drift_
-           << " % ('Largest drift'): " << advise(penalties_are_soft);
+      what << ", allowed are " << 100. * allowed_drift_ << " % ('Largest drift'): " << advise(cause);
       imbalance_ = what.str();
     } else
-      text << "At time " << time << " " << what.str() << ": " << advise(penalties_are_soft);
+      text << "At time " << time << " " << what.str() << ": " << advise(cause);
   }
   const double taken_up = energies.elastic + energies.plastic + energies.hourglass;
   if (!told_hourglass_ && energies.hourglass > doubtful_hourglass * taken_up &&

@@ -167,6 +167,7 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
     std::vector<double> rows;
     if (width > 0)
       rows = reader.read_rows("history", width, keys);
+    stresses.reserve(elements.size());
     for (std::size_t e = 0; e < elements.size(); ++e) {
       if (width > 0)
         block->set_state(e, &rows[width * e]);
@@ -189,6 +190,7 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
   const std::vector<double> rows = reader.read_rows("history", width, keys);
   for (std::size_t e = 0; e < elements.size(); ++e)
     block->set_state(e, &rows[width * e]);
+  stresses.reserve(elements.size());
   for (std::size_t e = 0; e < elements.size(); ++e)
     stresses.push_back(block->compute_stress(e, u.data()));
   return stresses;

@@ -31,7 +31,7 @@ struct Balls {
                                              std::vector<double>(x.size(), 0.1));
   }
 
-  Positions forces_at(const Positions &positions) {
+  Positions forces_at(const Positions &positions) const {
     Positions forces(positions.size());
     contact->add_forces(x_n, positions, 1., forces);
     return forces;

@@ -236,6 +236,81 @@ void check_slip_rate() {
         1e-10);
 }
 
+/// A node that comes down on a facet at rest, sticks, slides this way and that under a changing pressure and
+/// lifts: the trapezoidal work of its tangential tractions is what friction dissipates, since nothing is
+/// stored before and after.
+void check_trapezoidal_dissipation() {
+  const Coulomb law{0.6};
+  Random random;
+  WorstError balance, still, steady;
+  for (unsigned int sample = 0; sample < 50; ++sample) {
+    Pair pair{random_facet(random, 1., 0.), {}, {}};
+    const Tensor<1, 3> n = PlanedFacet(pair.corners).project(pair.corners[0], {}).normal;
+    const Tensor<1, 3> start = point_on(random, pair.corners);
+    pair.x = start + 0.001 * n;
+    Tensor<1, 3> traction_n;
+    double work = 0., dissipated = 0., largest = 0.;
+    constexpr unsigned int n_steps = 30;
+    for (unsigned int k = 1; k <= n_steps; ++k) {
+      const SlaveHistory history_n = pair.history;
+      const Tensor<1, 3> x_n = pair.x;
+      const double depth = k < n_steps ? random(0.001, 0.01) : -0.001;
+      Tensor<1, 3> x = start + random_vector(random, 0.01);
+      x -= (depth + (x - start) * n) * n;
+      const FacetProjection p = PlanedFacet(pair.corners).project(x, {});
+      const SlaveMotion motion = compute_slave_motion(pair.corners, pair.corners, p.weights, x_n, x, 0.);
+      Tensor<1, 3> traction;
+      if (depth > 0.) {
+        const SlaveTraction t = pair.step(law, pair.corners, x, 0.);
+        traction = t.traction - t.pressure * n;
+      } else
+        pair.history = SlaveHistory();
+      const double now =
+          compute_trapezoidal_dissipation(history_n, pair.history, motion, stiffness.tangential);
+      dissipated += now;
+      work -= 0.5 * (traction_n + traction) * (x - x_n);
+      largest = std::max(largest, std::abs(work));
+      traction_n = traction;
+    }
+    balance.add(std::abs(dissipated - work) / largest);
+
+    // Moved as one rigid body it dissipates nothing; sliding steadily, what the return map says.
+    Pair turned = make_pair(random);
+    const SlaveHistory history_n = turned.history;
+    const Tensor<2, 3> R = random.rotation();
+    FacetCorners corners = turned.corners;
+    for (auto &corner : corners)
+      corner = R * corner;
+    const Tensor<1, 3> x_n = turned.x, x = R * turned.x;
+    const FacetCorners corners_n = turned.corners;
+    const FacetProjection p = PlanedFacet(corners).project(x, {});
+    turned.step(Coulomb{100.}, corners, x, 0.);
+    const SlaveMotion rigid = compute_slave_motion(corners_n, corners, p.weights, x_n, x, 0.);
+    still.add(
+        std::abs(compute_trapezoidal_dissipation(history_n, turned.history, rigid, stiffness.tangential)));
+  }
+  check("trapezoidal dissipation: what tractions do from touching to lifting", balance.value(), 1e-12);
+  check("trapezoidal dissipation: none in a rigid motion", still.value(), 1e-11);
+
+  Pair pair{random_facet(random, 1., 0.), {}, {}};
+  const Tensor<1, 3> n = PlanedFacet(pair.corners).project(pair.corners[0], {}).normal;
+  pair.x = point_on(random, pair.corners) - 0.01 * n;
+  for (unsigned int k = 0; k < 20; ++k) {
+    const SlaveHistory history_n = pair.history;
+    const Tensor<1, 3> x_n = pair.x;
+    const Tensor<1, 3> x = x_n + 3e-3 * (k == 0 ? Tensor<1, 3>() : pair.history.frame.q);
+    const FacetProjection p = PlanedFacet(pair.corners).project(x, {});
+    const SlaveMotion motion = compute_slave_motion(pair.corners, pair.corners, p.weights, x_n, x, 0.);
+    const SlaveTraction t = pair.step(law, pair.corners, x, 0.);
+    if (k > 10)
+      steady.add(
+          std::abs(compute_trapezoidal_dissipation(history_n, pair.history, motion, stiffness.tangential) /
+                       t.dissipation -
+                   1.));
+  }
+  check("trapezoidal dissipation: that of the return map where the traction stays", steady.value(), 1e-10);
+}
+
 } // namespace
 
 int main() {
@@ -246,5 +321,6 @@ int main() {
   check_friction();
   check_entry();
   check_slip_rate();
+  check_trapezoidal_dissipation();
   return billet::testing::exit_code();
 }

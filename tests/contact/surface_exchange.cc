@@ -131,17 +131,18 @@ void check_far_apart() {
   add_sheet(whole, 3, 3, rank, 0.1, [&](const double s, const double t) {
     return Tensor<1, 3>({s + 10. * rank, t, 0.});
   });
+  const std::uint64_t first_key = std::uint64_t{1000} * rank;
   std::vector<std::uint64_t> keys;
   for (std::size_t i = 0; i < whole.positions.size(); ++i)
-    keys.push_back(rank * 1000 + i);
+    keys.push_back(first_key + i);
   for (auto &facet : whole.facets)
-    facet.key += 1000 * rank;
+    facet.key += first_key;
   SurfaceExchange exchange(MPI_COMM_WORLD, keys, whole.facets);
   exchange.rebuild(whole.positions, whole.positions, 1.);
   report("far apart: no ghosts", exchange.n_nodes() == whole.positions.size());
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   exchange.rebuild(whole.positions, whole.positions, 9.01); // one edge, of 3 facets and 8 nodes, each way
-  const unsigned int n_sides = (rank > 0 ? 1 : 0) + (rank + 1 < n_ranks ? 1 : 0);
+  const std::size_t n_sides = (rank > 0 ? 1 : 0) + (rank + 1 < n_ranks ? 1 : 0);
   report("near: the nearest facets only", exchange.n_nodes() == whole.positions.size() + 8 * n_sides);
 }
 

@@ -77,7 +77,7 @@ CoonsPatch make_patch(const std::string &curves) {
 void check_curves() {
   // Slopes ±2, knots half apart: the second derivative in the middle is -12.
   const Curve bow(read_curve("spline: 0, 0, 0 via 1, 1, 0 to 2, 0, 0"));
-  WorstError closed, smooth, through, third;
+  WorstError closed, smooth, through;
   for (unsigned int i = 0; i <= 10; ++i) {
     const double t = 0.05 * i;
     const Curve::Jet jet = bow.at(t);

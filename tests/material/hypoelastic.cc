@@ -140,7 +140,7 @@ template <class Law> void test_moduli(const std::string &name, const Law &law, c
         scale = std::max(scale, std::abs(A[i][j]));
     for (unsigned int i = 0; i < 3; ++i) // of the normal components
       for (unsigned int j = 0; j < 3; ++j)
-        skew = std::max(skew, std::abs(A[i][4 * j] - A[j][4 * i]) / scale);
+        skew = std::max(skew, std::abs(A[i][std::size_t{4} * j] - A[j][std::size_t{4} * i]) / scale);
     largest_asymmetry = std::max(largest_asymmetry, skew);
     for (unsigned int j = 0; j < 9; ++j) {
       Tensor<2, 3> L;

@@ -74,7 +74,7 @@ int main() {
   lump(mass);
   double diagonal = 0.;
   for (unsigned int a = 0; a < n_element_nodes; ++a)
-    diagonal += mass[9 * a];
+    diagonal += mass[std::size_t{9} * a];
   check("lumped: all of it on the diagonal",
         std::abs(diagonal - sum(mass)) + std::abs(diagonal / (density * volume) - 1.), 1e-13);
 

@@ -4,6 +4,7 @@
 
 #include "explicit_blocks.h"
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <numeric>

@@ -34,9 +34,15 @@ int main() {
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_told);
-    const std::string text = watch.look(0.3, flight(0.8, 0.4), true);
+    const std::string text = watch.look(0.3, flight(0.8, 0.4), EnergyWatch::Cause::soft_penalties);
     check("of soft penalties the advice is another",
           tells(text, "20 %") && tells(text, "Try a larger 'Normal penalty'") && !tells(text, "softer"));
+  }
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_told);
+    check("of overlaps that stick, too",
+          tells(watch.look(0.3, flight(0.8, 0.4), EnergyWatch::Cause::sticking_overlaps),
+                "Try 'Facets = bilinear'"));
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_kept, 0.3);

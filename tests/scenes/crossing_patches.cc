@@ -20,11 +20,11 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double radius = 3., sector = 4.; // [degrees]
-constexpr int n_sectors = 20;              // half of them on each side of the crest
-const std::string middle = "0.41, 0, -3";  // of the axis, along y
+constexpr double radius = 3., sector = 4.;                   // [degrees]
+constexpr int n_sectors = 20, middle_sector = n_sectors / 2; // half of them on each side of the crest
+const std::string middle = "0.41, 0, -3";                    // of the axis, along y
 
-double angle_of(const int i) { return (i - n_sectors / 2) * sector * M_PI / 180.; }
+double angle_of(const int i) { return (i - middle_sector) * sector * M_PI / 180.; }
 
 std::vector<SurfacePart> sectors() {
   std::vector<SurfacePart> parts;
@@ -71,7 +71,7 @@ Course run(parameters::Scene parameters, const std::vector<SurfacePart> &parts) 
   std::map<DofIndex, Tensor<1, 3>> positions; // undeformed, by the node's first dof
   for (const auto &element : scene.discretization.elements(0))
     for (const unsigned int v : element.cell->vertex_indices())
-      positions[element.dofs[3 * v]] = element.cell->vertex(v);
+      positions[element.dofs[std::size_t{3} * v]] = element.cell->vertex(v);
   Course course;
   std::map<DofIndex, unsigned int> patches;
   const RigidSurface &surface = scene.scene.tools()[0].surface();

@@ -28,7 +28,7 @@ History run(parameters::Scene scene, const NumberType number_type, const double 
     for (const auto &element : problem.discretization.elements(0))
       for (unsigned int a = 0; a < n_element_nodes; ++a) {
         const auto x = element.cell->vertex(a);
-        widest = std::max(widest, x[0] + state.displacements(element.dofs[3 * a]));
+        widest = std::max(widest, x[0] + state.displacements(element.dofs[std::size_t{3} * a]));
         highest = std::max(highest, x[2] + state.displacements(element.dofs[3 * a + 2]));
       }
     history["height"].push_back(highest);

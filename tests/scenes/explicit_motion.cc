@@ -141,7 +141,7 @@ void test_pressure() {
     double least = 0., most = 0.;
     for (const auto &element : run.discretization.elements(0))
       for (unsigned int a = 0; a < n_element_nodes; ++a) {
-        const double u = run.state().displacements(element.dofs[3 * a]);
+        const double u = run.state().displacements(element.dofs[std::size_t{3} * a]);
         least = std::min(least, u);
         most = std::max(most, u);
       }
@@ -193,7 +193,7 @@ void test_sector() {
     for (unsigned int a = 0; a < n_element_nodes; ++a) {
       const auto X = element.cell->vertex(a);
       const double angle = std::atan2(X[1], X[0]);
-      const double u = run.state().displacements(element.dofs[3 * a]) * std::cos(angle) +
+      const double u = run.state().displacements(element.dofs[std::size_t{3} * a]) * std::cos(angle) +
                        run.state().displacements(element.dofs[3 * a + 1]) * std::sin(angle);
       radial.add(std::abs(u * omega - 1.));
     }

@@ -18,7 +18,7 @@ constexpr unsigned int n_press = 10;                  // steps
 /// Horizontal over vertical force, means over the path, sliding so far in each step.
 double force_ratio(const double step) {
   parameters::Scene parameters = testing::read_shipped_scene("ironing.prm");
-  const unsigned int n = static_cast<unsigned int>(std::lround(slide / step));
+  const auto n = static_cast<unsigned int>(std::lround(slide / step));
   for (auto &amplitude : parameters.amplitudes)
     if (amplitude.name == "down") {
       amplitude.times = {0., n_press};

@@ -35,7 +35,7 @@ int main(int argc, char *argv[]) {
     tool.motion.translation.value[i] = dealii::Utilities::to_string(R[i][2]) + "*(-9.6*t)";
 
   SceneRun a(upright), b(turned);
-  testing::WorstError force_error, moment_free;
+  testing::WorstError force_error;
   bool same_iterations = true;
   while (!a.control.is_finished()) {
     const auto first = a.advance(), second = b.advance();

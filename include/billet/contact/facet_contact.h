@@ -72,6 +72,8 @@ struct FacetContactSettings {
   /// How often a node may change facet or status in one step's iterations; one that did so more often stays
   /// with its facet as long as it touches that. 0: as often as it likes, and nobody counts.
   unsigned int most_changes = 0;
+  /// Works are those of the trapezoidal rule, and so is what friction dissipates.
+  bool has_trapezoidal_works = false;
 };
 
 /// What contact between surfaces does in one step, over all ranks.
@@ -239,6 +241,8 @@ private:
     double own_area = 0.; ///< of this rank's facets
     double area = 0.;     ///< of all
     bool rests = false;   ///< touches without pressing
+    /// Of a node that has let go, what its tangential spring held on this rank's facets [energy].
+    double released = 0.;
 
     bool presses() const { return touched.exists() && (contact.gap < 0. || rests); }
   };
@@ -299,6 +303,9 @@ private:
   /// Whether slave s was before this facet by no more than `on_it` at the start of the step, or behind it.
   bool is_resting(const TouchedFacet &below, std::size_t s, double on_it) const;
   SlaveMotion compute_motion(std::size_t s, double duration) const;
+  /// Of slave s, which does not press, what its friction's spring held at the start of the step, less, by the
+  /// trapezoidal rule, what that has done for half of it [energy].
+  double released_energy(std::size_t s, double duration) const;
   /// The nodes on whose positions the forces of slave s depend, itself first.
   std::vector<unsigned int> collect_nodes(std::size_t s, bool with_own_facets) const;
   template <class Law>

@@ -143,6 +143,12 @@ SlaveTractionOf<Number> compute_slave_traction(const Law &law, const ContactStif
   return result;
 }
 
+/// What the trapezoidal rule takes from the motion of a step, and the tangential spring does not store, eq.
+/// (E4) of doc/theory.md, D = −½ (t_n + t)·Δg_t − ½ (|t|² − |t_n|²)/k_t, t_n and t being 0 where the node did
+/// not touch, or does not any longer: friction, as works of central differences see it [energy/length²].
+double compute_trapezoidal_dissipation(const SlaveHistory &history_n, const SlaveHistory &history,
+                                       const SlaveMotion &motion, double tangential_stiffness);
+
 } // namespace billet
 
 #endif

@@ -57,7 +57,7 @@ public:
     force.fill(0.);
     if constexpr (Element::is_stabilised) {
       typename Element::Stabilisation stabilisation;
-      typename Law::Moduli *const wanted = matrix != nullptr ? &moduli[0] : nullptr;
+      typename Law::Moduli *const wanted = matrix != nullptr ? moduli.data() : nullptr;
       if constexpr (keeps_element_history) {
         stabilisation = element_.stabilise(reference, kinematics, history_n.element);
         stabilisation.yield.energy = stabilisation.energy / reference.volume;

@@ -18,11 +18,14 @@ public:
   /// Of the largest energy, where the scene allows no part of its own.
   static constexpr double doubtful_drift = 0.05;
 
+  /// Why energies may fail to balance: what can be done differs.
+  enum class Cause { steps, soft_penalties, sticking_overlaps };
+
   explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
       : balance_(balance), allowed_drift_(allowed_drift) {}
 
-  /// A message for the console, empty if there is nothing to tell. `penalties_are_soft`: of any contact pair.
-  std::string look(double time, const EnergyLedger &energies, bool penalties_are_soft = false);
+  /// A message for the console, empty if there is nothing to tell; `cause` is the likely one.
+  std::string look(double time, const EnergyLedger &energies, Cause cause = Cause::steps);
   /// Why the run has to end after the last look(); empty if it may go on.
   const std::string &imbalance() const { return imbalance_; }
 

@@ -97,7 +97,10 @@ using Register = RegisterOf<is_single>::Type;
 BILLET_INLINE bool any(const Mask m) { return any_of(reinterpret_cast<Register>(m)); }
 BILLET_INLINE Real square_root(const Real x) { return root_of(x); }
 BILLET_INLINE Number square_root(const Number x) {
-  return static_cast<Number>(is_single ? __builtin_sqrtf(x) : __builtin_sqrt(x));
+  if constexpr (is_single)
+    return __builtin_sqrtf(static_cast<float>(x));
+  else
+    return static_cast<Number>(__builtin_sqrt(x));
 }
 #endif
 
