@@ -22,7 +22,7 @@ unsigned int count_fading(const SceneRun &run) {
       continue;
     for (const auto &element : run.discretization.elements(0))
       for (const unsigned int v : element.cell->vertex_indices()) {
-        if (element.dofs[3 * v] != node.dofs[0])
+        if (element.dofs[std::size_t{3} * v] != node.dofs[0])
           continue;
         dealii::Tensor<1, 3> x = element.cell->vertex(v);
         for (unsigned int i = 0; i < 3; ++i)
