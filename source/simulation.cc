@@ -165,9 +165,8 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
     message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step
             << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
                                         : ":")
-            << " try a softer penalty, more 'Most iterations', or look at the "
-               "last picture for "
-               "an unstable or torn mesh";
+            << (parameters.pairs.empty() ? " try" : " try a softer penalty,")
+            << " more 'Most iterations', or look at the last picture for an unstable or torn mesh";
   return message.str() + describe_incompressibility(parameters) + computed.str();
 }
 

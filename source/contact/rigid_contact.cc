@@ -234,9 +234,12 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   state.gap = projection.gap - lift_of(node);
   state.patch = projection.patch;
   // A node that starts on the tool counts as touching: its stiffness may be all that holds the body. Inertia
-  // holds it anyway, and a stiffness without a force would mislead Newton's method when it lifts off.
+  // holds it anyway, and a stiffness without a force would mislead Newton's method when it lifts off: so it
+  // does only while round-off alone has lifted it.
   const double on_it = node.touching_gap;
-  const bool touches = projection.exists && (state.gap < 0. || (state.gap <= on_it && node.gap_n <= on_it));
+  const double rounding = 1e-13 * node.size + 4. * std::numeric_limits<double>::epsilon() * position.norm();
+  const bool rests = node.gap_n <= on_it && state.gap <= std::min(on_it, node.gap_n + rounding);
+  const bool touches = projection.exists && (state.gap < 0. || rests);
   if (touches) {
     state.normal = placement_.rotation * projection.normal;
     state.turning = placement_.rotation * projection.turning * dealii::transpose(placement_.rotation);

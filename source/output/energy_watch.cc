@@ -16,7 +16,7 @@ std::string advise(const EnergyWatch::Cause cause) {
            "larger 'Normal penalty'";
   case EnergyWatch::Cause::sticking_overlaps:
     return "what bodies with friction overlap by changes while they stick. Try 'Facets = bilinear' for their "
-           "contact pairs, or a smaller 'Error tolerance'";
+           "contact pairs";
   case EnergyWatch::Cause::steps:
     break;
   }

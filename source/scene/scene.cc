@@ -102,6 +102,9 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   body.material = make_material(parameters.material);
   body.formulation = make_formulation(parameters);
   body.young_modulus = parameters.material.young_modulus;
+  const auto moduli =
+      ElasticModuli::from_young_poisson(body.young_modulus, parameters.material.poisson_ratio);
+  body.largest_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
   for (const auto &component : parameters.initial_velocity.value)
     body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,

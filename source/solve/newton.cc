@@ -254,8 +254,11 @@ public:
     increment.Norm2(&increment_norm);
 
     // But for what contact's round-off leaves.
+    const bool stagnates = n > 0 && norm > slow_ * last_norm_;
+    last_norm_ = norm;
     const auto is_small = [&](const double contact_round_off) {
-      const double round_off = problem_.round_off_force() + contact_round_off;
+      // All that round-off may leave only where iterations no longer help.
+      const double round_off = (stagnates ? 1. : certain_) * problem_.round_off_force() + contact_round_off;
       return norm <= settings_.force_tolerance * scale + round_off &&
              (n == 0 ||
               std::abs(residual_work) <= (settings_.energy_tolerance * scale + round_off) * increment_norm);
@@ -308,6 +311,9 @@ private:
   const Epetra_Vector &x_n_;
   NewtonReport &report_;
   static constexpr unsigned int most_in_round_off_ = 3; // tries to come out of it
+  static constexpr double slow_ = 0.1;                  // of the last residual
+  static constexpr double certain_ = 0.01;              // of the estimate of round-off: its last bit
+  double last_norm_ = 0.;
   unsigned int n_in_round_off_ = 0;
   double largest_round_off_ = 0.;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;

@@ -72,7 +72,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
 
   double stiffest = 0.;
   for (const auto &body : scene.bodies())
-    stiffest = std::max(stiffest, body.young_modulus);
+    stiffest = std::max(stiffest, body.largest_modulus);
   // A hundred times the force that the last bit of a displacement of the scene's size makes.
   round_off_force_ = 100. * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
                      discretization.radius();
@@ -488,7 +488,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   report.linear_iterations = linear_->take_iterations();
   report.note = softened + linear_->take_note();
   if (report.converged)
-    report.note += watch_penalties();
+    report.note += watch_penalties() + tell_round_off(report.force);
   return report;
 }
 

@@ -75,6 +75,21 @@ std::string QuasiStatic::describe_round_off(const double part) const {
   return text.str();
 }
 
+std::string QuasiStatic::tell_round_off(const double part) {
+  const double tolerance = scene_.parameters().solver.force_tolerance * std::max(1., accuracy_);
+  constexpr double much_more = 10.; // to tell it again
+  if (has_told_stiff_ || part <= std::max(tolerance, much_more * told_round_off_))
+    return "";
+  told_round_off_ = part;
+  std::ostringstream note;
+  note.precision(2);
+  note << "Round-off leaves " << part << " of the forces, more than 'Force tolerance' = " << tolerance
+       << " asks for: they are that small beside the stiffness of the bodies. Sixteen digits allow no more; "
+          "try "
+          "bodies nearer to the origin, or moduli less far apart\n";
+  return note.str();
+}
+
 bool QuasiStatic::is_lost_in_round_off(const double t, NewtonReport &report) {
   // Where loads begin, and nodes lie on a tool but for their last bit, forces are small, and grow soon.
   constexpr unsigned int most_steps = 3;

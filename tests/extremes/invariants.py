@@ -69,6 +69,16 @@ class Invariants(unittest.TestCase):
                    lambda r: r.fields["displacement"].__setitem__((2, 1), math.inf),
                    lambda r: r.history.update(time=r.history["time"] * 0.9))
 
+    def test_residual(self):
+        self.about(must.residual, lambda: made_up("slide", history={"residual": 1e-7}),
+                   lambda r: r.history["residual"].__setitem__(3, 2e-6))
+        self.assertEqual(must.residual(made_up("slide", {"target error": 0.1}, history={"residual": 1e-4})), [])
+
+    def test_depth(self):
+        r = made_up("slide", history=force("floor", deepest_penetration=0.03), contact_area=0.25)
+        self.assertAlmostEqual(must.deepest(r), 0.06)
+        self.assertEqual(must.deepest(made_up("slide")), 0.0)
+
     def test_forces(self):
         both = {**force("die", z=2.0), **force("ram", z=-2.0)}
         self.about(must.balanced("die", "ram"), lambda: made_up("upset", history=both),
@@ -406,10 +416,22 @@ class Running(unittest.TestCase):
         other = self.runner("exit 2")
         self.assertTrue(other.stale(record))
         ours = {**record, "program": other.program_hash}
+        self.assertFalse(other.stale(ours))
+        self.assertTrue(other.stale({**ours, "checks of": "others"}))
         self.assertEqual(report.programs([ours], other.program_hash), "All of them ran with one and the same program.")
         said = report.programs([ours, record, record], other.program_hash)
         self.assertIn("1 scene ran with the program as it is, 2 with one other state", said)
         self.assertIn("2 crashed", said)
+
+    def test_safe(self):
+        def of(parameters, values, outcome="right", depth=0.0):
+            return {"parameters": parameters, "values": values, "outcome": outcome, "depth": depth}
+        records = [of(["penalty"], [0.1], depth=0.3), *(of(["penalty"], [p]) for p in (1.0, 10.0, 100.0)), of(["penalty"], [1e3], "failed"),
+                   of(["penalty", "mu"], [1e4, 0.3]), of(["nu", "mu"], [0.49, 0.3])]
+        self.assertEqual(report.safe(records, "penalty"), "1 to 100")
+        # Turned beside another one that is as it is by default it is turned alone.
+        self.assertEqual(report.safe([*records, of(["penalty", "mu"], [100.0, 0.0], "failed")], "penalty"), "1 to 10")
+        self.assertEqual(report.safe(records, "nu"), "")
 
     def test_slow_ones_are_told(self):
         records = [{"name": "a/b", "outcome": "right", "seconds": 57.0, "steps": 13000.0}, {"name": "c/d", "outcome": "right", "seconds": 1.0}]

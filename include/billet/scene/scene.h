@@ -48,7 +48,8 @@ struct Body {
   MaterialLaw material;
   ElementFormulation formulation; ///< of implicit scenes
   double young_modulus;
-  double density; ///< of the undeformed body
+  double largest_modulus; ///< of a strain that is held sideways, K + 4/3 G [stress]
+  double density;         ///< of the undeformed body
   std::vector<Hold> holds;
   std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by the holds
   std::vector<Load> loads;

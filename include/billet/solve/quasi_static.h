@@ -225,6 +225,9 @@ private:
   bool is_lost_in_round_off(double t, NewtonReport &report);
   /// What is left of the forces, why and what to do.
   std::string describe_round_off(double part) const;
+  /// Where a step was accepted with this part of the forces, more than the tolerance, since round-off lets it
+  /// come no nearer; again where it is ten times as much.
+  std::string tell_round_off(double part);
   /// Names of the pairs whose penalties make most of it. Collective.
   std::string stiffest_pairs() const;
   /// What the user should know of the penalties after a step, each once; lines. In
@@ -326,6 +329,7 @@ private:
   std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
   bool has_told_stiff_ = false; ///< by watch_penalties()
+  double told_round_off_ = 0.;  ///< part of the forces
   bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs

@@ -15,6 +15,7 @@ from . import ExtremesError, plan, report
 from .runner import OUTCOMES, Runner
 
 BAD = ("wrong", "crashed", "hung", "unhelpful")
+UNEXPECTED = (*BAD, "doubtful", "failed")  # of the fixed scenes, which run, or are refused
 
 
 def program_of(named):
@@ -33,9 +34,9 @@ def parse(arguments):
     p.add_argument("--folder", default="results/extremes", help="where runs are kept (%(default)s)")
     p.add_argument("--only", metavar="PATTERN", action="append", help="scenes whose name matches, such as 'slide/*mu=*'; may be given more than once")
     p.add_argument("--outcome", choices=OUTCOMES, action="append", help="scenes that have come out so")
-    p.add_argument("--fixed", action="store_true", help="the few that the tests run; exit code 1 if one is neither right, nor refused or failed with a reason")
+    p.add_argument("--fixed", action="store_true", help="the few that the tests run; exit code 1 if one is neither right nor refused with a reason")
     p.add_argument("--again", action="store_true", help="run what is kept once more")
-    p.add_argument("--stale", action="store_true", help="run what is kept of another program once more")
+    p.add_argument("--stale", action="store_true", help="run what is kept of another program, or was judged by other checks, once more")
     p.add_argument("--list", action="store_true", help="name the scenes, and what became of them, and run none")
     p.add_argument("--keep", action="store_true", help="keep the scene files of what is right, too")
     p.add_argument("--part", metavar="I/N", help="every N-th scene from the I-th on, to share the work: 1/2 and 2/2")
@@ -107,5 +108,5 @@ def perform(options):
     if options.report:
         report.write(records, Path(options.report), len(cases), runner.program_hash)
     if options.fixed:
-        return 1 if any(counts[outcome] for outcome in BAD) else 0
+        return 1 if any(counts[outcome] for outcome in UNEXPECTED) else 0
     return 0

@@ -48,6 +48,20 @@ def finite(r):
     return [Finding("finite", bad, 0), Finding("comes to its end", abs(time - end) / end, 1e-3 if r.is_explicit else 1e-9)]
 
 
+def residual(r):
+    """No step is accepted with more than 'Force tolerance' asks for; what chooses tolerances by itself is looked at by its errors."""
+    if "residual" not in r.history or r.knobs.profile or r.knobs.target_error:
+        return []
+    return [Finding("residual of steps", float(numpy.max(r.history["residual"], initial=0.0)), 1.001 * float(r.knobs.tolerance or 1e-6))]
+
+
+def deepest(r):
+    """How deep nodes go in, relative to a facet: the root of the largest area of a node."""
+    area = float(numpy.max(r.fields.get("contact_area", numpy.zeros(1)), initial=0.0))
+    depth = max((float(numpy.max(v, initial=0.0)) for name, v in r.history.items() if name.endswith(".deepest_penetration")), default=0.0)
+    return depth / math.sqrt(area) if area > 0 else 0.0
+
+
 # --- forces ------------------------------------------------------------------------------------------------------------------
 
 def largest_force(r):

@@ -16,7 +16,7 @@ from .invariants import NUDGE, SYMMETRIES  # noqa: E402
 from .runner import AT_MOST, OUTCOMES, PATIENCE  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
-COLOURS = {"right": "#4c9f70", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
+COLOURS = {"right": "#4c9f70", "right, but soft": "#a9d3b5", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
            "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
 WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient", "nu": "Poisson's ratio", "step": "fixed step, of the load",
          "strain": "logarithmic strain", "aspect": "height over width of a brick", "yield": "yield stress, E",
@@ -37,6 +37,10 @@ COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda 
            "explicit": lambda base: base.endswith(".explicit")}
 
 
+KNOB_OF = {"augmented penalty": "penalty"}
+PENALTIES, DEEP = ("penalty", "augmented penalty", "tangential penalty"), 0.1
+
+
 def shown(value):
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
@@ -51,14 +55,16 @@ def alone(records, parameter):
 
 
 def safe(records, parameter):
-    """Of the scenes in which this parameter alone is turned: the values, in a row around the default, at which all are right;
-    words: those at which all are."""
-    own = [r for r in records if r["parameters"] == [parameter]] or alone(records, parameter)
+    """Of the scenes in which this parameter alone is turned, any other being as it is by default: the values, in a row around the
+    default, at which all are right, and no node is DEEP for its penalty; words: those at which all are."""
+    own = [r for r in alone(records, parameter)
+           if all(p == parameter or v == KNOBS.get(KNOB_OF.get(p, p)) for p, v in zip(r["parameters"], r["values"]))]
     if not own:
         return ""
     by_value = defaultdict(set)
     for r in own:
-        by_value[r["values"][r["parameters"].index(parameter)]].add(r["outcome"])
+        soft = parameter in PENALTIES and r.get("depth", 0) > DEEP
+        by_value[r["values"][r["parameters"].index(parameter)]].add("soft" if soft else r["outcome"])
     good = {v for v, outcomes in by_value.items() if outcomes == {"right"}}
     if any(isinstance(v, str) for v in by_value):
         bad = [v for v in by_value if v not in good]
@@ -66,7 +72,7 @@ def safe(records, parameter):
     values = sorted(by_value)
     if not good:
         return "-"
-    default = KNOBS.get({"augmented penalty": "penalty"}.get(parameter, parameter))
+    default = KNOBS.get(KNOB_OF.get(parameter, parameter))
     runs, row = [], []
     for v in values + [None]:
         if v in good:
@@ -176,8 +182,10 @@ def write(records, folder, planned=0, program=""):
                    + [[kind, *[sum(r["base"] in bases and r["outcome"] == o for r in records) for o in outcomes],
                        sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),
              "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
-             "alone is right, by the kind of run; outside of it at least one of them is not, which may be one of many. Counts are of all "
-             "scenes, those in pairs with it included."]
+             "alone is right, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. Of "
+             f"penalties, values at which a node goes deeper than {DEEP:g} facet sizes are not safe, either: such contact is soft, as the log "
+             "says, and forces are too small. Empty: nothing turns it alone. Counts are of all scenes, those in pairs with it included. Scenes of "
+             "fixed steps below a hundredth of the load end after twenty of them."]
     names = []
     for r in records:
         names += [p for p in r["parameters"] if p not in names]
@@ -209,7 +217,7 @@ PICTURES = {
     "penalty_friction": (("penalty", "mu"), "normal penalty, E/h", "friction coefficient", (
         ("slide", "a block dragged on a tool"), ("drag", "a block dragged on a block"), ("skid.explicit", "explicit: skidding"),
         ("skid.implicit", "implicit dynamics: skidding"))),
-    "nu_step": (("step", "nu"), "fixed step, part of the load", "Poisson's ratio", (
+    "nu_step": (("step", "nu"), "fixed step, part of the load (below 0.01: twenty of them)", "Poisson's ratio", (
         ("upset", "elastic, pressed to ln -0.5"), ("pull", "plastic, pulled to ln 0.5"))),
     "aspect_strain": (("aspect", "strain"), "height over width", "logarithmic strain", (
         ("upset", "pressed between tools"), ("pull", "pulled"))),
@@ -240,7 +248,11 @@ def draw(records, file, pair, x_label, y_label, bases):
     for ax, (base, title) in zip(axes[0], panels):
         found = cells[base]
         xs, ys = sorted({k[0] for k in found}), sorted({k[1] for k in found})
-        outcome = [[found[a, b]["outcome"] if (a, b) in found else None for a in xs] for b in ys]
+        def outcome_of(key):
+            r = found.get(key, {})
+            soft = "penalty" in pair and r.get("outcome") == "right" and r.get("depth", 0) > DEEP
+            return "right, but soft" if soft else r.get("outcome")
+        outcome = [[outcome_of((a, b)) for a in xs] for b in ys]
         used |= {o for row in outcome for o in row if o}
         ax.imshow([[order.index(o) for o in row] for row in outcome], cmap=colours, norm=norm, origin="lower", aspect="auto")
         for i, b in enumerate(ys):

@@ -24,8 +24,9 @@ OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "cra
 DOUBT = re.compile(r"^.*the energies fail to balance by .*$", re.MULTILINE)
 # What the log says that rounding leaves of the forces: as much of them need not balance.
 ROUND_OFF = re.compile(r"^Round-off leaves (\S+) of the forces", re.MULTILINE)
-BALANCES = ("equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
+BALANCES = ("residual of steps", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
+JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")  # what outcomes depend on beside the program
 FORGETS = 10.0  # a symmetry may be off by as many times what a nudge makes of the motion
 BEYOND_DOUBT = ("finite", "comes to its end", "elements inside out", "friction cone", "no tension", "yield condition",
                 "plastic strain >= 0", "energy ledger")
@@ -66,6 +67,7 @@ class Runner:
         for name in ("kept", "scenes", "work"):
             (folder / name).mkdir(parents=True, exist_ok=True)
         self.program_hash = hashlib.sha256(program.read_bytes()).hexdigest()[:12]
+        self.checks_hash = hashlib.sha256(b"".join((Path(__file__).parent / f"{name}.py").read_bytes() for name in JUDGES)).hexdigest()[:12]
         self._references = {}
 
     def kept(self, case):
@@ -75,14 +77,14 @@ class Runner:
             return None
 
     def stale(self, record):
-        """Whether this outcome is of another program than ours."""
-        return record["program"] != self.program_hash
+        """Whether this outcome is of another program than ours, or was judged by other checks."""
+        return record["program"] != self.program_hash or record.get("checks of") != self.checks_hash
 
     def run(self, case):
         """Its outcome, kept."""
         begin = time.monotonic()
         record = {"name": case.name, "base": case.base, "changes": case.changes, "parameters": list(case.parameters),
-                  "values": list(case.values), "program": self.program_hash}
+                  "values": list(case.values), "program": self.program_hash, "checks of": self.checks_hash}
         try:
             record.update(self._judge(case))
         except Exception:  # a defect of ours: it must not stop the others, nor pass
@@ -120,14 +122,15 @@ class Runner:
         if code != 0:
             return {"outcome": "crashed", "reason": f"exit code {code}: {said[-1500:]}"}
         result = Result.read(setup, work / "results")
-        found = [finding for check in setup.checks for finding in check(result)]
+        found = [finding for check in (*setup.checks, invariants.residual) for finding in check(result)]
         if case.like is not None:
             other = self._reference(case)
             if other is None:
                 return {"outcome": "wrong", "reason": "this one runs, and the one that it is compared with does not"}
             found += invariants.believed(result, other) if case.count == "believed" else invariants.same(result, other, case.loose, case.count)
         log = (work / "stdout").read_text(errors="replace")
-        rounded = min(max((float(part) for part in ROUND_OFF.findall(log)), default=0.0), ROUND_OFF_AT_MOST)
+        # It is told once; later steps may leave more.
+        rounded = ROUND_OFF_AT_MOST if ROUND_OFF.search(log) else 0.0
         found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f for f in found]
         numbers = {}
         if any(f.name in invariants.SYMMETRIES and not f.holds for f in found):
@@ -138,7 +141,7 @@ class Runner:
         broken = [str(f) for f in found if not f.holds]
         beyond = [f for f in found if not f.holds and f.name in BEYOND_DOUBT]
         numbers |= {"steps": float(result.history["step"][-1]), "iterations": float(result.history.get("total_iterations", [0])[-1]),
-                    "cuts": float(result.history.get("total_cuts", [0])[-1]), "checks": len(found),
+                    "cuts": float(result.history.get("total_cuts", [0])[-1]), "checks": len(found), "depth": invariants.deepest(result),
                     "errors": {f.name: f.error for f in found}}
         outcome = "right" if not broken else "doubtful" if told and not beyond else "wrong"
         said = f"{told.group(0).strip()} - " if outcome == "doubtful" else ""
