@@ -78,7 +78,9 @@ std::string QuasiStatic::describe_round_off(const double part) const {
 std::string QuasiStatic::tell_round_off(const double part) {
   const double tolerance = scene_.parameters().solver.force_tolerance * std::max(1., accuracy_);
   constexpr double much_more = 10.; // to tell it again
-  if (has_told_stiff_ || part <= std::max(tolerance, much_more * told_round_off_))
+  // Bodies that nothing acts on yet have no other forces than round-off, nor have those in flight.
+  const bool is_loaded = !motion_ && force_scale_ > 0.1 * round_off_force_;
+  if (!is_loaded || has_told_stiff_ || part <= std::max(tolerance, much_more * told_round_off_))
     return "";
   told_round_off_ = part;
   std::ostringstream note;

@@ -49,8 +49,9 @@ def finite(r):
 
 
 def residual(r):
-    """No step is accepted with more than 'Force tolerance' asks for; what chooses tolerances by itself is looked at by its errors."""
-    if "residual" not in r.history or r.knobs.profile or r.knobs.target_error:
+    """No step of statics is accepted with more than 'Force tolerance' asks for (in motion there may be no forces); what chooses
+    tolerances by itself is looked at by its errors."""
+    if "residual" not in r.history or "kinetic_energy" in r.history or r.knobs.profile or r.knobs.target_error:
         return []
     return [Finding("residual of steps", float(numpy.max(r.history["residual"], initial=0.0)), 1.001 * float(r.knobs.tolerance or 1e-6))]
 
