@@ -140,7 +140,7 @@ publish(
     "error tolerance of 1e-6, and the penalties of the scene, whose error is not in it), augmented to 1e-4 of a facet, residuals below 1e-10; explicit: mean "
     "dilatation, the scene's law, a penalty factor of 100 where penalties are factors, a safety factor of 0.3 and a contact "
     "resolution of 4. What the mesh makes is not in it. The last column: CPU seconds / work of accurate over fast, "
-    "the seconds without those of setting up, which are those of a run of 1e-5 of the time (the less of two; none where that fails). Each run once.",
+    "the seconds without those of setting up, which are those of a run of 1e-5 of the time (the less of two; none where that fails; at least 0.01 s are left of each, so that the largest ratios are rough). Each run once.",
     f"fast takes a quarter of accurate's CPU seconds or less in {cheaper} of {shown} scenes in which both end. " + " ".join(filter(None, (
         no_better(errors), without_errors(failures), "" if not looser else "The reference is a looser one, since the tightest finds no end, in " + ", ".join(
             f"{name} (augmented to {depth:g} of a facet)" for name, depth in looser.items())

@@ -127,6 +127,18 @@ class Cancellation(unittest.TestCase):
         self.assertIn("errors cancel", s.page("", "", [], ""))
         self.assertIn("Most accuracy is bought by `steps = 80`", said)
 
+    def test_what_an_uncertain_reference_cannot_tell(self):
+        # A coarser mesh that seems better by less than is known; a gain that is less than is known; one that is more.
+        points = [point("", "as written", force=1.018, elements=8), point("mesh", "0.5", layers(2), force=1.011, elements=2)]
+        said = " ".join(sweep(points, Reference(0.01), 0.03).words())
+        self.assertIn("(a gain below the reference's uncertainty)", said)
+        self.assertEqual(said.count("That mesh is coarser than the scene's"), 2)  # of what buys most, and of what is chosen
+        points = [point("", "as written", force=1.04, elements=8), point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.02, elements=8)]
+        said = " ".join(sweep(points, Reference(0.01)).words())
+        self.assertIn("Most accuracy is bought by `steps = 80`", said)
+        self.assertNotIn("a gain below", said)
+        self.assertNotIn("coarser", said)
+
     def test_mesh_alone(self):
         points = self.points()
         s = sweep(points, Reference(0.01, {"2": 0.035}), 0.02)

@@ -230,16 +230,20 @@ class Sweep:
     def say(self, point):
         return f"`{point.label}`: error {error_text(self.ranked(point), self.uncertainty)}, {self.times(point)}"
 
-    def caveat(self, point):
-        """What an error that is said to be smaller than the base's is worth."""
-        if point is self.base or not self.base.is_good or self.ranked(point) >= self.ranked(self.base):
+    def seems_better(self, point):
+        """Than the scene as written, by its error."""
+        return not point.is_base and self.base.is_good and self.ranked(point) < self.ranked(self.base)
+
+    def may_cancel(self, point):
+        """A sentence where fewer elements have less error, which mesh and steps together may feign; else nothing."""
+        if not self.seems_better(point) or not 0 < point.result.elements < self.base.result.elements:
             return ""
-        if 0 < point.result.elements < self.base.result.elements:
-            return (" (with fewer elements: that errors of mesh and steps take each other away there a reference known to "
-                    f"{percent(self.uncertainty)} cannot tell)")
-        if self.ranked(self.base) - self._floored(point) < self.uncertainty:
-            return " (a gain below the reference's uncertainty, a hint)"
-        return ""
+        return f" That mesh is coarser than the scene's: whether errors of mesh and steps take each other away there a reference known to {percent(self.uncertainty)} cannot tell."
+
+    def hint(self, point):
+        """What a gain is worth that the reference is not known well enough for."""
+        small = self.seems_better(point) and self.ranked(self.base) - self._floored(point) < self.uncertainty
+        return " (a gain below the reference's uncertainty)" if small else ""
 
     def words(self):
         """What came out, in sentences."""
@@ -256,14 +260,14 @@ class Sweep:
             if better:
                 least = min(map(self._floored, better))
                 best = min((p for p in better if self._floored(p) <= 1.1 * least), key=self.cost_of)
-                said.append(f"Most accuracy is bought by {self.say(best)}{self.caveat(best)}.")
+                said.append(f"Most accuracy is bought by {self.say(best)}{self.hint(best)}.{self.may_cancel(best)}")
                 # Accuracy for money: decades of error for a decade of cost.
                 def rate(p):
                     gain = math.log(self._floored(base) / self._floored(p))
                     return gain / max(0.05, math.log(max(self.cost_of(p) / self.cost_of(base), 1.0)))
                 value = max(better, key=rate)
                 if value is not best:
-                    said.append(f"Most accuracy for its price by {self.say(value)}{self.caveat(value)}.")
+                    said.append(f"Most accuracy for its price by {self.say(value)}{self.hint(value)}.")
             else:
                 said.append("No knob alone makes the error measurably smaller" + (
                     ": it is below the reference's uncertainty already." if base.error < u else "."))
@@ -299,7 +303,7 @@ class Sweep:
         target, u = self.target, self.uncertainty
         if self.chosen:
             return (f"**Within {percent(target)}, the reference's uncertainty included, the cheapest is {self.say(self.chosen)}** "
-                    f"({number(self.chosen.seconds)} core-seconds){self.caveat(self.chosen)}.")
+                    f"({number(self.chosen.seconds)} core-seconds).{self.may_cancel(self.chosen)}")
         if self.is_blind:
             return f"**No choice within {percent(target)}.**"
         if u >= target:
