@@ -291,6 +291,18 @@ def everything():  # noqa: C901
                        ("stack", PLASTIC)):
         for target in (0.1, 0.03, 0.01, 0.003):
             yield Case(base, {"target error": target, **more}, ("target error",), (target,), like={**more, **fine}, count="believed")
+    # pairs in which round-off, stiffness and compressibility meet
+    small = [1e-7, 1e-6, 1e-5, 1e-3, 0.1, 1.0]
+    yield from product(("nu", "strain"), ("pull",), [-0.9, 0.0, 0.45, 0.499, 0.4999], small)
+    yield from product(("nu", "strain"), ("upset",), [-0.9, 0.0, 0.45, 0.499, 0.4999], [-s for s in small[1:]])
+    yield from product(("modulus ratio", "penalty"), ("stack",), [1e-6, 1e-3, 1e3, 1e6], PENALTIES[2::2])
+    yield from product(("modulus ratio", "press"), ("stack",), [1e-6, 1e-3, 1e3, 1e6], [1e-7, 1e-5, 1e-3])
+    yield from product(("nu", "penalty"), ("stack", "slide"), [-0.9, 0.0, 0.49, 0.4999], PENALTIES[2::2], along=ROUGH)
+    yield from product(("mu", "nu"), ("slide", "drag"), [0.1, 1.0, 5.0], [-0.9, 0.0, 0.49, 0.4999])
+    yield from product(("aspect", "penalty"), ("upset",), [1e-3, 0.1, 10.0, 1e3], PENALTIES[2::2])
+    yield from product(("step", "penalty"), ("upset", "slide"), [1e-6, 1e-4, 0.01, 0.1], PENALTIES[2::2])
+    yield from product(("yield", "penalty"), ("upset", "stack"), [1e-8, 1e-4, 0.01, 1.0], PENALTIES[2::2], along=PLASTIC)
+    yield from product(("speed", "penalty"), ("drop.explicit", "drop.implicit", "bars.explicit"), [1e-3, 0.03, 0.3], PENALTIES[2:8])
 
 
 # Some of each kind, seconds altogether: what ctest runs.
