@@ -38,7 +38,7 @@ SWEEPS = {
     # Bending, in which elements lock: two layers of bricks in the ring's wall, until it touches itself.
     "ring_crush": ("ring_crush", "--title|Crushing of a ring|--until 0.476 --set|Time stepping/Stops=0.9|--set|Bodies/ring/Element=one point|"
                    "--set|Bodies/ring/Mesh/Arguments=2, 1, 64 : 9.5, 0, -90 : 10, 0.5, 90 : true|--set|Bodies/ring/Mesh/Boundary ids=6 : z < -9.95|"
-                   "--reference-mesh 0.5,1,2 --reference-steps 40 --force die.force_z --outputs force --target 20% --repeat 1", [
+                   "--reference-mesh 0.5,1,2 --reference-steps 40 --force die.force_z --outputs force --target 20%", [
         "mesh=0.5,1,2", "element=one point,mean dilatation,full", "largest step=0.5,1", "penalty=0.001,0.1,10"],
         [["mesh=0.5", "element=mean dilatation,full"]]),
     "tube_impact": ("tube_impact", "--reference-mesh 0.5,1,2 --outputs shape,rebound --target 15%", [

@@ -71,7 +71,7 @@ class Invariants(unittest.TestCase):
 
     def test_residual(self):
         self.about(must.residual, lambda: made_up("slide", history={"residual": 1e-7}),
-                   lambda r: r.history["residual"].__setitem__(3, 2e-6))
+                   lambda r: r.history["residual"].__setitem__(3, 2e-6), lambda r: r.history["residual"].__setitem__(-1, 2e-6))
         self.assertEqual(must.residual(made_up("slide", {"target error": 0.1}, history={"residual": 1e-4})), [])
 
     def test_depth(self):
