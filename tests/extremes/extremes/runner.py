@@ -24,7 +24,7 @@ OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "cra
 DOUBT = re.compile(r"^.*the energies fail to balance by .*$", re.MULTILINE)
 # What the log says that rounding leaves of the forces: as much of them need not balance.
 ROUND_OFF = re.compile(r"^Round-off leaves (\S+) of the forces", re.MULTILINE)
-BALANCES = ("residual of steps", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
+BALANCES = ("residual of steps", "patch test", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
 JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")  # what outcomes depend on beside the program
 FORGETS = 10.0  # a symmetry may be off by as many times what a nudge makes of the motion
