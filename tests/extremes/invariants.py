@@ -423,10 +423,21 @@ class Running(unittest.TestCase):
         self.assertIn("1 scene ran with the program as it is, 2 with one other state", said)
         self.assertIn("2 crashed", said)
 
+    def test_soft(self):
+        runner, work = self.runner(), self.folder / "work"
+        work.mkdir(exist_ok=True)
+        setup = scenes.make("slide", {})
+        setup.checks = []
+        for log, depth, soft in (("", 0.01, False), ("", 0.06, True), ("Contact pair 'foot' lets nodes 0.03 facet sizes deep, 50 % of the largest displacement so far: its penalty is soft for what "
+                                                                      "presses here. Try a larger 'Normal penalty'\n", 0.01, True)):
+            (work / "stdout").write_text(log)
+            with unittest.mock.patch.object(Result, "read", return_value=made_up("slide", history=force("foot", deepest_penetration=depth), contact_area=0.25)):
+                self.assertEqual(runner._verdict(plan.Case("slide", {}, (), ()), setup, work, (0, "", "", 1.0))["soft"], soft)
+
     def test_safe(self):
-        def of(parameters, values, outcome="right", depth=0.0):
-            return {"parameters": parameters, "values": values, "outcome": outcome, "depth": depth}
-        records = [of(["penalty"], [0.1], depth=0.3), *(of(["penalty"], [p]) for p in (1.0, 10.0, 100.0)), of(["penalty"], [1e3], "failed"),
+        def of(parameters, values, outcome="right", soft=False):
+            return {"parameters": parameters, "values": values, "outcome": outcome, "soft": soft}
+        records = [of(["penalty"], [0.1], soft=True), *(of(["penalty"], [p]) for p in (1.0, 10.0, 100.0)), of(["penalty"], [1e3], "failed"),
                    of(["penalty", "mu"], [1e4, 0.3]), of(["nu", "mu"], [0.49, 0.3])]
         self.assertEqual(report.safe(records, "penalty"), "1 to 100")
         # Turned beside another one that is as it is by default it is turned alone.

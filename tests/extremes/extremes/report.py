@@ -13,7 +13,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
 from .invariants import NUDGE, SYMMETRIES  # noqa: E402
-from .runner import AT_MOST, OUTCOMES, PATIENCE  # noqa: E402
+from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
 COLOURS = {"right": "#4c9f70", "right, but soft": "#a9d3b5", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
@@ -38,7 +38,7 @@ COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda 
 
 
 KNOB_OF = {"augmented penalty": "penalty"}
-PENALTIES, DEEP = ("penalty", "augmented penalty", "tangential penalty"), 0.1
+PENALTIES = ("penalty", "augmented penalty")
 
 
 def shown(value):
@@ -56,14 +56,14 @@ def alone(records, parameter):
 
 def safe(records, parameter):
     """Of the scenes in which this parameter alone is turned, any other being as it is by default: the values, in a row around the
-    default, at which all are right, and no node is DEEP for its penalty; words: those at which all are."""
+    default, at which all are right, and no penalty is soft; words: those at which all are."""
     own = [r for r in alone(records, parameter)
            if all(p == parameter or v == KNOBS.get(KNOB_OF.get(p, p)) for p, v in zip(r["parameters"], r["values"]))]
     if not own:
         return ""
     by_value = defaultdict(set)
     for r in own:
-        soft = parameter in PENALTIES and r.get("depth", 0) > DEEP
+        soft = parameter in PENALTIES and r.get("soft")
         by_value[r["values"][r["parameters"].index(parameter)]].add("soft" if soft else r["outcome"])
     good = {v for v, outcomes in by_value.items() if outcomes == {"right"}}
     if any(isinstance(v, str) for v in by_value):
@@ -183,8 +183,8 @@ def write(records, folder, planned=0, program=""):
                        sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),
              "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
              "alone is right, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. Of "
-             f"penalties, values at which a node goes deeper than {DEEP:g} facet sizes are not safe, either: such contact is soft, as the log "
-             "says, and forces are too small. Empty: nothing turns it alone. Counts are of all scenes, those in pairs with it included. Scenes of "
+             f"penalties, values at which a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is soft, since it takes more than a fifth of the "
+             "motion, are not safe, either: forces are too small. Empty: nothing turns it alone. Counts are of all scenes, those in pairs with it included. Scenes of "
              "fixed steps below a hundredth of the load end after twenty of them."]
     names = []
     for r in records:
@@ -250,7 +250,7 @@ def draw(records, file, pair, x_label, y_label, bases):
         xs, ys = sorted({k[0] for k in found}), sorted({k[1] for k in found})
         def outcome_of(key):
             r = found.get(key, {})
-            soft = "penalty" in pair and r.get("outcome") == "right" and r.get("depth", 0) > DEEP
+            soft = "penalty" in pair and r.get("outcome") == "right" and r.get("soft")
             return "right, but soft" if soft else r.get("outcome")
         outcome = [[outcome_of((a, b)) for a in xs] for b in ys]
         used |= {o for row in outcome for o in row if o}

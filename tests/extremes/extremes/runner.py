@@ -24,6 +24,8 @@ OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "cra
 DOUBT = re.compile(r"^.*the energies fail to balance by .*$", re.MULTILINE)
 # What the log says that rounding leaves of the forces: as much of them need not balance.
 ROUND_OFF = re.compile(r"^Round-off leaves (\S+) of the forces", re.MULTILINE)
+SOFT = re.compile(r"^Contact pair .* lets nodes .* deep.*: its penalty is soft", re.MULTILINE)
+DEEP = 0.1  # facet sizes
 BALANCES = ("residual of steps", "patch test", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
 JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")  # what outcomes depend on beside the program
@@ -142,6 +144,7 @@ class Runner:
         beyond = [f for f in found if not f.holds and f.name in BEYOND_DOUBT]
         numbers |= {"steps": float(result.history["step"][-1]), "iterations": float(result.history.get("total_iterations", [0])[-1]),
                     "cuts": float(result.history.get("total_cuts", [0])[-1]), "checks": len(found), "depth": invariants.deepest(result),
+                    "soft": bool(SOFT.search(log)) or invariants.deepest(result) > DEEP,
                     "errors": {f.name: f.error for f in found}}
         outcome = "right" if not broken else "doubtful" if told and not beyond else "wrong"
         said = f"{told.group(0).strip()} - " if outcome == "doubtful" else ""
