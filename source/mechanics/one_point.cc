@@ -308,7 +308,7 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
         }
       for (std::size_t n = 0; n < n_element_modes; ++n)
         for (std::size_t j = 0; j < 3; ++j)
-          modal[(3 * n + j) * n_modal_dofs + 3 * m + i] += rates[n][j];
+          modal[(3 * n + j) * n_modal_dofs + std::size_t{3} * m + i] += rates[n][j];
     }
   scatter(modal, matrix);
 }

@@ -160,6 +160,7 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
   if (const auto implicit = find_implicit_formulation(words)) {
     const auto block = make_element_block(material, *implicit);
     std::vector<ElementVectors> positions;
+    positions.reserve(elements.size());
     for (const auto &element : elements)
       positions.push_back(nodal_positions(element.cell));
     block->initialize(positions, ignored);
