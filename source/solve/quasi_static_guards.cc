@@ -87,8 +87,7 @@ std::string QuasiStatic::tell_round_off(const double part) {
   note.precision(2);
   note << "Round-off leaves " << part << " of the forces, more than 'Force tolerance' = " << tolerance
        << " asks for: they are that small beside the stiffness of the bodies. Sixteen digits allow no more; "
-          "try "
-          "bodies nearer to the origin, or moduli less far apart\n";
+          "try bodies nearer to the origin, or moduli less far apart\n";
   return note.str();
 }
 

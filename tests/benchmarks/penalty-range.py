@@ -58,5 +58,6 @@ publish(
     "The billet until half of its travel, two cylinders, a press fit, as shipped but for the penalty, in parts of E/h, and the augmentation, in facet sizes. "
     "Residuals below 1e-8 of the forces. Errors are of the force at the end, from that of 10 E/h augmented to 1e-6 of a facet on the same mesh. The last column: what is "
     "left of the residual where Newton's method is asked for 1e-15, the largest of all steps, of which three last bits of a position times the penalty are taken "
-    "as nothing: how many of sixteen digits the penalty takes. Stiff penalties end 0.01 % from the augmented cylinders and 0.04 % from the augmented press fit, and no nearer: errors below that are the reference's.",
+    "as nothing: how many of sixteen digits the penalty takes. Where errors no longer fall as the penalty "
+    "grows they are the reference's.",
     *parts)
