@@ -4,6 +4,9 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace billet::parameters {
 
 using dealii::ParameterHandler;
@@ -46,11 +49,15 @@ void TimeStepping::declare(ParameterHandler &prm) {
       "automatic: the step follows the iterations that the last one needed, and a failed step is cut and "
       "tried again; fixed: equal steps, shorter only where the next stop or output time is nearer; a failed "
       "one ends the run.");
-  prm.declare_entry("Initial step", "0.01", Patterns::Double(),
-                    "First step; every step where they are fixed. [time]");
-  prm.declare_entry("Smallest step", "1e-6", Patterns::Double(),
-                    "The run ends when a step would have to be cut below this. [time]");
-  prm.declare_entry("Largest step", "0.1", Patterns::Double(), "A step grows up to this length. [time]");
+  prm.declare_entry("Initial step", "automatic", Patterns::Anything(),
+                    "First step; every step where they are fixed. automatic: a hundredth of the end time, or "
+                    "the largest step if that is less. [time]");
+  prm.declare_entry("Smallest step", "automatic", Patterns::Anything(),
+                    "The run ends when a step would have to be cut below this. automatic: a millionth of the "
+                    "end time, or the initial step if that is less. [time]");
+  prm.declare_entry("Largest step", "automatic", Patterns::Anything(),
+                    "A step grows up to this length. automatic: a tenth of the end time, or the initial step "
+                    "if that is more. [time]");
   prm.declare_entry(
       "Error tolerance", "0", Patterns::Double(),
       "Quasi-static scenes with automatic steps: steps are as long as their error, estimated by steps of "
@@ -85,21 +92,31 @@ void TimeStepping::parse(Reader &reader) {
     return;
   }
   control = reader.text("Step control") == "automatic" ? Control::automatic : Control::fixed;
-  initial_step = reader.positive("Initial step");
+  const auto step = [&reader](const std::string &key, const double automatic) {
+    return reader.text(key) == "automatic" ? automatic : reader.positive(key);
+  };
+  const auto print = [](const double time) {
+    std::ostringstream text;
+    text << time;
+    return text.str();
+  };
+  largest_step = step("Largest step", 0.1 * end_time);
+  initial_step = step("Initial step", std::min(0.01 * end_time, largest_step));
   if (initial_step > end_time)
-    reader.reject("Initial step", "a number not above the end time");
+    reader.reject("Initial step", "a number not above the end time, " + print(end_time));
+  if (reader.text("Largest step") == "automatic")
+    largest_step = std::max(largest_step, initial_step);
   if (control == Control::fixed)
     for (const std::string key : {"Smallest step", "Largest step", "Few iterations", "Many iterations",
                                   "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: steps are fixed");
-  smallest_step = reader.positive("Smallest step");
-  largest_step = reader.positive("Largest step");
+  smallest_step = step("Smallest step", std::min(1e-6 * end_time, initial_step));
   if (control == Control::automatic) {
     if (smallest_step > initial_step)
-      reader.reject("Smallest step", "a number not above the initial step");
+      reader.reject("Smallest step", "a number not above the initial step, " + print(initial_step));
     if (largest_step < initial_step)
-      reader.reject("Largest step", "a number not below the initial step");
+      reader.reject("Largest step", "a number not below the initial step, " + print(initial_step));
   }
   error_tolerance = reader.not_negative("Error tolerance");
   if (error_tolerance >= 1.)

@@ -152,6 +152,8 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
     last_error = error;
     pace.add(error);
     if (n == most || pace.is_hopeless(most)) {
+      if (may_leave_penetration_)
+        break;
       std::ostringstream message;
       message << "after " << n << " augmentations contact is still " << error
               << " times its 'Penetration tolerance' from what it should be";

@@ -124,7 +124,7 @@ def explicit(scene):
 def longest_steps(scene):
     """How many steps of the largest length the scene has."""
     key = "Initial step" if scene.get("Time stepping/Step control") == "fixed" else "Largest step"
-    return max(1, math.ceil(scene.end_time / float(scene.get("Time stepping/" + key)) - 1e-9))
+    return max(1, math.ceil(scene.end_time / scene.step(key) - 1e-9))
 
 
 def equal_steps(scene, n):
@@ -149,11 +149,11 @@ def make_steps(scene, argument):
 def make_largest_step(scene, argument):
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
-    need("Time stepping/Largest step" in scene.entries or number(argument) <= 1 or scene.end_time / 4 >= scene.number(
-        "Time stepping/Largest step"), "the largest step is a good part of the time already")
-    largest = number(argument) * scene.number("Time stepping/Largest step")
+    need("Time stepping/Largest step" in scene.entries or number(argument) <= 1 or scene.end_time / 4 >= scene.step(
+        "Largest step"), "the largest step is a good part of the time already")
+    largest = number(argument) * scene.step("Largest step")
     return {"Time stepping/Largest step": shown(largest),
-            "Time stepping/Initial step": shown(min(largest, scene.number("Time stepping/Initial step")))}
+            "Time stepping/Initial step": shown(min(largest, scene.step("Initial step")))}
 
 
 @knob("error tolerance", "of a step, by which its length is chosen", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)

@@ -130,6 +130,15 @@ class Scene:
     def end_time(self):
         return float(self.get("Time stepping/End time") or 1)
 
+    def step(self, name):
+        """'Initial step' or 'Largest step' of an implicit scene, with what `automatic` makes of it."""
+        def given(key, otherwise):
+            value = self.get("Time stepping/" + key)
+            return otherwise if value in ("automatic", "") else float(value)
+        largest = given("Largest step", 0.1 * self.end_time)
+        initial = given("Initial step", min(0.01 * self.end_time, largest))
+        return initial if name == "Initial step" else max(largest, initial)
+
     def files(self, folder):
         """{path: absolute file} of the files that the scene names, seen from the folder of its file."""
         named = {path: (Path(folder) / value).resolve() for path, value in self.entries.items()

@@ -69,8 +69,12 @@ public:
   /// Of the last accepted step: the deepest, as part of the 'Penetration tolerance', or of 1e-5 facets in
   /// pairs without one.
   double penetration() const { return penetration_; }
-  /// Tractions are augmented where penetrations are above so many times what pairs ask for.
-  void set_penetration_allowed(const double factor) { penetration_allowed_ = factor; }
+  /// Tractions are augmented where penetrations are above so many times what pairs ask for. What augmentation
+  /// leaves above that is an error to be told, and fails no step.
+  void set_penetration_allowed(const double factor) {
+    penetration_allowed_ = factor;
+    may_leave_penetration_ = true;
+  }
   /// Residuals, and their work, have to be this part of what the solver's tolerances allow; in (0, 1].
   void set_accuracy(const double factor) { accuracy_ = factor; }
   /// Where steps with another contact tangent fail: from here on it is the exact one, of an unsymmetric
@@ -324,7 +328,7 @@ private:
   bool has_told_softer_ = false;
   double penetration_allowed_ = 1., accuracy_ = 1.;
   double penetration_ = 0.;
-  bool measures_penetration_ = false;
+  bool measures_penetration_ = false, may_leave_penetration_ = false;
   double allowed_at_measurement_ = 0.; ///< part of the forces
   std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
