@@ -115,22 +115,32 @@ bool has_limit(const parameters::Material &material) {
   }
 }
 
-/// Where physics may be what ends a static run: forces that a body cannot bear.
+/// Where physics may be what ends a run: forces that a body cannot bear.
 std::string describe_limit_load(const parameters::Scene &parameters) {
-  if (parameters.is_dynamic())
-    return "";
+  using Control = parameters::Motion::Control;
   const auto is_given = [](const parameters::Tool &tool) {
-    return tool.motion.control == parameters::Motion::Control::force ||
-           tool.motion.control == parameters::Motion::Control::moment;
+    return tool.motion.control == Control::force || tool.motion.control == Control::moment;
   };
   const auto tool = std::find_if(parameters.tools.begin(), parameters.tools.end(), is_given);
   const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
                                  [](const parameters::Body &b) { return has_limit(b.material); });
-  if (tool == parameters.tools.end() || body == parameters.bodies.end())
+  const bool has_tool = tool != parameters.tools.end();
+  const bool has_loads = std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
+                                     [](const parameters::Body &b) { return !b.loads.empty(); });
+  if (body == parameters.bodies.end() || !(has_tool || has_loads))
     return "";
-  return "Body '" + body->name + "' yields without hardening, and tool '" + tool->name +
-         "' presses with a given force: above the limit load nothing is in balance. If that is what ends the "
-         "run, move the tool by its 'Translation', or let the material harden. ";
+  const bool turns = has_tool && tool->motion.control == Control::moment;
+  return "Body '" + body->name + "' yields without hardening, and " +
+         (has_tool ? "tool '" + tool->name +
+                         (turns ? "' turns it with a given moment" : "' presses with a given force")
+                   : "loads are given") +
+         (parameters.is_dynamic() ? ": above the limit load it flows on and on"
+                                  : ": above the limit load nothing is in balance") +
+         ". If that is what ends the run, " +
+         (!has_tool
+              ? std::string()
+              : std::string("move the tool by its '") + (turns ? "Rotation" : "Translation") + "', or ") +
+         "let the material harden. ";
 }
 
 /// Shear and bulk modulus as far apart as here leave Newton's method few digits.
@@ -660,7 +670,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
                       : "try a smaller 'Safety factor', a softer penalty or more bulk viscosity");
     else
       message << "are not finite; a velocity, a load or a penalty may be too large for its units";
-    message << ". What was computed until then is in '" << parameters.output.folder.value << "'.";
+    message << ". " << describe_limit_load(parameters) << "What was computed until then is in '"
+            << parameters.output.folder.value << "'.";
     throw SolutionFailure(message.str());
   };
 
@@ -678,8 +689,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     } catch (const SolutionFailure &failure) { // nothing already computed is lost
       problem.update_state();
       outputs.snapshots.write(problem);
-      throw SolutionFailure(std::string(failure.what()) + ". What was computed until then is in '" +
-                            parameters.output.folder.value + "'.");
+      throw SolutionFailure(std::string(failure.what()) + ". " + describe_limit_load(parameters) +
+                            "What was computed until then is in '" + parameters.output.folder.value + "'.");
     }
   };
   for (bool is_finished = false; !is_finished;) {
@@ -696,6 +707,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     else if (problem.n_steps() % steps_between_looks == 0)
       problem.update_ledger();
     if (is_due || problem.n_steps() % steps_between_looks == 0) {
+      outputs.progress.warn(problem.watch_steps());
       stop_on_drift(is_finished);
       if (errors) {
         errors->add(problem.time(), problem.state().energies);

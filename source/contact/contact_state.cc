@@ -64,6 +64,7 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
   if (reader.number("removed") != 0.)
     remove_tool();
   allowed_part_ = reader.number("allowed part");
+  positions_on_thin_tool_.clear();
   if (reader.has("stiffening"))
     stiffen(reader.number("stiffening") / stiffening_);
   std::vector<std::uint64_t> node_keys;
@@ -122,6 +123,7 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
     }
   }
   friction_ = friction_n_;
+  remember_positions();
   for (auto &facet : facets_)
     facet.shallow_areas.fill(not_touching);
 }

@@ -63,6 +63,8 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
       friction_n_[i].tool_position = X;
   }
   friction_ = friction_n_;
+  measure_tool();
+  remember_positions();
   memory_.set(nodes_.size() * (sizeof(Node) + sizeof(NodeState)) + facets_.size() * sizeof(Facet));
   friction_memory_.set(2 * friction_.size() * sizeof(FrictionHistory));
 }
@@ -729,6 +731,7 @@ void RigidContact::commit() {
   }
   base_.clear();
   friction_n_ = friction_;
+  remember_positions();
   if (is_explicit_) // not before what springs held is released
     for (auto &facet : facets_)
       for (unsigned int a = 0; a < 4; ++a)

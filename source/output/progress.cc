@@ -53,7 +53,8 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   stream_ << discretization.n_global_elements() << " elements, " << discretization.dof_handler().n_dofs()
           << " dofs, " << dealii::Utilities::MPI::n_mpi_processes(discretization.communicator()) << " ranks, "
           << solution.method() << ", history " << histories[0] << " + " << histories[1]
-          << " doubles (elements + contact)\n";
+          << " doubles (elements + contact)\n"
+          << solution.warnings();
 }
 
 void Progress::show_mass_scaling(const double added, const double mass) {

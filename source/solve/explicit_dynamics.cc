@@ -66,6 +66,9 @@ void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
     std::fill_n(&vectors[std::size_t{nodal_stride} * node], nodal_stride, 0.);
 }
 
+constexpr const char *flat_element_advice =
+    "Try a mesh that is finer, or of better shape, where it deforms most, or a material that hardens";
+
 double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 } // namespace
@@ -269,6 +272,8 @@ void ExplicitDynamics::compute_contact_forces() {
     const FreeTool &tool = tools_[contact.tool()];
     contact.start_step(tool.before(), tool.now(), n_steps_ == 0 ? 0. : step_);
     contact.update(u_);
+    if (contact.lets_nodes_through())
+      fail(contact.describe_thin_tool());
     const ContactLoad load = contact.add_forces(forces_, bounds_);
     tool_loads_[contact.tool()] += load;
     if (tool.inverse_inertia() > 0.)
@@ -343,6 +348,12 @@ void ExplicitDynamics::compute_forces() {
       if (failure)
         std::rethrow_exception(failure);
     });
+  constexpr double collapsed = 1e-5;
+  if (free_step_ < collapsed * first_free_step_) {
+    std::ostringstream why;
+    why << describe_flat_elements() << ": so the run would hardly end. " << flat_element_advice;
+    fail(why.str());
+  }
   crossing_step_ = crossing_step();
 }
 
@@ -358,7 +369,7 @@ double ExplicitDynamics::tools_share() const {
   return parameters_.contact_resolution * parameters_.contact_resolution * share;
 }
 
-double ExplicitDynamics::stable_step() const {
+double ExplicitDynamics::stable_step() {
   // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
   double stiffest = 0., most_damped = 0.;
   for (const unsigned int node : bounded_nodes_) {
@@ -371,6 +382,9 @@ double ExplicitDynamics::stable_step() const {
   MPI_Allreduce(MPI_IN_PLACE, bounds.data(), 3, MPI_DOUBLE, MPI_MIN, discretization_.communicator());
   if (bounds[0] < 0.)
     return bounds[0];
+  free_step_ = bounds[0];
+  if (first_free_step_ == 0.)
+    first_free_step_ = free_step_;
   if (has_free_tools_)
     bounds[1] -= tools_share();
   const double a = 1. / (bounds[0] * bounds[0]) - 0.25 * bounds[1], b = -0.5 * bounds[2];
@@ -642,6 +656,45 @@ std::string ExplicitDynamics::watch_penalties() {
   return note.str();
 }
 
+std::string ExplicitDynamics::describe_flat_elements() const {
+  std::ostringstream text;
+  text.precision(3);
+  text << "the stable step of the elements has fallen to " << free_step_ << ", from " << first_free_step_
+       << " at the start: one is nearly flat or turned inside out";
+  return text.str();
+}
+
+std::string ExplicitDynamics::watch_steps() {
+  constexpr double much_shorter = 0.1, flat = 0.01;
+  std::ostringstream note;
+  if (!has_told_stiff_ && element_step_ < much_shorter * free_step_) {
+    std::vector<double> room; // by pair, on all ranks
+    for (const auto &contact : contacts_)
+      room.push_back(contact.stiffening_left());
+    for (const auto &contact : body_contacts_)
+      room.push_back(contact->stiffening_left());
+    dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
+    const auto stiffest = std::min_element(room.begin(), room.end());
+    if (stiffest != room.end() && *stiffest < 1.) {
+      const auto i = static_cast<std::size_t>(stiffest - room.begin());
+      note.precision(2);
+      note << "The penalty of contact pair '"
+           << (i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
+                                    : body_contacts_[i - contacts_.size()]->name())
+           << "', " << enough_penalty / *stiffest << " E/h, makes steps " << free_step_ / element_step_
+           << " times shorter than the elements ask for. Try a softer one: 10 to 40 E/h let little in";
+      has_told_stiff_ = true;
+    }
+  }
+  if (!has_told_flat_ && free_step_ < flat * first_free_step_) {
+    std::string text = describe_flat_elements();
+    text.front() = 'T';
+    note << (note.str().empty() ? "" : "\n") << text << ". " << flat_element_advice;
+    has_told_flat_ = true;
+  }
+  return note.str();
+}
+
 double ExplicitDynamics::smallest_energy() const {
   const double rounding = std::numeric_limits<double>::epsilon() * extent_;
   const double rate = 2. / element_step_ * 2. * rounding / std::min(parameters_.largest_drift, 1.);
@@ -680,6 +733,13 @@ std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
   for (auto &size : sizes)
     size = dealii::Utilities::MPI::sum(size, discretization_.communicator());
   return sizes;
+}
+
+std::string ExplicitDynamics::warnings() const {
+  std::string lines;
+  for (const auto &contact : contacts_)
+    lines += contact.describe_small_tool();
+  return lines;
 }
 
 std::string ExplicitDynamics::method() const {

@@ -565,7 +565,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
           return report;
       }
     }
-    if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) ||
+    if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) || goes_through_tool(report) ||
         contact_makes_energy(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;

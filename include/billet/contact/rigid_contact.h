@@ -15,6 +15,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace billet {
@@ -121,6 +122,14 @@ public:
   bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
   /// How deep this rank's nodes are.
   Penetration penetration() const;
+  /// Whether a node of this rank has gone through the tool, from side to side, in the step: of tools thinner
+  /// than two facets, the only ones that are as thin as that. After update() and before commit(); false in
+  /// the first step after load().
+  bool lets_nodes_through() const;
+  /// What to say then.
+  std::string describe_thin_tool() const;
+  /// A line on a tool that fits between the nodes; else empty. Collective.
+  std::string describe_small_tool() const;
 
   /// On all ranks, after update().
   ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }
@@ -238,6 +247,10 @@ private:
   double lift_of(const Node &node) const { return node.lift - allowed_part_ * node.initial_depth; }
   /// Slave nodes, with their penalties, and facets.
   void collect_facets(const Discretization &discretization, double young_modulus);
+  /// How wide and, if it is thin, how thick it is.
+  void measure_tool();
+  /// Of nodes that might go through it, for the next step.
+  void remember_positions();
   /// The state of node i at `position`; with friction, the history that goes with it.
   template <class Law>
   NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
@@ -305,7 +318,10 @@ private:
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
   double tool_reach_ = 0.;
-  double stiffening_ = 1.; ///< of all penalties, by stiffen()
+  double tool_width_ = 0.;             ///< the second of its bounding box's extents [length]
+  double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]
+  std::vector<dealii::Tensor<1, 3>> positions_on_thin_tool_; ///< of the nodes, at the start of the step
+  double stiffening_ = 1.;                                   ///< of all penalties, by stiffen()
   double most_stiffening_ = std::numeric_limits<double>::infinity();
   double most_tangential_stiffening_ = std::numeric_limits<double>::infinity(); ///< of the penalties as given
   bool is_removed_ = false;

@@ -61,6 +61,9 @@ public:
   void update_state();
   /// After prepare_step(): what the user should know of the penalties; lines. Collective.
   std::string watch_penalties();
+  /// After prepare_step(): what makes steps much shorter than they would be without, contact or flat
+  /// elements; lines, each once. Collective.
+  std::string watch_steps();
   /// Whether it has said so of any pair, ever.
   bool has_soft_penalties() const { return soft_penalties_.has_soft_pairs(); }
   /// Part of the largest energy so far by which the energies of the last update fail to balance; of
@@ -80,6 +83,7 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override;
+  std::string warnings() const override;
 
 private:
   void make_blocks();
@@ -91,7 +95,7 @@ private:
   void compute_internal_forces();
   void compute_contact_forces();
   void remove_tools();
-  double stable_step() const;
+  double stable_step();
   /// The step in which nodes that come through surfaces make too large an error of energy; infinite if there
   /// is none. Collective.
   double crossing_step() const;
@@ -110,6 +114,7 @@ private:
   void load_clock(StateReader &reader);
   void load_tools(StateReader &reader, const NodeKeys &keys, bool is_exact);
   void load_contacts(StateReader &reader, const NodeKeys &keys);
+  std::string describe_flat_elements() const;
   [[noreturn]] void fail(const std::string &why) const;
 
   const Scene &scene_;
@@ -136,8 +141,10 @@ private:
   NodalVectors bounds_;   ///< beside the elements' own: of stiffness, of damping; zero but at bounded_nodes_
   std::vector<unsigned int> loaded_nodes_, bounded_nodes_; ///< of this rank; of all ranks
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
-  double element_step_ = 0.;                               ///< stable step of the elements of all ranks
-  Crossings crossings_;                                    ///< of this rank, at t_n
+  double element_step_ = 0.;                     ///< stable step, with what else bounds it, of all ranks
+  double free_step_ = 0., first_free_step_ = 0.; ///< that of the elements alone, of all ranks; at the start
+  bool has_told_stiff_ = false, has_told_flat_ = false;
+  Crossings crossings_; ///< of this rank, at t_n
   double crossing_step_ = 0.;
   double time_ = 0., step_ = 0., step_before_ = 0.;
   double step_factor_ = 1.; ///< beside the safety factor

@@ -98,6 +98,7 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override { return linear_->name(); }
+  std::string warnings() const override;
   bool solves_iteratively() const override { return linear_->is_iterative(); }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
@@ -156,6 +157,8 @@ private:
   /// Once damped by (I6) steps stay so until contacts have opened.
   void choose_contact_damping();
   void damp_contact();
+  /// Whether nodes go through a tool: then the step fails. Collective.
+  bool goes_through_tool(NewtonReport &report) const;
   bool contact_makes_energy(double t, NewtonReport &report);
   void book_contact(double loss);
 

@@ -55,6 +55,8 @@ public:
   virtual std::array<std::size_t, 2> history_sizes() const = 0;
   /// How it is solved, for the console.
   virtual std::string method() const = 0;
+  /// What the user should know of the scene before the first step; lines. Collective.
+  virtual std::string warnings() const = 0;
   /// Whether linear iterations are worth showing.
   virtual bool solves_iteratively() const { return false; }
 };

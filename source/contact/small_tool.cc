@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Tools that are small beside the facets that they meet: what nodes alone do not feel, or go through.
+#include "billet/contact/rigid_contact.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace billet {
+
+using dealii::Tensor;
+
+void RigidContact::measure_tool() {
+  const BoundingBox &box = tool_.surface().bounding_box();
+  std::array<double, 3> extents{};
+  for (unsigned int i = 0; i < 3; ++i) {
+    extents[i] = box.high[i] - box.low[i];
+    if (std::isnan(extents[i]))
+      extents[i] = std::numeric_limits<double>::infinity();
+  }
+  std::sort(extents.begin(), extents.end());
+  tool_width_ = extents[1];
+  constexpr double far = 2.; // facet sizes that no node travels in a step, nor is pressed in
+  const bool is_thin = extents[0] > 0. && std::any_of(nodes_.begin(), nodes_.end(), [&](const Node &node) {
+                         return extents[0] < far * node.size;
+                       });
+  thickness_of_thin_tool_ = is_thin ? extents[0] : 0.;
+}
+
+void RigidContact::remember_positions() {
+  if (thickness_of_thin_tool_ == 0.)
+    return;
+  positions_on_thin_tool_.clear();
+  for (const auto &state : states_)
+    positions_on_thin_tool_.push_back(placement_.to_tool(state.position));
+}
+
+bool RigidContact::lets_nodes_through() const {
+  if (is_removed_ || positions_on_thin_tool_.empty())
+    return false;
+  // Chords that cut less deep graze it.
+  const double deep = 0.1 * thickness_of_thin_tool_, fine = 0.125 * thickness_of_thin_tool_;
+  const RigidSurface &surface = tool_.surface();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Tensor<1, 3> &from = positions_on_thin_tool_[i], to = placement_.to_tool(states_[i].position);
+    const Tensor<1, 3> way = to - from;
+    const double length = way.norm();
+    if (!(length > 0.) || states_[i].gap + lift_of(nodes_[i]) > length)
+      continue;
+    const auto start = surface.project(from, nodes_[i].patch), end = surface.project(to, nodes_[i].patch);
+    const bool starts_inside = start.exists && start.gap < 0., ends_inside = end.exists && end.gap < 0.;
+    if (starts_inside || ends_inside) {
+      if (start.exists && end.exists && start.normal * end.normal < 0.)
+        return true;
+      continue;
+    }
+    // From outside to outside: as far as nothing can be in between, and on from there.
+    for (double done = std::max(start.gap, fine); done < length;) {
+      const auto here = surface.project(from + done / length * way, nodes_[i].patch);
+      if (here.exists && here.gap < -deep)
+        return true;
+      done += std::max(here.gap, fine);
+    }
+  }
+  return false;
+}
+
+std::string RigidContact::describe_thin_tool() const {
+  std::ostringstream text;
+  text.precision(3);
+  text << "nodes of contact pair '" << pair_.name << "' go through tool '" << tool_.name() << "', which is "
+       << thickness_of_thin_tool_
+       << " thick: they travel further in a step, or its penalty lets them in as deep. Try "
+       << (is_explicit_ ? "a smaller 'Safety factor'" : "a smaller 'Largest step'")
+       << ", a larger 'Normal penalty', or facets as small as the tool";
+  return text.str();
+}
+
+std::string RigidContact::describe_small_tool() const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto &node : nodes_)
+    smallest = std::min(smallest, node.size);
+  smallest = dealii::Utilities::MPI::min(smallest, communicator_);
+  if (!(tool_width_ < smallest))
+    return "";
+  std::ostringstream text;
+  text.precision(3);
+  text << "Tool '" << tool_.name() << "' is smaller, " << tool_width_ << ", than the facets of contact pair '"
+       << pair_.name << "', " << smallest
+       << ": between their nodes, which alone touch tools, it goes in unseen. Try a finer mesh there\n";
+  return text.str();
+}
+
+} // namespace billet
