@@ -219,6 +219,13 @@ def touches(name):
     return check
 
 
+def meets(name):
+    """What flies at a tool, or what a tool comes down on, is touched by it."""
+    def check(r):
+        return [Finding("meets the tool", 0.0 if float(numpy.max(r.history[f"{name}.deepest_penetration"])) > 0 else 1.0, 0.5)]
+    return check
+
+
 def energies(r):
     """What is dissipated grows, what is stored is positive, and the columns add up."""
     h = r.history

@@ -303,6 +303,26 @@ def everything():  # noqa: C901
     yield from product(("step", "penalty"), ("upset", "slide"), [1e-6, 1e-4, 0.01, 0.1], PENALTIES[2::2])
     yield from product(("yield", "penalty"), ("upset", "stack"), [1e-8, 1e-4, 0.01, 1.0], PENALTIES[2::2], along=PLASTIC)
     yield from product(("speed", "penalty"), ("drop.explicit", "drop.implicit", "bars.explicit"), [1e-3, 0.03, 0.3], PENALTIES[2:8])
+    # tools of all sizes and shapes in motion, and strains and shapes of elements
+    strikes, presses = ("strike.explicit", "strike.implicit"), ("press.explicit", "press.implicit")
+    yield from single("radius", strikes, decades(-3, 6))
+    yield from product(("radius", "speed"), strikes, [1e-3, 1e-2, 0.1, 10.0, 1e3], [1e-3, 0.1, 0.3, 1.0])
+    yield from product(("radius", "penalty"), strikes, [1e-3, 1e-2, 0.1, 1e3], [0.1, 1.0, 100.0, 1e4])
+    for more in ({}, {"mu": 0.3}, {**PLASTIC}):
+        yield from single("feature", strikes, FEATURES, along=more)
+    for turns in (1e-3, 0.03, 1.0, 10.0):
+        yield from single("turns", strikes, [turns], along={"mu": 0.3, "feature": "coincident"})
+        yield from single("oscillations", strikes, [10 * turns], along={"turns": 0.02, "mu": 0.3, "feature": "coincident"})
+    for more in ({}, {**PLASTIC}, {**PLASTIC, "hardening modulus": 0.0}):
+        yield from single("strain", presses, STRAINS, along=more)
+    yield from single("strain", presses, STRAINS[:4], along={**PLASTIC, "element": "one point"})
+    yield from single("aspect", presses, aspects)
+    yield from product(("aspect", "strain"), presses, aspects[::2], STRAINS[:4], along=PLASTIC)
+    for element in ("mean dilatation", "one point"):
+        yield from single("grading", presses, decades(0, 4, 2), along={"element": element, "bricks": 4})
+        yield from single("distortion", presses, [0.1, 0.3, 0.5, 0.7, 1.0, 3.0], along={"element": element})
+    # loads above what a perfectly plastic body bears
+    yield from product(("yield", "load"), ("laden.explicit", "laden.implicit"), [1e-4, 0.01], [1e-3, 0.1], along={**PLASTIC, "hardening modulus": 0.0})
 
 
 # Some of each kind, seconds altogether: what ctest runs.
@@ -319,5 +339,6 @@ FIXED = (
     "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
     "bars.explicit/number type=float", "upset/force=0.01,penalty=10", "laden.explicit/load=0.001,penalty=1", "laden.implicit/spring=1",
     "twist/mu=0.3,moment=0.0001", "drag/facets=planed,smoothing=0.5", "clip/margin=0.1", "bars.explicit/edges=true,penalty=1",
+    "strike.explicit/feature=apex", "strike.implicit/radius=0.01", "press.explicit/law=elastoplastic,strain=-2.99573",
     "slide/target error=0.1,mu=0.2 like mu=0.2,augmentation=0.0001,first step=0.005,largest step=0.005,tolerance=1e-09",
 )

@@ -537,6 +537,59 @@ def drop(k, scheme):
                  friction=friction(k), mass=k.density, speed=v)
 
 
+def strike(k, scheme):
+    """A block flies up against a tool, still or turning, whose features are exactly on nodes, and back; with a radius, against
+    a ball whose pole is on one."""
+    f, n = frame_of(k), k.bricks or 4
+    c = bar_speed(k.young, k.density)
+    v = k.speed * c
+    gap = min(0.02, 0.5 * k.speed)
+    end = k.duration * (gap / v + 5.0 / c)
+    turns = k.turns != KNOBS["turns"] or k.oscillations > 0
+    r = k.radius
+    surfaces = features(f, k)[k.feature] if r == KNOBS["radius"] else {
+        "a": {"Shape": "sphere", "Centre": f.vector((0, 0, 0.5 + r), f.length), "Radius": number(r * f.length), "Axis": f.vector((0, 0, 1))}}
+    angle = (f"{number(2 * math.pi * k.turns)}*sin({number(2 * math.pi * k.oscillations / end)}*{{t}})" if k.oscillations
+             else f"{number(2 * math.pi * k.turns / end)}*{{t}}")
+    motion = {"Motion": {"Rotation angle": f.expression(angle), "Rotation axis": f.vector((0, 0, 1)),
+                         "Centre": f.vector((0, 0, 0.5), f.length)}} if turns else {}
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, 2), (-1, -1, -0.5 - gap), (1, 1, 0.5 - gap)), density=k.density,
+                                 **{"Initial velocity": velocity(f, (0, 0, v))})},
+        "Tools": {"ram": {"Surfaces": surfaces, **motion}},
+        "Contact pairs": {"top": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **dynamics(k, f, scheme, end),
+    }
+    checks = [must.finite, must.yields, must.cone, must.drift, must.impulse("ram", v), must.meets("ram"), must.energy_not_made, must.jacobians]
+    if turns:
+        checks.append(must.quarter_turn)
+    elif k.feature != "coplanar" or k.mu == 0:
+        checks += [must.mirror((0, 1, 0), 0.0), must.diagonal_symmetry]
+    return Setup(k, f, sections, checks, friction=friction(k), mass=4 * k.density, speed=v)
+
+
+def press(k, scheme):
+    """The bar of upset, pressed at a speed to a strain: a block on planes of symmetry under a tool that comes down."""
+    f, n, h = frame_of(k), k.bricks or 2, k.aspect
+    c = bar_speed(k.young, k.density)
+    is_shaped = k.grading != 1 or k.distortion
+    mesh = box((n, n, n), (0, 0, 0), (1, 1, 1 if is_shaped else h))
+    if is_shaped:
+        mesh["Positions"], h = shaped(k, n), 1.0
+    travel, v = h * (1 - math.exp(k.strain)), k.speed * c
+    end = travel / v
+    sections = {
+        "Bodies": {"block": body(k, f, mesh, [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)], density=k.density)},
+        "Tools": {"ram": {"Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
+                          "Motion": {"Translation": f.expressions(("0", "0", f"{number(-v)}*{{t}}"), f.length)}}},
+        "Contact pairs": {"high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **dynamics(k, f, scheme, end),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.diagonal_symmetry, must.drift, must.depth_bound("ram", travel),
+                                  must.meets("ram"), must.energy_not_made, must.jacobians],
+                 friction=friction(k), mass=h * k.density, speed=v)
+
+
 def bar(k, scheme):
     """A slender bar hits a plane: the force is ρ c v A until the wave is back."""
     f, n = frame_of(k), k.bricks or 16
@@ -708,17 +761,18 @@ BASES = {
     "upset": upset, "pull": pull, "slide": slide, "ball": ball, "twist": twist, "place": place, "rest": rest,
     "stack": stack, "touching": touching, "drag": drag, "clip": clip,
     **{f"{name}.explicit": with_scheme(scene, "explicit")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("pile", pile), ("laden", laden))},
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("pile", pile), ("laden", laden), ("strike", strike), ("press", press))},
     **{f"{name}.implicit": with_scheme(scene, "implicit dynamics")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("laden", laden))},
+       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("laden", laden),
+                           ("strike", strike), ("press", press))},
 }
 
 KINDS = {  # what kind of run a base scene is
     "statics, tools": ("upset", "slide", "ball", "twist", "place", "rest"), "statics, no contact": ("pull",),
     "statics, bodies": ("stack", "touching", "drag"), "statics, self-contact": ("clip",),
-    "explicit, tools": ("drop.explicit", "bar.explicit", "skid.explicit", "laden.explicit"),
+    "explicit, tools": ("drop.explicit", "bar.explicit", "skid.explicit", "laden.explicit", "strike.explicit", "press.explicit"),
     "explicit, bodies": ("bars.explicit", "glide.explicit", "lying.explicit", "pile.explicit"), "explicit, self-contact": ("fold.explicit",),
-    "implicit dynamics, tools": ("drop.implicit", "bar.implicit", "skid.implicit", "laden.implicit"),
+    "implicit dynamics, tools": ("drop.implicit", "bar.implicit", "skid.implicit", "laden.implicit", "strike.implicit", "press.implicit"),
     "implicit dynamics, bodies": ("bars.implicit", "glide.implicit", "lying.implicit"), "implicit dynamics, self-contact": ("fold.implicit",),
 }
 
