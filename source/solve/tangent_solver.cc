@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 
 namespace billet {
@@ -86,6 +87,9 @@ bool TangentSolver::factorize_directly() {
   is_direct_now_ = true;
   if (direct_->factorize()) {
     norm_ = has_told_condition_ ? 0. : matrix_->NormInf();
+    ++n_factorized_;
+    if ((n_factorized_ & (n_factorized_ - 1)) == 0) // at the 1st, 2nd, 4th, ...
+      estimate_condition();
     note_memory();
     return true;
   }
@@ -159,6 +163,29 @@ bool TangentSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const double
   }
   failure_ = direct_->failure();
   return false;
+}
+
+void TangentSolver::estimate_condition() {
+  if (has_told_condition_)
+    return;
+  // Inverse iteration: the second solution is nearly along what A^-1 stretches most.
+  constexpr unsigned int n_solutions = 2;
+  Epetra_Vector b(matrix_->RowMap()), x(matrix_->RowMap());
+  for (int i = 0; i < b.MyLength(); ++i) { // rough, and the same however many ranks there are
+    const auto row = static_cast<std::uint64_t>(matrix_->RowMap().GID(i)) + 1;
+    b[i] = ((row * 0x9e3779b97f4a7c15ULL) >> 63) == 0 ? 1. : -1.;
+  }
+  for (unsigned int n = 0; n < n_solutions; ++n) {
+    double of_b = 0.;
+    b.Norm2(&of_b);
+    if (!(of_b > 0.) || !std::isfinite(of_b))
+      return;
+    b.Scale(1. / of_b);
+    if (!direct_->solve(b, x, 1.))
+      return;
+    watch_condition(b, x);
+    b = x;
+  }
 }
 
 void TangentSolver::watch_condition(const Epetra_Vector &b, const Epetra_Vector &x) {

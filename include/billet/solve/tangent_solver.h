@@ -45,6 +45,8 @@ public:
 private:
   bool factorize_directly();
   bool fall_back();
+  /// Of the matrix just factorised, by two solves.
+  void estimate_condition();
   /// Tells, once, of a condition |A| |x|/|b| that takes most digits: no more than that of the matrix, and for
   /// free.
   void watch_condition(const Epetra_Vector &b, const Epetra_Vector &x);
@@ -60,6 +62,7 @@ private:
   unsigned int pause_ = 0;      ///< matrices for which it is not tried
   bool has_told_memory_ = false, has_told_fallback_ = false;
   bool has_told_condition_ = false;
+  unsigned int n_factorized_ = 0; ///< directly
   double norm_ = 0.; ///< |A|, as factorised directly
   std::string name_, failure_, note_;
   HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},

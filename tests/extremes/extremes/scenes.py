@@ -560,10 +560,9 @@ def strike(k, scheme):
         "Contact pairs": {"top": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **dynamics(k, f, scheme, end),
     }
-    checks = [must.finite, must.yields, must.cone, must.drift, must.impulse("ram", v), must.meets("ram"), must.energy_not_made, must.jacobians]
-    if turns:
-        checks.append(must.quarter_turn)
-    elif k.feature != "coplanar" or k.mu == 0:
+    checks = [must.finite, must.yields, must.cone, must.drift, must.impulse("ram", v), must.meets("ram"), must.jacobians]
+    checks.append(must.quarter_turn if turns else must.energy_not_made)
+    if not turns and (k.feature != "coplanar" or k.mu == 0):
         checks += [must.mirror((0, 1, 0), 0.0), must.diagonal_symmetry]
     return Setup(k, f, sections, checks, friction=friction(k), mass=4 * k.density, speed=v)
 
@@ -586,7 +585,7 @@ def press(k, scheme):
         **dynamics(k, f, scheme, end),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.diagonal_symmetry, must.drift, must.depth_bound("ram", travel),
-                                  must.meets("ram"), must.energy_not_made, must.jacobians],
+                                  must.meets("ram"), must.jacobians],
                  friction=friction(k), mass=h * k.density, speed=v)
 
 
