@@ -61,6 +61,6 @@ publish(
     "Newton's method asks for it and grows again. The force at the end is compared with that of 200 equal steps; *equal steps as large*: what these would be off, in "
     "proportion to twenty equal steps, since the error is of first order in the step. *Every single step to*, *furthest*: fixed steps of so much of the height from the undeformed state, "
     "in fiftieths of the travel (of 480 bricks in twentieths), with this tangent alone, without a cut: up to the first all converge, and the second is the largest of "
-    "all that do; in between it is luck, since Newton's method has no radius of convergence that grows with the step. *Then exact*: steps could not be cut any more, and the exact "
+    "all that do; in between it is luck. *Then exact*: steps could not be cut any more, and the exact "
     "tangent took over.",
     *parts)

@@ -538,9 +538,9 @@ def drop(k, scheme):
 
 
 def strike(k, scheme):
-    """A block flies up against a tool, still or turning, whose features are exactly on nodes, and back; with a radius, against
-    a ball whose pole is on one."""
-    f, n = frame_of(k), k.bricks or 4
+    """A quarter of a block flies up against a tool whose features are exactly on nodes, and back; with a radius, against a ball
+    whose pole is on one. A whole block where the tool turns."""
+    f, n = frame_of(k), k.bricks or 2
     c = bar_speed(k.young, k.density)
     v = k.speed * c
     gap = min(0.02, 0.5 * k.speed)
@@ -554,8 +554,498 @@ def strike(k, scheme):
     motion = {"Motion": {"Rotation angle": f.expression(angle), "Rotation axis": f.vector((0, 0, 1)),
                          "Centre": f.vector((0, 0, 0.5), f.length)}} if turns else {}
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, 2), (-1, -1, -0.5 - gap), (1, 1, 0.5 - gap)), density=k.density,
-                                 **{"Initial velocity": velocity(f, (0, 0, v))})},
+        "Bodies": {"block": body(k, f, box((2 * n, 2 * n, 2), (-1, -1, -0.5 - gap), (1, 1, 0.5 - gap)) if turns else
+                                 box((n, n, 2), (0, 0, -0.5 - gap), (1, 1, 0.5 - gap)), None if turns else [((1, 0, 0), 0), ((0, 1, 0), 0)],
+                                 density=k.density, **{"Initial velocity": velocity(f, (0, 0, v))})},
+        "Tools": {"ram": {"Surfaces": surfaces, **motion}},
+        "Contact pairs": {"top": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **dynamics(k, f, scheme, end),
+    }
+    checks = [must.finite, must.yields, must.cone, must.drift, must.meets("ram"), must.jacobians,
+              *([must.quarter_turn, must.impulse("ram", v)] if turns else [must.energy_not_made])]
+    if not turns and (k.feature != "coplanar" or k.mu == 0):
+        checks.append(must.diagonal_symmetry)
+    return Setup(k, f, sections, checks, friction=friction(k), mass=(4 if turns else 1) * k.density, speed=v)
+
+
+def pressed(k):
+    """How a part goes down: by `press` until its turn."""
+    return f"{number(-k.press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
+
+
+def drawn(k, rate):
+    """How a part goes along from then on."""
+    return f"{number(rate)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})"
+
+
+def frame_of(k):
+    return Frame(k.length, k.stress, k.time, UPRIGHT, k.turned)
+
+
+def material(k, f, young=None, density=None):
+    e = young or k.young
+    m = {"Law": k.law, "Young modulus": number(e * f.stress), "Poisson ratio": number(k.nu)}
+    if k.kinematics != "Hencky":
+        m["Kinematics"] = k.kinematics
+    if density:
+        m["Density"] = number(density * f.density)
+    if k.law == "elastoplastic":
+        y, h = k.all["yield"] * e * f.stress, k.hardening_modulus * e * f.stress
+        m["Hardening"] = k.hardening
+        if k.hardening == "linear":
+            m.update({"Yield stress": number(y), "Hardening modulus": number(h)})
+        elif k.hardening == "Voce":
+            m.update({"Yield stress": number(y), "Hardening modulus": number(h), "Saturation stress": number(2 * y),
+                      "Saturation rate": 10})
+        elif k.hardening == "power law":
+            m.update({"Strength coefficient": number(3 * y), "Prestrain": number(1e-3), "Hardening exponent": 0.2})
+        elif k.hardening == "table":
+            m["Table"] = ", ".join(f"{number(s)} : {number(y + h * s)}" for s in (0, 0.1, 0.5, 5))
+    return m
+
+
+def yield_stress(k, plastic, young=None):
+    e = young or k.young
+    y, h = k.all["yield"] * e, k.hardening_modulus * e
+    if k.hardening == "linear":
+        return y + h * plastic
+    if k.hardening == "Voce":
+        return 2 * y - y * math.exp(-10 * plastic) + h * plastic
+    if k.hardening == "power law":
+        return 3 * y * (1e-3 + plastic) ** 0.2
+    return y + h * min(plastic, 5)
+
+
+def body(k, f, mesh, planes=None, young=None, density=None, **more):
+    b = {"Mesh": f.mesh(**mesh), "Material": material(k, f, young, density)}
+    if k.element != "mean dilatation":
+        b["Element"] = k.element
+    if k.hourglass is not None:
+        b["Hourglass stiffness"] = number(k.hourglass)
+    if planes:
+        b["Symmetry planes"] = f.planes(planes)
+    b.update(more)
+    return b
+
+
+def box(n, low, high, **more):
+    # deal.II's box, at base units; written as a product, since deal.II takes corners of any order.
+    return {"Primitive": "subdivided_hyper_rectangle",
+            "Arguments": f"{n[0]}, {n[1]}, {n[2]} : {', '.join(map(number, low))} : {', '.join(map(number, high))} : true", **more}
+
+
+def plane(f, point, normal):
+    return {"plane": {"Shape": "plane", "Point": f.vector(point, f.length), "Normal": f.vector(normal)}}
+
+
+def pair(k, f, **more):
+    p = {"Normal penalty": number(k.penalty)}
+    if k.tangential_penalty is not None:
+        p["Tangential penalty"] = number(k.tangential_penalty)
+    if k.augmentation is not None:
+        p["Penetration tolerance"] = number(k.augmentation)
+    if k.mu > 0:
+        p["Friction coefficient"] = number(k.mu)
+        p["Friction law"] = k.friction_law
+        law = friction(k)
+        if k.friction_law == "shear limited":
+            p["Largest shear stress"] = number(law["largest"] * f.stress)
+        elif k.friction_law == "static-kinetic":
+            p.update({"Kinetic friction coefficient": number(law["kinetic"]), "Decay": number(law["decay"] / f.speed)})
+        elif k.friction_law == "pressure dependent":
+            p.update({"Reference pressure": number(law["reference"] * f.stress), "Pressure exponent": number(law["exponent"])})
+    for knob, key in (("edges", "Edges"), ("smoothing", "Smoothing"), ("margin", "Search margin")):
+        if k.all[knob] is not None and "Second body" in more:
+            p[key] = k.all[knob]
+    p.update(more)
+    return p
+
+
+def friction(k):
+    """Parameters of the law, base units."""
+    return {"law": k.friction_law, "mu": k.mu, "largest": 0.005 * k.young, "kinetic": 0.5 * k.mu, "decay": 1.0,
+            "reference": 0.02 * k.young, "exponent": 0.7}
+
+
+def statics(k, f, end=1.0, first=None, stops=()):
+    t = {"End time": number(end * f.time), "Initial step": number((first or k.first_step) * f.time),
+         "Largest step": number(k.largest_step * f.time), "Smallest step": number(1e-5 * f.time)}
+    if k.step is not None:
+        t = {"End time": t["End time"], "Step control": "fixed", "Initial step": number(k.step * f.time)}
+    if stops:
+        t["Stops"] = ", ".join(number(s * f.time) for s in stops)
+    s = {name: value for name, value in {
+        "Contact tangent": k.tangent, "Force tolerance": k.tolerance, "Linear solver": k.solver, "Predictor": k.predictor,
+        "Line search": k.line_search, "Material tangent": k.material_tangent}.items() if value is not None}
+    if k.tolerance is not None:
+        s["Energy tolerance"] = number(max(k.tolerance, 1e-15))
+    whole = {"Time stepping": t, "Solver": s, "Output": output()}
+    return {**top(k), **whole}
+
+
+def output(**more):
+    return {"Folder": "results", "Every steps": 1000000, "Verbosity": "steps", **more}
+
+
+def top(k):
+    return {name: value for name, value in {"Profile": k.profile, "Target error": k.target_error}.items() if value is not None}
+
+
+def dynamics(k, f, scheme, end, rows=400):
+    """`end` in base units of time."""
+    whole = {**top(k), "Time stepping": {"Scheme": scheme, "End time": number(end * f.time)}}
+    if scheme == "explicit":
+        x = {"Safety factor": k.safety, "Contact resolution": k.resolution, "Instructions": k.instructions,
+             "Number type": k.number_type,
+             "Linear bulk viscosity": k.linear_viscosity,
+             "Mass scaling step": None if k.mass_scaling is None else number(k.mass_scaling * f.time)}
+        whole["Explicit dynamics"] = {a: b for a, b in x.items() if b is not None}
+        whole["Output"] = output(**{"Every steps": 0, "History interval": number(end * f.time / rows)})
+    else:
+        whole["Time stepping"].update({"Initial step": number(end / 200 * f.time), "Largest step": number(end / 50 * f.time),
+                                       "Smallest step": number(end * 1e-7 * f.time)})
+        if k.step is not None:
+            whole["Time stepping"].update({"Initial step": number(k.step * end * f.time), "Largest step": number(k.step * end * f.time)})
+        x = {"Method": k.method, "Spectral radius": k.spectral_radius, "Error tolerance": k.error_tolerance, "Mass": k.mass}
+        whole["Implicit dynamics"] = {a: b for a, b in x.items() if b is not None}
+        whole["Solver"] = {a: b for a, b in {"Contact tangent": k.tangent, "Force tolerance": k.tolerance,
+                                             "Linear solver": k.solver, "Material tangent": k.material_tangent}.items() if b is not None}
+        whole["Output"] = output()
+    return whole
+
+
+# --- statics with tools ------------------------------------------------------------------------------------------------------
+
+def shaped(k, n):
+    """Vertices of a unit block moved: graded along z so that the thickest layer is `grading` times the thinnest, its inner node
+    and the middles of its edges moved by `distortion` halves of a brick."""
+    x, y, z = "x", "y", "z"
+    if k.grading != 1.0:
+        ratio = k.grading ** (1 / max(n - 1, 1))
+        # layers 1, r, r², ...: the vertex at z = i/n goes to (r^i − 1)/(r^n − 1)
+        z = f"({number(ratio)}^({n}*z) - 1)/{number(ratio**n - 1)}"
+    if k.distortion:
+        d = number(k.distortion / n)
+        bubble = "(x*(1-x) > 1e-6)*(y*(1-y) > 1e-6)*(z*(1-z) > 1e-6)"
+        x, y, z = f"{x} + {d}*{bubble}", f"{y} + {d}*0.7*{bubble}", f"{z} - {d}*0.8*{bubble}"
+    return " ; ".join((x, y, z))
+
+
+def upset(k):
+    """A block between two plane tools, held in two planes of symmetry: a bar in compression."""
+    f, n, h = frame_of(k), k.bricks or 2, k.aspect
+    travel = h * (1 - math.exp(k.strain))
+    pushed = {"Force": f.expression(f"{number(k.force * k.young)}*{{t}}", number(f.force) + "*"), "Force direction": f.vector((0, 0, -1))} if k.force else None
+    mesh = box((n, n, n), (0, 0, 0), (1, 1, 1 if k.grading != 1 or k.distortion else h))
+    if k.grading != 1 or k.distortion:
+        mesh["Positions"] = shaped(k, n)
+        travel, h = 1 - math.exp(k.strain), 1.0
+    sections = {
+        "Bodies": {"block": body(k, f, mesh, [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+                  "ram": {"Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
+                          "Motion": pushed or {"Translation": f.expressions(("0", "0", f"{number(-travel)}*{{t}}"), f.length)}}},
+        "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f, end=reach(k, 1.0)),
+    }
+    checks = [must.finite, must.balanced("die", "ram"), must.yields, must.diagonal_symmetry, must.jacobians]
+    if k.force:
+        checks.append(must.driven("ram.force_z", -k.force * k.young))
+    if k.mu == 0:
+        checks += [must.bar, must.uniform_stress, must.sideways_free("die"), must.sideways_free("ram")]
+        if not k.distortion:
+            checks += [must.penalty_depth("ram", 1 / n), must.bar_shape]
+    else:
+        checks += [must.cone]
+    if k.law == "elastic" or k.mu > 0:
+        checks += [must.energies]
+    return Setup(k, f, sections, checks, height=h, strain=k.strain, friction=friction(k), travel=travel, layers=n)
+
+
+def pull(k):
+    """One brick stretched by supports, free across: no contact."""
+    f, n, h = frame_of(k), k.bricks or 1, k.aspect
+    top_moves = h * (math.exp(k.strain) - 1)
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, h)), [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
+                                 Supports={"grip": {"Boundary ids": 5, "Components": "z",
+                                                    "Displacement": f"0 ; 0 ; {f.expression(number(top_moves) + '*{t}', number(f.length) + '*')}"}})},
+        **statics(k, f, end=reach(k, 1.0)),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.uniform_stress, must.bar_stress, must.jacobians],
+                 height=h, strain=k.strain, layers=n)
+
+
+def slide(k):
+    """A block pressed on a plane that is drawn away under it; or to and fro, `cycles` times."""
+    f, n = frame_of(k), k.bricks or 2
+    way = k.slide
+    if k.cycles:
+        end = 1.0 + k.cycles
+        along = f"{number(way)}*sin(2*pi*({{t}} - 1))*({{t}} > 1)"
+    else:
+        end = 2.0
+        along = drawn(k, way)
+    down = pressed(k)
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)),
+                                 Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
+        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1)),
+                          "Motion": {"Translation": f.expressions((along, "0", "0"), f.length)}}},
+        "Contact pairs": {"foot": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4})},
+        **statics(k, f, end=end if k.cycles else reach(k, end), stops=(1.0,) if k.step is None else ()),
+    }
+    checks = [must.finite, must.yields, must.cone, must.force_cone("die"), must.mirror((0, 1, 0), 0.5), must.energies,
+              must.pushes("die"), must.jacobians]
+    if not k.cycles:
+        checks.append(must.gross_slip("die"))
+    if k.kinematics == "Hencky" and k.cycles:
+        checks.append(must.closed_cycles("die"))
+    return Setup(k, f, sections, checks, friction=friction(k), slip_rate=way)
+
+
+def ball(k):
+    """A quarter of a block between a rigid sphere, whose pole is on a node, and a bed."""
+    f, n = frame_of(k), k.bricks or 3
+    r = k.radius
+    depth = k.press * 5 * min(r, 1.0)
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, 2), (0, 0, 0), (1, 1, 0.7)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+                  "ball": {"Surfaces": {"sphere": {"Shape": "sphere", "Centre": f.vector((0, 0, 0.7 + r), f.length),
+                                                   "Radius": number(r * f.length), "Axis": f.vector((0, 0, 1))}},
+                           "Motion": {"Translation": f.expressions(("0", "0", f"{number(-depth)}*{{t}}"), f.length)}}},
+        "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ball", **{"Boundary ids": 5})},
+        **statics(k, f, end=reach(k, 1.0)),
+    }
+    return Setup(k, f, sections, [must.finite, must.balanced("bed", "ball"), must.yields, must.diagonal_symmetry, must.cone,
+                                  must.energies, must.depth_bound("ball", depth), must.jacobians],
+                 friction=friction(k))
+
+
+def twist(k):
+    """A plane tool pressed on a block and turned, or swung, about an axis through the middle node."""
+    f, n = frame_of(k), k.bricks or 2
+    angle = (f"{number(2 * math.pi * k.turns)}*sin(2*pi*{number(k.oscillations)}*({{t}} - 1))*({{t}} > 1)" if k.oscillations
+             else drawn(k, 2 * math.pi * k.turns))
+    down = pressed(k)
+    turned = {"Rotation angle": f.expression(angle)} if k.moment is None else {
+        "Moment": f.expression(f"{number(k.moment * k.young)}*if({{t}} > 1, {{t}} - 1, 0)", number(f.energy) + "*")}
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)),
+                                 Supports={"foot": {"Boundary ids": 4}})},
+        "Tools": {"ram": {"Surfaces": plane(f, (0, 0, 0.5), (0, 0, -1)),
+                          "Motion": {"Translation": f.expressions(("0", "0", down), f.length),
+                                     **turned, "Rotation axis": f.vector((0, 0, 1)),
+                                     "Centre": f.vector((0, 0, 0.5), f.length)}}},
+        "Contact pairs": {"head": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f, end=reach(k, 2.0), stops=(1.0,) if k.step is None else ()),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.sideways_free("ram"), must.quarter_turn,
+                                  must.energies, must.moment_cone("ram"), must.jacobians,
+                                  *([] if k.moment is None else [must.driven("ram.moment_z", k.moment * k.young)])], friction=friction(k), slip_rate=k.turns * 5)
+
+
+def features(f, k):
+    """Tools with edges, poles, axes, apices and seams exactly where nodes of the block are; faces at z = 0.5, looking down."""
+    v, w = (lambda p: f.vector(p, f.length)), f.vector
+
+    def rectangle(x, y, a, b):
+        return {"Shape": "rectangle", "Centre": v((x, y, 0.5)), "Normal": w((0, 0, -1)), "Direction": w((1, 0, 0)),
+                "Length": number(a * f.length), "Width": number(b * f.length)}
+
+    down = w((0, 0, -1))
+    return {
+        "rectangle": {"a": rectangle(0, 0, 1, 1)},
+        "rectangle of its size": {"a": rectangle(0, 0, 2, 2)},
+        "coplanar": {"a": rectangle(-0.5, 0, 1, 4), "b": rectangle(1, 0, 2, 4)},
+        "coincident": {"a": rectangle(0, 0, 4, 4), "b": rectangle(0, 0, 4, 4)},
+        "disc": {"a": {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Radius": number(0.5 * f.length)}},
+        "ring": {"a": {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Inner radius": number(0.5 * f.length),
+                       "Radius": number(3 * f.length)}},
+        "sectors": {str(i): {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Radius": number(3 * f.length), "Sector": 90,
+                             "Start": w(d)} for i, d in enumerate(((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)))},
+        "pole": {"a": {"Shape": "sphere", "Centre": v((0, 0, 2.5)), "Radius": number(2 * f.length), "Axis": w((0, 0, 1))}},
+        "pole aside": {"a": {"Shape": "sphere", "Centre": v((0, 0, 2.5)), "Radius": number(2 * f.length), "Axis": w((1, 1, 0))}},
+        "apex": {"a": {"Shape": "cone", "Apex": v((0, 0, 0.5)), "Axis": w((0, 0, 1)), "Half angle": 80, "To height": number(f.length)}},
+        "torus": {"a": {"Shape": "torus", "Centre": v((0, 0, 1)), "Axis": w((0, 0, 1)), "Ring radius": number(0.5 * f.length),
+                        "Tube radius": number(0.5 * f.length)}},
+        "profile": {"a": {"Shape": "revolved profile", "Corners": f"0, 0 ; {number(0.5 * f.length)}, 0 ; {number(2 * f.length)}, {number(0.5 * f.length)}",
+                          "Origin": v((0, 0, 0.5)), "Axis": w((0, 0, 1)), "Outside": "right"}},
+        "seams": {str(i): {"Shape": "coons patch", "Curves": " ; ".join(
+            f"line: {v(a)} to {v(b)}" for a, b in zip(c, c[1:] + c[:1]))} for i, c in enumerate(
+                [[(0, 0, 0.5), (0, 2, 0.5), (2, 2, 0.5), (2, 0, 0.5)], [(0, 0, 0.5), (2, 0, 0.5), (2, -2, 0.5), (0, -2, 0.5)],
+                 [(0, 0, 0.5), (0, -2, 0.5), (-2, -2, 0.5), (-2, 0, 0.5)], [(0, 0, 0.5), (-2, 0, 0.5), (-2, 2, 0.5), (0, 2, 0.5)]])},
+    }
+
+
+FEATURES = tuple(features(Frame(), None))
+
+
+def place(k):
+    """A quarter of a block pressed on a bed by a tool whose features are exactly on nodes."""
+    f, n = frame_of(k), k.bricks or 2
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, 1), (0, 0, 0), (1, 1, 0.5)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+                  "ram": {"Surfaces": features(f, k)[k.feature],
+                          "Motion": {"Translation": f.expressions(("0", "0", f"{number(-k.press)}*{{t}}"), f.length)}}},
+        "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f, end=reach(k, 1.0)),
+    }
+    checks = [must.finite, must.balanced("bed", "ram"), must.yields, must.cone, must.energies, must.depth_bound("ram", k.press), must.jacobians]
+    if k.feature not in ("coplanar",) or k.mu == 0:
+        checks.append(must.diagonal_symmetry)
+    return Setup(k, f, sections, checks, friction=friction(k))
+
+
+def rest(k):
+    """A block that just touches two tools, and nothing moves."""
+    f, n = frame_of(k), k.bricks or 2
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
+        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}, "ram": {"Surfaces": plane(f, (0, 0, 1), (0, 0, -1))}},
+        "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
+                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        **statics(k, f),
+    }
+    return Setup(k, f, sections, [must.finite, must.nothing_happens])
+
+
+# --- statics between bodies --------------------------------------------------------------------------------------------------
+
+def contact_of_bodies(k):
+    return {name: value for name, value in {"Facets": k.facets, "Passes": k.passes}.items() if value is not None}
+
+
+def stack(k):
+    """Two confined blocks pressed on each other: the stress is uniform. Their meshes do not fit where facets overlap."""
+    f = frame_of(k)
+    over = k.facets in (None, "overlap")
+    n = (3, 2) if over else (2, 2)
+    sides = [((1, 0, 0), 0), ((1, 0, 0), 1), ((0, 1, 0), 0), ((0, 1, 0), 1)]
+    down = f"{number(-k.press)}*{{t}}"
+    lower, upper = k.young, k.young * k.modulus_ratio
+    sections = {
+        "Bodies": {
+            "lower": body(k, f, box((n[0], n[0], 1), (0, 0, -1), (1, 1, 0)), sides, young=lower,
+                          Supports={"foot": {"Boundary ids": 4}}),
+            "upper": body(k, f, box((n[1], n[1], 1), (0, 0, 0), (1, 1, 1)), sides, young=upper,
+                          Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
+        "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                                        **contact_of_bodies(k))},
+        **statics(k, f, end=reach(k, 1.0)),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.stack(lower, upper), must.uniform_stress_of_bodies,
+                                  must.energies, must.jacobians], friction=friction(k))
+
+
+def touching(k):
+    """The same two blocks, just touching, and nothing moves."""
+    setup = stack(Knobs({**k.all, "press": 0.0}))
+    setup.checks = [must.finite, must.nothing_happens]
+    return setup
+
+
+def drag(k):
+    """A block pressed on a wider one and drawn over it."""
+    f = frame_of(k)
+    along, down = drawn(k, k.slide), pressed(k)
+    lower, upper = k.young, k.young * k.modulus_ratio
+    sections = {
+        "Bodies": {
+            "lower": body(k, f, box((3, 2, 1), (-0.25, -0.25, -0.5), (1.5, 1.25, 0)), young=lower, Supports={"foot": {"Boundary ids": 4}}),
+            "upper": body(k, f, box((2, 2, 1), (0, 0, 0), (1, 1, 0.5)), young=upper,
+                          Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions((along, "0", down), f.length)}})},
+        "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                                        **contact_of_bodies(k))},
+        **statics(k, f, end=reach(k, 2.0), stops=(1.0,) if k.step is None else ()),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.force_cone("joint"), must.mirror((0, 1, 0), 0.5),
+                                  must.energies, must.jacobians], friction=friction(k), slip_rate=k.slide)
+
+
+def clip(k):
+    """An open ring is pinched until its ends touch: a body with itself."""
+    f, n = frame_of(k), k.bricks or 12
+    gap = 0.1
+    half = math.pi - 0.5 * gap
+    mesh = box((1, n, 1), (1, 0, 0), (1.25, 1, 0.25), Positions=f"x*cos({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; "
+               f"x*sin({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; z")
+    # the outer faces next to the ends, and the one opposite
+    sin_first = 1.25 * math.sin(0.5 * gap + half / n)
+    mesh["Boundary ids"] = (f"7 : (x < -1.1)*(x*x + y*y > {number(1.2**2)}) ; 8 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y > 0)*(y < {number(1.2 * sin_first)}) ; "
+                            f"9 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y < 0)*(y > {number(-1.2 * sin_first)})")
+    if f.length != 1.0:
+        s = number(f.length)
+        mesh["Boundary ids"] = mesh["Boundary ids"].replace("x*x", f"(x*x/{s}^2)").replace("y*y", f"(y*y/{s}^2)").replace(
+            "(x <", f"(x/{s} <").replace("(x >", f"(x/{s} >").replace("(y <", f"(y/{s} <").replace("(y >", f"(y/{s} >")
+    close = 0.5 * gap * 1.1 * 4 * k.press / 0.08 * 1.0
+    move = f"{number(close)}*{{t}}"
+
+    def pinch(sign):
+        return f"0 ; {f.expression(sign + move, number(f.length) + '*')} ; 0"
+
+    sections = {
+        "Bodies": {"ring": body(k, f, mesh, [((0, 0, 1), 0)], Supports={
+            "back": {"Boundary ids": 7},
+            "above": {"Boundary ids": 8, "Components": "y", "Displacement": pinch("-")},
+            "below": {"Boundary ids": 9, "Components": "y", "Displacement": pinch("")}})},
+        "Contact pairs": {"ends": pair(k, f, Body="ring", **{"Boundary ids": "2, 3", "Second body": "ring"}, **contact_of_bodies(k))},
+        **statics(k, f, end=reach(k, 1.0)),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.energies, must.jacobians,
+                                  must.touches("ends")], friction=friction(k))
+
+
+# --- dynamics ----------------------------------------------------------------------------------------------------------------
+
+def velocity(f, v):
+    return " ; ".join(number(x) for x in f.turned(v) * f.speed)
+
+
+def drop(k, scheme):
+    """A block flies onto a plane and back; speed as part of the bar's wave speed."""
+    f, n = frame_of(k), k.bricks or 2
+    c = bar_speed(k.young, k.density)
+    v = k.speed * c
+    gap = min(0.02, 0.5 * k.speed)
+    end = k.duration * (gap / v + 5.0 / c)
+    sections = {
+        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, gap), (0.5, 0.5, 1 + gap)), density=k.density,
+                                 **{"Initial velocity": velocity(f, (0, 0, -v))})},
+        "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
+        "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
+        **dynamics(k, f, scheme, end),
+    }
+    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((1, 0, 0), 0.0), must.mirror((0, 1, 0), 0.0),
+                                  must.diagonal_symmetry, must.drift, must.impulse("floor", v), must.energy_not_made, must.jacobians],
+                 friction=friction(k), mass=k.density, speed=v)
+
+
+def strike(k, scheme):
+    """A quarter of a block flies up against a tool whose features are exactly on nodes, and back; with a radius, against a ball
+    whose pole is on one. A whole block where the tool turns."""
+    f, n = frame_of(k), k.bricks or 2
+    c = bar_speed(k.young, k.density)
+    v = k.speed * c
+    gap = min(0.02, 0.5 * k.speed)
+    end = k.duration * (gap / v + 5.0 / c)
+    turns = k.turns != KNOBS["turns"] or k.oscillations > 0
+    r = k.radius
+    surfaces = features(f, k)[k.feature] if r == KNOBS["radius"] else {
+        "a": {"Shape": "sphere", "Centre": f.vector((0, 0, 0.5 + r), f.length), "Radius": number(r * f.length), "Axis": f.vector((0, 0, 1))}}
+    angle = (f"{number(2 * math.pi * k.turns)}*sin({number(2 * math.pi * k.oscillations / end)}*{{t}})" if k.oscillations
+             else f"{number(2 * math.pi * k.turns / end)}*{{t}}")
+    motion = {"Motion": {"Rotation angle": f.expression(angle), "Rotation axis": f.vector((0, 0, 1)),
+                         "Centre": f.vector((0, 0, 0.5), f.length)}} if turns else {}
+    sections = {
+        "Bodies": {"block": body(k, f, box((2 * n, 2 * n, 2), (-1, -1, -0.5 - gap), (1, 1, 0.5 - gap)) if turns else
+                                 box((n, n, 2), (0, 0, -0.5 - gap), (1, 1, 0.5 - gap)), None if turns else [((1, 0, 0), 0), ((0, 1, 0), 0)],
+                                 density=k.density, **{"Initial velocity": velocity(f, (0, 0, v))})},
         "Tools": {"ram": {"Surfaces": surfaces, **motion}},
         "Contact pairs": {"top": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **dynamics(k, f, scheme, end),
@@ -575,7 +1065,8 @@ def press(k, scheme):
     mesh = box((n, n, n), (0, 0, 0), (1, 1, 1 if is_shaped else h))
     if is_shaped:
         mesh["Positions"], h = shaped(k, n), 1.0
-    travel, v = h * (1 - math.exp(k.strain)), k.speed * c
+    travel = h * (1 - math.exp(k.strain))
+    v = min(k.speed * c, travel * c / (5 * h))  # waves go to and fro
     end = travel / v
     sections = {
         "Bodies": {"block": body(k, f, mesh, [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)], density=k.density)},
@@ -719,6 +1210,7 @@ def laden(k, scheme):
     c = bar_speed(k.young, k.density)
     end = 40.0 / c * k.duration
     p = k.load * k.young
+    is_beyond = k.law == "elastoplastic" and k.hardening_modulus == 0 and k.load >= getattr(k, "yield")  # the limit load
     loads = {"pressure": {"Type": "pressure", "Boundary ids": 5, "Pressure": f.expression(f"{number(p / end)}*{{t}}", number(f.stress) + "*")}}
     if k.spring:
         loads["springs"] = {"Type": "spring", "Boundary ids": 5, "Stiffness": number(k.spring * k.young * f.stress / f.length)}
@@ -729,7 +1221,7 @@ def laden(k, scheme):
         **dynamics(k, f, scheme, end),
     }
     return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((1, 0, 0), 0.0), must.diagonal_symmetry, must.drift,
-                                  must.bears("floor", p, end), must.jacobians], friction=friction(k), mass=k.density, speed=1e-9)
+                                  *([] if is_beyond else [must.bears("floor", p, end)]), must.jacobians], friction=friction(k), mass=k.density, speed=1e-9)
 
 
 def pile(k, scheme):
