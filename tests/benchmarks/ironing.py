@@ -27,7 +27,7 @@ def sweep(facets, passes, part):
                "Amplitudes/down/Times": f"0, {PRESSING}", "Amplitudes/down/Values": "0, -0.6",
                "Amplitudes/along/Times": f"{PRESSING}, {PRESSING + n}", "Amplitudes/along/Values": f"0, {SLIDE}",
                "Time stepping/End time": PRESSING + n, "Time stepping/Stops": "", "Time stepping/Step control": "fixed",
-               "Time stepping/Initial step": 1}, options.ranks, SCENE, "face")
+               "Time stepping/Initial step": 1, "Time stepping/Largest step": None}, options.ranks, SCENE, "face")
     if not run.converged:
         return None, None, run
     path = [(FACET * part * (float(row["time"]) - PRESSING), -float(row["face.force_x"]), float(row["face.force_z"]))

@@ -27,7 +27,7 @@ def program_of(named):
 
 
 def parse(arguments):
-    p = argparse.ArgumentParser(prog="extremes", description="Runs billet on some two thousand tiny scenes at the extremes of every "
+    p = argparse.ArgumentParser(prog="extremes", description="Runs billet on thousands of tiny scenes at the extremes of every "
                                 "parameter, checks what must hold in each, and writes tables and pictures. What has been run is "
                                 "kept: stopped by Ctrl-C, the same command goes on.")
     p.add_argument("--program", help="billet; else BILLET in the environment")

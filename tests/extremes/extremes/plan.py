@@ -93,14 +93,14 @@ def everything():  # noqa: C901
         yield from single("tangential penalty", (base,), PENALTIES[::2], along=ROUGH)
     yield from single("mu", FRICTIONAL, MU)
     for law in FRICTION_LAWS[1:]:
-        yield from single("mu", ("slide", "twist", "drag", "skid.explicit", "skid.implicit"), MU[2::2], along={"friction law": law})
+        yield from single(f"mu, {law}", ("slide", "twist", "drag", "skid.explicit", "skid.implicit"), MU[2::2], "mu", {"friction law": law})
     glides = ("glide.explicit", "glide.implicit")
     yield from single("mu", glides, MU)
     yield from product(("penalty", "mu"), glides[:1], PENALTIES[::2] + PENALTIES[-1:], [0.0, 0.3, 1.0])
     yield from product(("penalty", "mu"), glides[1:], PENALTIES[:8:2], [0.0, 0.3, 1.0])
     for law in FRICTION_LAWS[1:]:
-        yield from single("mu", glides, [0.1, 0.6, 2.0], along={"friction law": law})
-        yield from single("mu", ("clip", "fold.explicit", "fold.implicit"), [0.3], along={"friction law": law})
+        yield from single(f"mu, {law}", glides, [0.1, 0.6, 2.0], "mu", {"friction law": law})
+        yield from single(f"mu, {law}", ("clip", "fold.explicit", "fold.implicit"), [0.3], "mu", {"friction law": law})
     yield from single("mu", ("fold.explicit", "fold.implicit"), [0.3, 2.0, 10.0])
     yield from single("modulus ratio", glides, [1e-4, 1e-2, 1e2, 1e4], along={"mu": 0.3})
     yield from single("speed", glides, [1e-3, 0.1, 0.3], along={"mu": 0.3})

@@ -14,11 +14,13 @@ from matplotlib.patches import Patch  # noqa: E402
 
 from .invariants import NUDGE, SYMMETRIES  # noqa: E402
 from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE  # noqa: E402
+from .plan import FRICTION_LAWS  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
 COLOURS = {"right": "#4c9f70", "right, but soft": "#a9d3b5", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
            "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
-WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient", "nu": "Poisson's ratio", "step": "fixed step, of the load",
+WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient",
+         **{f"mu, {law}": f"friction coefficient, `{law}`" for law in FRICTION_LAWS[1:]}, "nu": "Poisson's ratio", "step": "fixed step, of the load",
          "strain": "logarithmic strain", "aspect": "height over width of a brick", "yield": "yield stress, E",
          "hardening modulus": "hardening modulus, E", "augmentation": "`Penetration tolerance`", "hourglass": "`Hourglass stiffness`",
          "tangential penalty": "tangential penalty, E/h", "grading": "largest over smallest element", "distortion": "inner node moved, bricks",
@@ -38,6 +40,7 @@ COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda 
 
 
 KNOB_OF = {"augmented penalty": "penalty"}
+DEFAULTS = {**KNOBS, "law": "Hencky"}
 PENALTIES = ("penalty", "augmented penalty")
 
 
@@ -56,11 +59,17 @@ def alone(records, parameter):
 
 def safe(records, parameter):
     """Of the scenes in which this parameter alone is turned, any other being as it is by default: the values, in a row around the
-    default, at which all are right, and no penalty is soft; words: those at which all are."""
+    default, at which all are right, and no penalty is soft; words: those at which all are. Where it is never turned alone, of all
+    its scenes."""
     own = [r for r in alone(records, parameter)
-           if all(p == parameter or v == KNOBS.get(KNOB_OF.get(p, p)) for p, v in zip(r["parameters"], r["values"]))]
+           if all(p == parameter or v == DEFAULTS.get(KNOB_OF.get(p, p)) for p, v in zip(r["parameters"], r["values"]))]
     if not own:
-        return ""
+        pairs = alone(records, parameter)
+        return f"{span(pairs, parameter)}, in pairs" if pairs else ""
+    return span(own, parameter)
+
+
+def span(own, parameter):
     by_value = defaultdict(set)
     for r in own:
         soft = parameter in PENALTIES and r.get("soft")
@@ -72,7 +81,7 @@ def safe(records, parameter):
     values = sorted(by_value)
     if not good:
         return "-"
-    default = KNOBS.get(KNOB_OF.get(parameter, parameter))
+    default = DEFAULTS.get(KNOB_OF.get(parameter, parameter))
     runs, row = [], []
     for v in values + [None]:
         if v in good:
@@ -159,7 +168,7 @@ def forgetful(records):
     if not lost:
         return ""
     return (f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows until symmetry is lost; run once more, nudged at the start by "
-            f"{NUDGE:g} of velocity and size, displacements at the end differ by as much: " + ", ".join(
+            f"{NUDGE:g} of velocity and size, displacements at the end differ by as much, or at least a tenth of it; among them are " + ", ".join(
                 f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:20]) + ".")
 
 
@@ -184,7 +193,8 @@ def write(records, folder, planned=0, program=""):
              "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
              "alone is right, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. Of "
              f"penalties, values at which a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is soft, since it takes more than a fifth of the "
-             "motion, are not safe, either: forces are too small. Empty: nothing turns it alone. Counts are of all scenes, those in pairs with it included. Scenes of "
+             "motion, are not safe, either: forces are too small; that happens to the default of 10 E/h where a block of four planed facets is dragged. "
+             "*In pairs*: it is never turned alone, and all its scenes count. Empty: not tried. Counts are of all scenes, those in pairs with it included. Scenes of "
              "fixed steps below a hundredth of the load end after twenty of them."]
     names = []
     for r in records:
