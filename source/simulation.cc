@@ -165,7 +165,7 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
   std::ostringstream computed;
   computed << ". What was computed until time " << from << " is in '" << parameters.output.folder.value
            << "'.";
-  if (report.newton.is_lost_in_round_off)
+  if (report.newton.is_lost_in_round_off || report.newton.is_explained)
     return message.str() + computed.str();
   message << "; residual " << report.newton.force << " of the forces, allowed is "
           << parameters.solver.force_tolerance << ". " << describe_limit_load(parameters);
@@ -498,8 +498,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         outputs.snapshots.write(problem);
         std::ostringstream message;
         message << parameters.file_name << ": at time " << control.time() << " after " << control.n_steps()
-                << " steps " << energies.imbalance() << ". What was computed until then is in '"
-                << parameters.output.folder.value << "'.";
+                << " steps " << energies.imbalance() << ". " << describe_limit_load(parameters)
+                << "What was computed until then is in '" << parameters.output.folder.value << "'.";
         throw SolutionFailure(message.str());
       }
       outputs.snapshots.after_step(control.n_steps(), problem);
@@ -518,7 +518,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     // Smaller loads would make that worse.
     bool may_go_on = control.reject() && !report.newton.is_lost_in_round_off;
     report.total_cuts = control.n_cuts();
-    if (!may_go_on && !report.newton.is_lost_in_round_off) {
+    if (!may_go_on && !report.newton.is_lost_in_round_off && !report.newton.is_explained) {
       const std::string note = problem.take_exact_tangent();
       outputs.progress.warn(note);
       may_go_on = !note.empty();

@@ -51,7 +51,8 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
   const double height = arm * axes_.z;
   const double a = arm * axes_.x, b = arm * axes_.y;
   double radius = std::hypot(a, b);
-  // On the axis every direction is as good.
+  // On the axis every direction is as good, in which the surface is oblique to it.
+  constexpr double oblique = 1e-6;
   const double tiny = 1e-14 * (profile_.size() + std::abs(height));
   Tensor<1, 3> outwards = radius > tiny ? (a * axes_.x + b * axes_.y) / radius : axes_.x;
   bool is_beside = false;
@@ -74,6 +75,10 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
   result.normal = closest.normal[0] * outwards + closest.normal[1] * axes_.z;
   result.gap = closest.gap;
   result.is_beyond_border = closest.is_beyond_border || is_beside;
+  if (is_full_ && radius <= tiny && std::abs(closest.normal[1]) > oblique) { // the mean of all directions
+    result.normal = std::copysign(1., closest.normal[1]) * axes_.z;
+    result.position = x - result.gap * result.normal;
+  }
   const Tensor<1, 3> along = -closest.normal[1] * outwards + closest.normal[0] * axes_.z;
   const Tensor<1, 3> around = dealii::cross_product_3d(axes_.z, outwards);
   // Near the axis the surface is as round one way as the other.

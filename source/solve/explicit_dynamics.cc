@@ -67,7 +67,7 @@ void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
 }
 
 constexpr const char *flat_element_advice =
-    "Try a mesh that is finer, or of better shape, where it deforms most, or a material that hardens";
+    "try a mesh that is finer, or of better shape, where it deforms most, or a material that hardens";
 
 double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -351,7 +351,7 @@ void ExplicitDynamics::compute_forces() {
   constexpr double collapsed = 1e-5;
   if (free_step_ < collapsed * first_free_step_) {
     std::ostringstream why;
-    why << describe_flat_elements() << ": so the run would hardly end. " << flat_element_advice;
+    why << describe_flat_elements() << ". So the run would hardly end: " << flat_element_advice;
     fail(why.str());
   }
   crossing_step_ = crossing_step();
@@ -660,7 +660,7 @@ std::string ExplicitDynamics::describe_flat_elements() const {
   std::ostringstream text;
   text.precision(3);
   text << "the stable step of the elements has fallen to " << free_step_ << ", from " << first_free_step_
-       << " at the start: one is nearly flat or turned inside out";
+       << " at the start, as one is nearly flat";
   return text.str();
 }
 
@@ -689,7 +689,7 @@ std::string ExplicitDynamics::watch_steps() {
   if (!has_told_flat_ && free_step_ < flat * first_free_step_) {
     std::string text = describe_flat_elements();
     text.front() = 'T';
-    note << (note.str().empty() ? "" : "\n") << text << ". " << flat_element_advice;
+    note << (note.str().empty() ? "" : "\n") << text << ": " << flat_element_advice;
     has_told_flat_ = true;
   }
   return note.str();

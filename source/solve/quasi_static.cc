@@ -466,7 +466,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   }
   if (!report.converged && !(softened = soften_augmented_contacts()).empty())
     report.append_anew(attempt_step(t, previous_step));
-  if (!report.converged && !report.iterations.empty() && has_stiff_contacts()) {
+  if (!report.converged && !report.is_explained && !report.iterations.empty() && has_stiff_contacts()) {
     is_led_by_softer_ = true;
     report.append_anew(attempt_step(t, previous_step));
     is_led_by_softer_ = false;
@@ -476,10 +476,11 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   measures_penetration_ = false; // what is tried next may be no step to measure it in
   if (!report.converged) {
     probe_.reset(); // it may have led astray
-    report.is_lost_in_round_off = report.is_lost_in_round_off || may_be_round_off(report);
+    report.is_lost_in_round_off =
+        report.is_lost_in_round_off || (!report.is_explained && may_be_round_off(report));
     if (report.is_lost_in_round_off)
       report.failure = describe_round_off(report.force);
-    else {
+    else if (!report.is_explained) {
       for (const auto &contact : body_contacts_)
         report.failure += contact->describe_restless();
       report.failure += describe_slipping_tools() + describe_residual();

@@ -114,6 +114,7 @@ bool QuasiStatic::goes_through_tool(NewtonReport &report) const {
         0) {
       report.converged = false;
       report.failure = contact.describe_thin_tool();
+      report.is_explained = true;
       return true;
     }
   return false;

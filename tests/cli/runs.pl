@@ -397,6 +397,35 @@ check 'a folder in a folder that is not there', sub {
   return -s 'deep/er/results/history.csv' ? '' : 'nothing is in it';
 };
 
+# --- what is too small, too stiff or too flat -------------------------------------------------------------------------
+
+my $ball = read_text("$here/files/small_ball.prm");
+check 'nodes do not go through a thin tool in implicit dynamics, either', sub {
+  billet('Time stepping: Scheme = implicit dynamics & block: Initial velocity = 0 ; 0 ; -100', base => $ball, code => 3);
+  return $complained =~ /the step from .* failed .*: nodes of contact pair 'foot' go through tool 'ball', which is 0\.002 thick: .* Try a smaller 'Largest step', a larger 'Normal penalty', or facets as small as the tool\. What was/
+    ? '' : "says $complained";
+};
+check 'nor where they are hit gently; what a stiff penalty makes of steps is told', sub {
+  billet('block: Initial velocity = 0 ; 0 ; -0.1 & Time stepping: End time = 0.25', base => $ball);
+  billet('foot: Normal penalty = 1e5', base => $ball);
+  return $said =~ /^The penalty of contact pair 'foot', 1e\+05 E\/h, makes steps \d+ times shorter than the elements ask for\. Try a softer one/m ? '' : "says $said";
+};
+check 'a perfectly plastic body that loads press flat', sub {
+  my $load = "subsection Loads\nsubsection push\nset Type = pressure\nset Boundary ids = 5\nset Pressure = 2500*t\nend\nend\nsubsection Mesh";
+  my $scene = $ball =~ s/set Law = elastic/set Yield stress = 10/r =~ s/-0\.5, 0\.02 : 0\.5, 0\.5, 1\.02/-0.5, 0 : 0.5, 0.5, 1/r
+    =~ s/set Initial velocity.*\n//r =~ s/set (Shape|Centre|Radius).*\n//gr =~ s/subsection Mesh/$load/r =~ s/7e-3/0.04/r;
+  my $folder = billet('', base => $scene, code => 3);
+  return "says $complained" unless $complained =~
+    /the stable step of the elements has fallen to [\d.e-]+, from [\d.e-]+ at the start, as one is nearly flat.*Body 'block' yields without hardening, and loads are given: above the limit load it flows on and on/;
+  return -s "$folder/history.csv" ? '' : 'no history';
+};
+check 'steps by themselves go with the end time', sub {
+  my $scene = read_text("$here/files/limit_load.prm");
+  my $short = history(billet('', base => $scene =~ s/set Initial step = 0\.1//r =~ s/10\*t/t/r));
+  my $long = history(billet('', base => $scene =~ s/set Initial step = 0\.1/set End time = 1000/r =~ s/10\*t/1e-3*t/r));
+  return near('steps', scalar @{$long->{time}}, scalar @{$short->{time}}) || near('first', $long->{time}[0], 10) || near('first', $short->{time}[0], 0.01);
+};
+
 # --- failed solutions ----------------------------------------------------------------------------------------------
 
 my $wild = 'ramp: Times = 0, 0.5, 1 & ramp: Values = 0, 0.1, 2.5';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The condition of a matrix is found whatever right-hand sides it is solved with, and told once.
-#include "billet/solve/tangent_solver.h"
 #include "../testing.h"
+#include "billet/solve/tangent_solver.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -36,8 +36,8 @@ unsigned int times_told(const double soft, const bool symmetric) {
   }
   matrix.FillComplete();
   parameters::Solver settings{};
-  settings.linear_solver.value = symmetric ? parameters::Solver::LinearSolver::mumps_symmetric
-                                                : parameters::Solver::LinearSolver::mumps;
+  settings.linear_solver.value =
+      symmetric ? parameters::Solver::LinearSolver::mumps_symmetric : parameters::Solver::LinearSolver::mumps;
   TangentSolver solver(settings, symmetric, matrix, MPI_COMM_WORLD);
   unsigned int n_told = 0;
   for (unsigned int i = 0; i < 4; ++i) {

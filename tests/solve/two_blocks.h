@@ -118,7 +118,7 @@ inline void TwoBlocks::make_mesh(const bool across) {
 inline void TwoBlocks::find_interface() {
   positions_.resize(owned_.n_elements());
   constrained_.resize(owned_.n_elements());
-  constraints_.reinit(dealii::complete_index_set(dof_handler_.n_dofs())); // pairs join dofs of other ranks
+  constraints_.reinit(dealii::complete_index_set(dof_handler_.n_dofs()));    // pairs join dofs of other ranks
   std::array<std::map<std::pair<unsigned int, unsigned int>, Dof>, 2> grids; // of the interface
   std::vector<unsigned int> own_nodes;                                       // body, i, j, first dof
   for (const auto &cell : dof_handler_.active_cell_iterators())

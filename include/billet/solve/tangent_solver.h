@@ -63,7 +63,7 @@ private:
   bool has_told_memory_ = false, has_told_fallback_ = false;
   bool has_told_condition_ = false;
   unsigned int n_factorized_ = 0; ///< directly
-  double norm_ = 0.; ///< |A|, as factorised directly
+  double norm_ = 0.;              ///< |A|, as factorised directly
   std::string name_, failure_, note_;
   HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},
       iterative_memory_{Capability::iterative_solver};
