@@ -677,11 +677,11 @@ std::string ExplicitDynamics::watch_steps() {
     const auto stiffest = std::min_element(room.begin(), room.end());
     if (stiffest != room.end() && *stiffest < 1.) {
       const auto i = static_cast<std::size_t>(stiffest - room.begin());
-      note.precision(2);
+      note.precision(3);
       note << "The penalty of contact pair '"
            << (i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
                                     : body_contacts_[i - contacts_.size()]->name())
-           << "', " << enough_penalty / *stiffest << " E/h, makes steps " << free_step_ / element_step_
+           << "', " << enough_penalty / *stiffest << " E/h, makes steps " << std::round(free_step_ / element_step_)
            << " times shorter than the elements ask for. Try a softer one: 10 to 40 E/h let little in";
       has_told_stiff_ = true;
     }

@@ -442,7 +442,9 @@ class Running(unittest.TestCase):
         self.assertEqual(report.safe(records, "penalty"), "1 to 100")
         # Turned beside another one that is as it is by default it is turned alone.
         self.assertEqual(report.safe([*records, of(["penalty", "mu"], [100.0, 0.0], "failed")], "penalty"), "1 to 10")
-        self.assertEqual(report.safe(records, "nu"), "")
+        # What is never turned alone is told of its pairs.
+        self.assertEqual(report.safe(records, "nu"), "0.49, in pairs")
+        self.assertEqual(report.safe(records, "aspect"), "")
 
     def test_slow_ones_are_told(self):
         records = [{"name": "a/b", "outcome": "right", "seconds": 57.0, "steps": 13000.0}, {"name": "c/d", "outcome": "right", "seconds": 1.0}]
