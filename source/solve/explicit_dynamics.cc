@@ -681,7 +681,8 @@ std::string ExplicitDynamics::watch_steps() {
       note << "The penalty of contact pair '"
            << (i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
                                     : body_contacts_[i - contacts_.size()]->name())
-           << "', " << enough_penalty / *stiffest << " E/h, makes steps " << std::round(free_step_ / element_step_)
+           << "', " << enough_penalty / *stiffest << " E/h, makes steps "
+           << std::round(free_step_ / element_step_)
            << " times shorter than the elements ask for. Try a softer one: 10 to 40 E/h let little in";
       has_told_stiff_ = true;
     }

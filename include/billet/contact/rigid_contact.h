@@ -122,9 +122,9 @@ public:
   bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
   /// How deep this rank's nodes are.
   Penetration penetration() const;
-  /// Whether a node of this rank has gone through the tool, from side to side, in the step: of tools thinner
-  /// than two facets, the only ones that are as thin as that. After update() and before commit(); false in
-  /// the first step after load().
+  /// Whether a node of this rank has gone through the tool, from side to side, in the step, (M38): of tools
+  /// thinner than two facets, the only ones that are as thin as that. After update() and before commit();
+  /// false in the first step after load().
   bool lets_nodes_through() const;
   /// What to say then.
   std::string describe_thin_tool() const;
