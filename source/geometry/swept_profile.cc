@@ -75,7 +75,8 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
   result.normal = closest.normal[0] * outwards + closest.normal[1] * axes_.z;
   result.gap = closest.gap;
   result.is_beyond_border = closest.is_beyond_border || is_beside;
-  if (is_full_ && radius <= tiny && std::abs(closest.normal[1]) > oblique) { // the mean of all directions
+  if (is_full_ && radius <= tiny && closest.gap < 0. && !closest.is_beyond_border &&
+      std::abs(closest.normal[1]) > oblique) { // in a tip: the mean of all directions
     result.normal = std::copysign(1., closest.normal[1]) * axes_.z;
     result.position = x - result.gap * result.normal;
   }
