@@ -97,6 +97,11 @@ int main() {
   const Tensor<1, 3> axis({1. / 3., 2. / 3., 2. / 3.});
   check_gap("behind the apex of a cone", *cone, c - 2. * axis, 2.);
   check_gap("axis of a cone", *cone, c + 3. * axis, -1.5);
+  const auto tip = make_surface("cone", "set Half angle = 30\nset To height = 6");
+  check("on the axis in its tip it pushes along that",
+        (tip->project(Tensor<1, 3>({0., 0., 3.})).normal + Tensor<1, 3>({0., 0., 1.})).norm(), 1e-15);
+  check("beside it, to the side",
+        tip->project(Tensor<1, 3>({-1e-6, 0., 3.})).normal * Tensor<1, 3>({-1., 0., 0.}) > 0.8);
 
   const auto torus = make_surface("torus", at + about + "set Ring radius = 3\nset Tube radius = 1");
   check_surface("torus", *torus, c, 5.);
