@@ -2,8 +2,9 @@
 """Whether runs with a 'Target error' are as accurate as they should be, and what they cost beside runs set by hand."""
 
 import math
+import tempfile
 
-from billet_runs import ROOT, arguments, number, percent, publish, table
+from billet_runs import PROGRAM, ROOT, Measured, arguments, number, percent, publish, table
 from hand_set import beside_hand_set
 from curve_runs import CurveRun, error, run_all, write_csv
 
@@ -94,7 +95,14 @@ def time_again(scene, changes, run):
         run.seconds = min([CurveRun(scene.path, changes, options.ranks).seconds for _ in range(TIMED)])
 
 
-rows, csv_rows, landed, works, times, beliefs = [], [], 0, [], [], []
+def start_seconds():
+    """What a run costs before it has read its scene."""
+    with tempfile.TemporaryDirectory() as folder:
+        return min(Measured([PROGRAM, "--version"], folder).seconds for _ in range(TIMED))
+
+
+START = start_seconds()
+rows, csv_rows, landed, works, times, bare, beliefs = [], [], 0, [], [], [], []
 for name, scene in SCENES.items():
     by_hand = list(scene.by_hand())
     reference, *runs = run_all(scene.path, [scene.reference()] + [changes for _, changes in by_hand]
@@ -118,6 +126,8 @@ for name, scene in SCENES.items():
         landed += off <= target
         works.append(ratio)
         times.append(seconds)
+        if cheapest:
+            bare.append((run.seconds - START) / max(cheapest[3].seconds - START, 0.01))
         csv_rows.append([name, "target error", target, "", run.work, f"{run.seconds:.3g}", f"{off:.4g}",
                          f"{believed:.4g}"])
         rows.append([name, percent(target), percent(off), percent(believed), run.steps, run.work, number(run.seconds),
@@ -136,7 +146,7 @@ publish(
     "estimates, or element updates; "
     "the ratio is that to the cheapest run by hand whose error is no larger than the target: cheapest in work, as it turns out once all have been "
     f"run and compared with the reference. CPU seconds: with set-up, of these the least of {TIMED} runs, one at a time.",
-    f"{landed} of {len(works)} runs are within their target. {beside_hand_set(works, times)} What they believe is {number(min(beliefs))} to "
+    f"{landed} of {len(works)} runs are within their target. {beside_hand_set(works, times)} The program's start takes {number(START, 2)} of these seconds; without it {sum(r <= 1.5 for r in bare)} of {len(bare)} do. What they believe is {number(min(beliefs))} to "
     f"{number(max(beliefs))} times their error, below it in {sum(b < 1 for b in beliefs)} of {len(beliefs)}.",
     table(["scene", "target", "error", "believed", "steps", "work", "CPU seconds", "cheapest by hand", "ratio of work",
            "of CPU seconds"], rows))
