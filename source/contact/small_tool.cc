@@ -5,7 +5,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -16,18 +15,15 @@ using dealii::Tensor;
 void RigidContact::measure_tool() {
   const BoundingBox &box = tool_.surface().bounding_box();
   std::array<double, 3> extents{};
-  for (unsigned int i = 0; i < 3; ++i) {
+  for (unsigned int i = 0; i < 3; ++i)
     extents[i] = box.high[i] - box.low[i];
-    if (std::isnan(extents[i]))
-      extents[i] = std::numeric_limits<double>::infinity();
-  }
   std::sort(extents.begin(), extents.end());
   tool_width_ = extents[1];
   constexpr double far = 2.; // facet sizes that no node travels in a step, nor is pressed in
   const bool is_thin = extents[0] > 0. && std::any_of(nodes_.begin(), nodes_.end(), [&](const Node &node) {
                          return extents[0] < far * node.size;
                        });
-  thickness_of_thin_tool_ = is_thin ? extents[0] : 0.;
+  thickness_of_thin_tool_ = dealii::Utilities::MPI::max(is_thin ? extents[0] : 0., communicator_);
 }
 
 void RigidContact::remember_positions() {
@@ -92,6 +88,13 @@ std::string RigidContact::describe_small_tool() const {
        << pair_.name << "', " << smallest
        << ": between their nodes, which alone touch tools, it goes in unseen. Try a finer mesh there\n";
   return text.str();
+}
+
+std::string RigidContact::describe_small_tools(const std::vector<RigidContact> &contacts) {
+  std::string lines;
+  for (const auto &contact : contacts)
+    lines += contact.describe_small_tool();
+  return lines;
 }
 
 } // namespace billet

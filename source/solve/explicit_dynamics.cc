@@ -736,13 +736,6 @@ std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
   return sizes;
 }
 
-std::string ExplicitDynamics::warnings() const {
-  std::string lines;
-  for (const auto &contact : contacts_)
-    lines += contact.describe_small_tool();
-  return lines;
-}
-
 std::string ExplicitDynamics::method() const {
   return parameters_.number_type == parameters::ExplicitDynamics::NumberType::float_precision
              ? "central differences, elements in float"

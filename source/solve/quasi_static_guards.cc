@@ -101,17 +101,10 @@ bool QuasiStatic::is_lost_in_round_off(const double t, NewtonReport &report) {
   return true;
 }
 
-std::string QuasiStatic::warnings() const {
-  std::string lines;
-  for (const auto &contact : contacts_)
-    lines += contact.describe_small_tool();
-  return lines;
-}
-
 bool QuasiStatic::goes_through_tool(NewtonReport &report) const {
   for (const auto &contact : contacts_)
-    if (dealii::Utilities::MPI::max(contact.lets_nodes_through() ? 1 : 0, discretization_.communicator()) >
-        0) {
+    if (contact.has_thin_tool() && dealii::Utilities::MPI::max(contact.lets_nodes_through() ? 1 : 0,
+                                                               discretization_.communicator()) > 0) {
       report.converged = false;
       report.failure = contact.describe_thin_tool();
       report.is_explained = true;

@@ -128,8 +128,10 @@ public:
   bool lets_nodes_through() const;
   /// What to say then.
   std::string describe_thin_tool() const;
-  /// A line on a tool that fits between the nodes; else empty. Collective.
-  std::string describe_small_tool() const;
+  /// Whether that is looked for, on all ranks alike.
+  bool has_thin_tool() const { return thickness_of_thin_tool_ > 0.; }
+  /// A line on each tool that fits between the nodes. Collective.
+  static std::string describe_small_tools(const std::vector<RigidContact> &contacts);
 
   /// On all ranks, after update().
   ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }
@@ -247,8 +249,9 @@ private:
   double lift_of(const Node &node) const { return node.lift - allowed_part_ * node.initial_depth; }
   /// Slave nodes, with their penalties, and facets.
   void collect_facets(const Discretization &discretization, double young_modulus);
-  /// How wide and, if it is thin, how thick it is.
+  /// How wide and, if it is thin, how thick it is. Collective.
   void measure_tool();
+  std::string describe_small_tool() const;
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
   /// The state of node i at `position`; with friction, the history that goes with it.

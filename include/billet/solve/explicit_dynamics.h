@@ -83,7 +83,7 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override;
-  std::string warnings() const override;
+  std::string warnings() const override { return RigidContact::describe_small_tools(contacts_); }
 
 private:
   void make_blocks();

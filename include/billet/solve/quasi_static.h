@@ -98,7 +98,7 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override { return linear_->name(); }
-  std::string warnings() const override;
+  std::string warnings() const override { return RigidContact::describe_small_tools(contacts_); }
   bool solves_iteratively() const override { return linear_->is_iterative(); }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
