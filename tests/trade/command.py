@@ -180,6 +180,23 @@ class TestCommand(unittest.TestCase):
             if row["difference"]:
                 self.assertAlmostEqual(float(row["difference"]), 0.75 * float(row["difference_force"]) + 0.25 * float(row["difference_shape"]), delta=1e-6)
 
+    def test_forces_judge_whatever_counts(self):
+        """Runs that were kept when forces counted tell of locking when the shape alone does."""
+        knobs = ("--knobs", "element=full", "predictor", "--repeat", "1", "--folder", "locks", "--cost", "work", "--target", "20%")
+        self.assertEqual(self.trade(*knobs).returncode, 0)
+        whole = self.runs()
+        done = self.trade(*knobs, "--outputs", "shape", "--output", "locks/shape")
+        self.assertEqual((done.returncode, self.runs()), (0, whole), done.stderr)
+        for name in ("trade", "shape"):
+            full, = [row for row in self.rows(f"locks/{name}") if row["value"] == "full"]
+            self.assertEqual((full["status"], full["error"], full["on_front"], full["chosen"]), ("locked", "", "0", "0"))
+        self.assertNotIn("| force |", (self.folder / "locks/shape.md").read_text())
+        self.assertIn("the history has no column 'die.force_x'", self.trade(*knobs, "--outputs", "shape", "--force", "die.force_x").stderr)
+        # A tool that nothing touches has no force that could judge.
+        done = self.trade(*knobs, "--outputs", "shape", "--set", "Tools/die/Shape=far", "--folder", "far")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("locked", done.stdout)
+
     def test_combination(self):
         done = self.trade("--knobs", "mesh=0.5", "largest step=2", "--combine", "--target", "30%", "--repeat", "1", "--folder", "combined", "--cost", "work",
                           "--knob", "pace: Time stepping/Largest step=0.2,0.5")

@@ -33,11 +33,19 @@ class Force:
         return result.force / reference - 1
 
 
+class Shape:
+    """Right whatever the forces are."""
+    name, meaning = "shape", "always the same"
+
+    def error(self, result, reference):
+        return 0.02
+
+
 class Reference:
     """`meshes`: {layers: error of that mesh alone}."""
 
-    def __init__(self, uncertainty=0.01, meshes=None):
-        self.values, self.uncertainty = {"force": 1.0}, {"force": uncertainty}
+    def __init__(self, uncertainty=0.01, meshes=None, output="force"):
+        self.values, self.uncertainty = {output: 1.0}, {output: uncertainty}
         self.meshes = meshes or {}
         self.rows, self.remarks = [["force", "mesh", "", [], None, None, uncertainty]], []
 
@@ -58,11 +66,13 @@ def layers(n, **more):
     return {"Bodies/bar/Mesh/Layers": str(n), **more}
 
 
-def sweep(points, reference, target=None):
+def sweep(points, reference, target=None, output=Force(), forces=None):
+    """`forces`: the reference that knows them where they are not the output."""
     for p in points:
         p.work = p.result.elements * 10.0
-        report.judge(p, [Force()], {"force": 1.0}, reference, SCENE, report.Limits())
-    return report.Sweep(points, reference, [Force()], {"force": 1.0}, SCENE, "work", target)
+        judging = (Force(), forces or reference) if forces or output.name == "force" else None
+        report.judge(p, [output], {output.name: 1.0}, reference, SCENE, report.Limits(), judging)
+    return report.Sweep(points, reference, [output], {output.name: 1.0}, SCENE, "work", target)
 
 
 class Judging(unittest.TestCase):
@@ -83,8 +93,31 @@ class Judging(unittest.TestCase):
         reference = Reference()
         reference.values["shape"] = 1.0
         reference.uncertainty["shape"] = 0.01
-        report.judge(other, [shape], {"shape": 1.0}, reference, SCENE, report.Limits())
+        report.judge(other, [shape], {"shape": 1.0}, reference, SCENE, report.Limits(), None)
         self.assertEqual(other.status, "useless")
+
+    def by_shape(self, forces, *ratios, known=0.01):
+        points = [point("", "as written", elements=8)] + [point("element", str(r), force=r, elements=4) for r in ratios]
+        s = sweep(points, Reference(known, output="shape"), 0.05, Shape(), forces)
+        return s, [p.status for p in points[1:]]
+
+    def test_forces_judge_where_they_are_no_output(self):
+        s, found = self.by_shape(Reference(0.01), 2.39, 0.7, 1.1)
+        self.assertEqual(found, ["locked", "soft", "ok"])
+        self.assertTrue(math.isnan(s.points[1].error))
+        self.assertEqual(([p.value for p in s.front], s.chosen.value), (["1.1"], "1.1"))
+        self.assertIn("`element = 2.39` locked (forces are 139 % too large in the mean)", " ".join(s.words()))
+        # Nor do they choose: without them the error of the shape is all there is.
+        self.assertEqual(self.by_shape(None, 2.39, 0.7)[1], ["ok", "ok"])
+
+    def test_forces_that_are_not_known_well(self):
+        for uncertainty, expected in ((0.33, ["locked", "ok", "ok", "soft"]), (0.6, ["locked", "ok", "ok", "ok"]), (1.2, ["ok"] * 4), (math.nan, ["ok"] * 4)):
+            with self.subTest(uncertainty):
+                self.assertEqual(self.by_shape(Reference(uncertainty), 2.39, 1.3, 0.7, 0.5)[1], expected)
+        # They are marked, too, where of the outputs nothing is known.
+        s, found = self.by_shape(Reference(0.1), 2.39, known=0.8)
+        self.assertEqual((found, s.is_blind), (["locked"], True))
+        self.assertEqual(self.by_shape(Reference(0.6), 2.39, known=0.8)[1], ["ok"])
 
     def test_reference_that_is_not_known(self):
         points = [point("", "as written", force=2.0), point("penalty", "10", force=0.3)]

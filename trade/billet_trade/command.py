@@ -364,19 +364,25 @@ def refuse_outputs(weights, scene):
         raise TradeError("--outputs: the scene has no tool and no pair of bodies, hence no force")
 
 
-def make_outputs(options, scene, centre):
+def make_force(options, scene, centre):
+    """The force, whether it counts or only judges; None where there is none."""
+    if not any(".force_" in column for column in centre.history):
+        return None
+    columns = [c.strip() for c in options.force.split(",")] if options.force else None
+    return results.Force(centre, scene, columns, options.window)
+
+
+def make_outputs(options, scene, centre, force):
     """The outputs that count, and their weights."""
     weights = read_outputs(options.outputs)
-    has_force = any(".force_" in column for column in centre.history)
     if not weights:
-        weights = {**({"force": 1.0} if has_force else {}), "shape": 1.0, **({"strain": 1.0} if options.line else {})}
+        weights = {**({"force": 1.0} if force else {}), "shape": 1.0, **({"strain": 1.0} if options.line else {})}
     found = []
     for name in weights:
         if name == "force":
-            if not has_force:
+            if not force:
                 raise TradeError("--outputs: the scene has no tool and no pair of bodies, hence no force")
-            columns = [c.strip() for c in options.force.split(",")] if options.force else None
-            found.append(results.Force(centre, scene, columns, options.window))
+            found.append(force)
         elif name == "strain":
             found.append(results.Profile(options.line, options.profile))
         elif name == "shape":
@@ -384,6 +390,17 @@ def make_outputs(options, scene, centre):
         else:
             found.append(results.Rebound(centre, scene))
     return found, weights
+
+
+def judging_forces(plan, reference_results, force, reference):
+    """What tells locked and soft: (the force, the reference that knows it), whether it is among the outputs or not; None where there
+    is none to speak of."""
+    if not force or "force" in reference.values:
+        return (force, reference) if force else None
+    try:
+        return force, Reference(plan, reference_results, [force])
+    except TradeError:  # it is zero, which only matters to who asks for it
+        return None
 
 
 def combine(sweep, candidates, run):
@@ -470,7 +487,8 @@ def sweep_over(options, runner, scene, elements, file, arguments):
     started = time.monotonic()
     base.result = runner.run(scene)
     if base.result.status == "ok":
-        make_outputs(options, scene, base.result)  # before all else runs: it may have no such column, or nothing that yields
+        # before all else runs: it may have no such column, or nothing that yields
+        make_outputs(options, scene, base.result, make_force(options, scene, base.result))
     scene.first_step = base.result.first_step
     candidates = Candidates(scene, runner, options)
     points = [base] + candidates.points()
@@ -487,15 +505,17 @@ def sweep_over(options, runner, scene, elements, file, arguments):
     reference_results = [work.result(found, level) for _, level in plan.runs()]
     centre = reference_results[0]
     if centre.status == "ok":
-        outputs, weights = make_outputs(options, scene, centre)
+        force = make_force(options, scene, centre)
+        outputs, weights = make_outputs(options, scene, centre, force)
     else:
-        outputs, weights = [], {}
+        force, outputs, weights = None, [], {}
     reference = Reference(plan, reference_results, outputs)
+    forces = judging_forces(plan, reference_results, force, reference)
     limits = report.Limits(options.largest_drift, options.largest_penetration, options.locked, options.soft, options.largest_error)
 
     def judge(point):
         point.work = report.work_of(point.result, runner.elements(point.scene), scene.is_explicit)
-        report.judge(point, outputs, weights, reference, scene, limits)
+        report.judge(point, outputs, weights, reference, scene, limits, forces)
 
     for point in points:
         point.result = work.result(found, point.scene)

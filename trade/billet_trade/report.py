@@ -17,7 +17,7 @@ class Limits:
     penetration: float = 0.5    # of a facet
     locked: float = 0.2         # how much larger the mean force is than the reference's
     soft: float = 0.2           # how much smaller
-    error: float = 0.5          # beyond which a run is of no use; a reference that is known no better judges nothing
+    error: float = 0.5          # beyond which a run is of no use; a reference that is known no better ranks nothing
 
 
 @dataclass
@@ -69,9 +69,25 @@ def uncertainty_of(reference, outputs, weights):
     return measure.weighted_mean([reference.uncertainty[o.name] for o in outputs], [weights[o.name] for o in outputs])
 
 
-def judge(point, outputs, weights, reference, scene, limits):
+def judge_forces(result, forces, limits):
+    """[(status, reason)] by the mean of the forces, where it is off by more than the reference's is uncertain. One that is not even
+    known to its own size may be round-off, and judges nothing."""
+    force, reference = forces
+    excess = force.excess(result, reference.values["force"])
+    if not reference.uncertainty["force"] < min(1.0, abs(excess)):
+        return []
+    if excess > limits.locked:
+        return [("locked", f"forces are {percent(excess)} too large in the mean")]
+    if excess < -limits.soft:
+        return [("soft", f"forces are {percent(-excess)} too small in the mean" + (
+            f", nodes {number(result.penetration, 2)} facets deep" if result.penetration > 0 else ""))]
+    return []
+
+
+def judge(point, outputs, weights, reference, scene, limits, forces):
     """Fills in errors and status. What failed has no error: nothing that failed looks good. By a reference that is itself
-    known no better than a useless run nobody is judged."""
+    known no better than a useless run nobody is judged. `forces`: (Force, Reference that knows it), which tell whether a run
+    is locked or soft whatever the outputs; None where there are none."""
     result = point.result
     point.status, point.reason = result.status, result.reason
     if result.status != "ok":
@@ -83,18 +99,11 @@ def judge(point, outputs, weights, reference, scene, limits):
         failures.append(("drifted", f"the energies fail to balance by {percent(result.drift)}"))
     if result.penetration > limits.penetration:
         failures.append(("pierced", f"nodes are {number(result.penetration)} facets deep"))
-    if uncertainty_of(reference, outputs, weights) <= limits.error:
-        for output in outputs:
-            if output.name != "force":
-                continue
-            excess = output.excess(result, reference.values["force"])
-            if excess > limits.locked:
-                failures.append(("locked", f"forces are {percent(excess)} too large in the mean"))
-            elif excess < -limits.soft:
-                failures.append(("soft", f"forces are {percent(-excess)} too small in the mean" + (
-                    f", nodes {number(result.penetration, 2)} facets deep" if result.penetration > 0 else "")))
-        if not error <= limits.error:
-            failures.append(("useless", f"the error is {percent(error)}"))
+    is_known = uncertainty_of(reference, outputs, weights) <= limits.error
+    if forces and (is_known or forces[1].uncertainty["force"] <= limits.error):
+        failures += judge_forces(result, forces, limits)
+    if is_known and not error <= limits.error:
+        failures.append(("useless", f"the error is {percent(error)}"))
     if failures:
         point.status, point.reason = failures[0][0], "; ".join(reason for _, reason in failures)
     else:
