@@ -16,10 +16,10 @@ SCENE = Scene("subsection Bodies\nsubsection bar\nsubsection Mesh\nset Layers = 
 class Result:
     """`force`: as part of the reference's."""
 
-    def __init__(self, force=1.0, elements=4, seconds=1.0, status="ok", penetration=0.01, drift=0.0, reason=""):
+    def __init__(self, force=1.0, elements=4, seconds=1.0, status="ok", penetration=0.01, drift=0.0, reason="", steps=10):
         self.force, self.elements, self.core_seconds, self.seconds = force, elements, seconds, [seconds, seconds]
         self.status, self.reason, self.penetration, self.drift = status, reason, penetration, drift
-        self.steps = self.newton = 10
+        self.steps, self.newton = steps, 10
         self.linear = self.cuts = 0
 
 
@@ -177,6 +177,36 @@ class Cancellation(unittest.TestCase):
         s = sweep(points, Reference(0.01, {"2": 0.035}), 0.02)
         self.assertAlmostEqual(s.ranked(points[1]), 0.035)
         self.assertIn("3.5 % would be expected, which its mesh alone makes", " ".join(s.words()))
+
+    def test_shorter_steps_on_the_same_mesh(self):
+        def steps(n, **changes):
+            return {"Time stepping/Largest step": str(1 / n), **changes}
+        # As of the billet: 60 bricks get worse with each refinement of the steps, by less than the reference is uncertain.
+        points = [point("", "as written", force=1.014, elements=480, steps=15), point("steps", "40", steps(40), force=1.0099, elements=480, steps=40),
+                  point("steps", "80", steps(80), force=1.01025, elements=480, steps=80), point("mesh", "0.5", layers(2), force=0.9899, elements=60, steps=14),
+                  *(point("mesh 0.5 × steps", str(n), steps(n, **layers(2)), force=f, elements=60, steps=n) for n, f in ((10, 0.9907), (20, 0.9882), (40, 0.9874)))]
+        s = sweep(points, Reference(0.0101), 0.0215)
+        self.assertEqual(list(s.cancelled), [id(points[3]), id(points[4])])
+        self.assertAlmostEqual(s.ranked(points[4]), 0.0126)
+        self.assertIs(s.chosen, points[1])
+        said = " ".join(s.words())
+        self.assertIn("Most accuracy is bought by `steps = 40`", said)
+        self.assertIn("`mesh 0.5 × steps = 10`, off by < 1 % where 1.3 % would be expected, that of `mesh 0.5 × steps = 40`, in shorter steps", said)
+        self.assertIn("| (< 1 %) |", s.page("", "", [], ""))
+        # Within a target that leaves room for the larger error, too, what does not cancel is preferred at the same cost.
+        s = sweep(points, Reference(0.0101), 0.03)
+        self.assertIs(s.chosen, points[5])
+        s = sweep(points[:5] + points[6:], Reference(0.0101), 0.03)
+        self.assertIs(s.chosen, points[6])
+        # A cheaper one counts with the larger error.
+        points[4].result.elements = 59
+        s = sweep(points, Reference(0.0101), 0.03)
+        self.assertIn("the cheapest is `mesh 0.5 × steps = 10`: error 1.3 %", s.choice())
+        self.assertNotIn("coarser", s.choice())
+        # Other scenes, steps that are hardly shorter, and errors that come and go tell nothing.
+        for others in ([point("penalty", "0.1", steps(80, Penalty="0.1"), force=1.03, steps=80)], [point("steps", "50", steps(50), force=1.0125, steps=50)],
+                       [point("steps", "60", steps(60), force=1.02, steps=60), point("steps", "90", steps(90), force=1.0101, steps=90)]):
+            self.assertEqual(sweep(points[:2] + others, Reference(0.0101)).cancelled, {})
 
     def test_within_the_uncertainty_nothing_is_told(self):
         self.assertEqual(sweep(self.points(), Reference(0.03, {"2": 0.035})).cancelled, {})

@@ -136,14 +136,15 @@ def pareto_front(costs, errors, floor=0.0):
     return front
 
 
-def cheapest_within(costs, errors, uncertainty, target, noise=0.0, works=None):
+def cheapest_within(costs, errors, uncertainty, target, noise=0.0, preferences=None):
     """Index of the cheapest point whose error, the reference's uncertainty added, is within the target; None if there is
-    none. Of those whose costs the noise, a part of them, does not tell apart, the one with the least work, and then the first."""
+    none. Of those whose costs the noise, a part of them, does not tell apart, the one with the least of `preferences`, such as
+    works, and then the first."""
     good = [i for i in range(len(costs)) if max(errors[i], uncertainty) + uncertainty <= target]
     if not good:
         return None
     least = min(costs[i] for i in good)
-    return min((i for i in good if costs[i] <= least * (1.0 + noise)), key=lambda i: works[i] if works else costs[i])
+    return min((i for i in good if costs[i] <= least * (1.0 + noise)), key=lambda i: preferences[i] if preferences else costs[i])
 
 
 def weighted_mean(values, weights):

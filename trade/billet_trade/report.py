@@ -156,7 +156,7 @@ class Sweep:
         self.front = [] if self.is_blind else [good[i] for i in measure.pareto_front(costs, errors, self.uncertainty)]
         self.chosen = None
         if target is not None and not self.is_blind:
-            i = measure.cheapest_within(costs, errors, self.uncertainty, target, self.noise, [p.work for p in good])
+            i = measure.cheapest_within(costs, errors, self.uncertainty, target, self.noise, list(map(self._preference, good)))
             self.chosen = None if i is None else good[i]
 
     def cost_of(self, point):
@@ -165,7 +165,8 @@ class Sweep:
     def _find_cancellations(self, good):
         """{point: (error, by what)} of points that seem better than their meshes let them be, by more than the uncertainty:
         than the error of the mesh alone, which the reference knows of its own meshes, or than a point with a finer mesh and all
-        else the same. Errors of opposite sign take each other away there, which another scene need not do."""
+        else the same; and of points that seem clearly better than their own meshes in the shortest steps. Errors of opposite sign
+        take each other away there, which another scene need not do."""
         self.cancelled = {}
         for p in good:
             known = []
@@ -177,6 +178,10 @@ class Sweep:
                       if q.result.elements > p.result.elements and but_the_mesh(q) == but_the_mesh(p)]
             # errors within the uncertainty are told apart by nothing
             known = [(error, by) for error, by in known if error > self.uncertainty and error - p.error > self.uncertainty]
+            # but what the reference does not know of the mesh is the same of runs that differ in their steps alone
+            finest = max((q for q in good if has_shorter_steps(q, p)), key=lambda q: q.result.steps, default=p)
+            if finest.error > CLEARLY * max(p.error, self.uncertainty):
+                known.append((finest.error, f"that of `{finest.label}`, in shorter steps"))
             if known:
                 self.cancelled[id(p)] = max(known)
 
@@ -199,10 +204,14 @@ class Sweep:
         """Than the scene as written, beyond what timings scatter."""
         return self.cost_of(point) * (1.0 + max(0.05, self.noise)) < self.cost_of(self.base)
 
+    def _preference(self, point):
+        """What decides where the timings do not: no errors that cancel, then the least work."""
+        return id(point) in self.cancelled, point.work
+
     def _cheapest(self, points):
-        """Of those whose costs the timings do not tell apart, the one with the least work."""
+        """Of those whose costs the timings do not tell apart, the one to be preferred."""
         least = min(map(self.cost_of, points))
-        return min((p for p in points if self.cost_of(p) <= least * (1.0 + self.noise)), key=lambda p: p.work)
+        return min((p for p in points if self.cost_of(p) <= least * (1.0 + self.noise)), key=self._preference)
 
     def _allowed(self):
         """What the target leaves for the error."""
@@ -245,7 +254,7 @@ class Sweep:
 
     def may_cancel(self, point):
         """A sentence where fewer elements have less error, which mesh and steps together may feign; else nothing."""
-        if not self.seems_better(point) or not 0 < point.result.elements < self.base.result.elements:
+        if id(point) in self.cancelled or not self.seems_better(point) or not 0 < point.result.elements < self.base.result.elements:
             return ""
         return f" That mesh is coarser than the scene's: whether errors of mesh and steps take each other away there a reference known to {percent(self.uncertainty)} cannot tell."
 
@@ -279,7 +288,7 @@ class Sweep:
                     said.append(f"Most accuracy for its price by {self.say(value)}{self.hint(value)}.")
             else:
                 said.append("No knob alone makes the error measurably smaller" + (
-                    ": it is below the reference's uncertainty already." if base.error < u else "."))
+                    ": it is below the reference's uncertainty already." if self.ranked(base) < u else "."))
             if cheaper:
                 said.append(f"Most speed is bought, {self._keeping()}, by {self.say(self._cheapest(cheaper))}.")
             else:
@@ -414,6 +423,20 @@ class Sweep:
 def but_the_mesh(point):
     """A point's scene without its meshes."""
     return {path: value for path, value in point.scene.entries.items() if "/Mesh/" not in path}
+
+
+CLEARLY = 1.2  # times an error or the uncertainty: more than other steps scatter
+STEPS = ("Time stepping/", "Implicit dynamics/Error tolerance", "Explicit dynamics/Safety factor")
+
+
+def but_the_steps(point):
+    """A point's scene without what makes its steps."""
+    return {path: value for path, value in point.scene.entries.items() if not path.startswith(STEPS)}
+
+
+def has_shorter_steps(point, other):
+    """Clearly so: half as many again, in a scene that is the same otherwise."""
+    return point.result.steps >= 1.5 * other.result.steps and but_the_steps(point) == but_the_steps(other)
 
 
 def timing_noise(timings):
