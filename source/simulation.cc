@@ -14,6 +14,7 @@
 #include "billet/solve/error_watch.h"
 #include "billet/solve/explicit_dynamics.h"
 #include "billet/solve/quasi_static.h"
+#include "billet/solve/stability_watch.h"
 #include "billet/solve/step_control.h"
 
 #include <unistd.h>
@@ -158,7 +159,7 @@ std::string describe_incompressibility(const parameters::Scene &parameters) {
 }
 
 std::string explain_failure(const parameters::Scene &parameters, const StepReport &report, const double from,
-                            const double to) {
+                            const double to, const bool is_unstable) {
   std::ostringstream message;
   message << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
           << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure;
@@ -177,7 +178,9 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
                                         : ":")
             << (parameters.pairs.empty() ? " try" : " try a softer penalty,")
             << " more 'Most iterations', or look at the last picture for an unstable or torn mesh";
-  return message.str() + describe_incompressibility(parameters) + computed.str();
+  return message.str() + describe_incompressibility(parameters) +
+         (is_unstable ? ". Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +
+         computed.str();
 }
 
 } // namespace
@@ -415,6 +418,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     errors = std::make_unique<EnergyErrors>(parameters.target_error);
   else if (ErrorWatch::is_wanted(parameters))
     watch = std::make_unique<ErrorWatch>(scene, discretization, problem);
+  StabilityWatch stability(scene, discretization);
   const double largest_drift = parameters.is_dynamic() ? parameters.implicit_dynamics.largest_drift : 0.;
   EnergyWatch energies = largest_drift > 0.        ? EnergyWatch(EnergyWatch::Balance::is_kept, largest_drift)
                          : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_told)
@@ -490,10 +494,13 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
-      outputs.progress.warn(energies.look(control.time(), problem.state().energies,
-                                          problem.has_soft_penalties() ? EnergyWatch::Cause::soft_penalties
-                                          : has_sticking_overlaps      ? EnergyWatch::Cause::sticking_overlaps
-                                                                       : EnergyWatch::Cause::steps));
+      outputs.progress.warn(stability.look(problem.state().displacements));
+      outputs.progress.warn(energies.look(control.time(), problem.state().energies, [&] {
+        return stability.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
+               : problem.has_soft_penalties()  ? EnergyWatch::Cause::soft_penalties
+               : has_sticking_overlaps         ? EnergyWatch::Cause::sticking_overlaps
+                                               : EnergyWatch::Cause::steps;
+      }));
       if (!energies.imbalance().empty()) {
         outputs.snapshots.write(problem);
         std::ostringstream message;
@@ -525,7 +532,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     }
     if (!may_go_on) {
       outputs.snapshots.write(problem);
-      throw SolutionFailure(explain_failure(parameters, report, from, to));
+      throw SolutionFailure(explain_failure(parameters, report, from, to, stability.has_unstable_bodies()));
     }
   }
   if (watch)
@@ -633,6 +640,9 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
 
   EnergyWatch energies(EnergyWatch::Balance::is_left); // where they fail to balance the run ends
+  StabilityWatch stability(scene, discretization);
+  constexpr double n_looks = 100.; // in a run: each takes as long as a step or a few
+  double next_look = 0.;
   const auto put_out = [&] {
     problem.update_ledger();
     fail_together(discretization.communicator(), [&] {
@@ -642,6 +652,11 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
     outputs.progress.warn(problem.watch_penalties());
     outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
+    if (problem.time() >= next_look && std::isfinite(problem.relative_drift())) {
+      problem.update_state();
+      outputs.progress.warn(stability.look(problem.state().displacements));
+      next_look = problem.time() + events.end() / n_looks;
+    }
   };
   constexpr unsigned int steps_between_looks = ExplicitDynamics::steps_between_looks;
   // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
@@ -654,6 +669,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       return;
     problem.update_state();
     outputs.snapshots.write(problem);
+    if (is_finite)
+      outputs.progress.warn(stability.look(problem.state().displacements));
     std::ostringstream message;
     message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
             << " steps the energies ";
@@ -661,7 +678,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       message << "fail to balance by " << 100. * problem.relative_drift()
               << " % of the largest energy so far, allowed are "
               << 100. * parameters.explicit_dynamics.largest_drift << " % ('Largest drift'): "
-              << (problem.has_soft_penalties()
+              << (stability.has_unstable_bodies() ? EnergyWatch::advise(EnergyWatch::Cause::unstable_law)
+                  : problem.has_soft_penalties()
                       ? "contact pairs are soft, and nodes that are deep make energy: try a larger 'Normal "
                         "penalty'"
                   : scene.capabilities().friction && !scene.body_pairs().empty()

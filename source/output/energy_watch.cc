@@ -7,26 +7,26 @@
 
 namespace billet {
 
-namespace {
-
-std::string advise(const EnergyWatch::Cause cause) {
+std::string EnergyWatch::advise(const Cause cause) {
   switch (cause) {
-  case EnergyWatch::Cause::soft_penalties:
+  case Cause::soft_penalties:
     return "contact pairs are soft, and penalties on areas that grow while nodes are deep make energy. Try a "
            "larger 'Normal penalty'";
-  case EnergyWatch::Cause::sticking_overlaps:
+  case Cause::sticking_overlaps:
     return "what bodies with friction overlap by changes while they stick. Try 'Facets = bilinear' for their "
            "contact pairs";
-  case EnergyWatch::Cause::steps:
+  case Cause::unstable_law:
+    return "an elastic body is strained farther than its law is stable, and waves grow in it. Try smaller "
+           "strains, or 'Kinematics = neo-Hookean' for one that is Hencky";
+  case Cause::steps:
     break;
   }
   return "steps do not resolve how contacts open and close. Try a smaller 'Error tolerance' or 'Largest "
          "step', a softer penalty, or a smaller 'Spectral radius'";
 }
 
-} // namespace
-
-std::string EnergyWatch::look(const double time, const EnergyLedger &energies, const Cause cause) {
+std::string EnergyWatch::look(const double time, const EnergyLedger &energies,
+                              const std::function<Cause()> &find_cause) {
   constexpr double doubtful_hourglass = 0.1;
   constexpr double counts = 0.01; // less than that of the largest energy is no matter
   // What is there counts half only, as in explicit dynamics: energy from nowhere must not hide itself.
@@ -41,10 +41,10 @@ std::string EnergyWatch::look(const double time, const EnergyLedger &energies, c
     what.precision(3);
     what << "the energies fail to balance by " << 100. * drift / largest_ << " % of the largest so far";
     if (balance_ == Balance::is_kept) {
-      what << ", allowed are " << 100. * allowed_drift_ << " % ('Largest drift'): " << advise(cause);
+      what << ", allowed are " << 100. * allowed_drift_ << " % ('Largest drift'): " << advise(find_cause());
       imbalance_ = what.str();
     } else
-      text << "At time " << time << " " << what.str() << ": " << advise(cause);
+      text << "At time " << time << " " << what.str() << ": " << advise(find_cause());
   }
   const double taken_up = energies.elastic + energies.plastic + energies.hourglass;
   if (!told_hourglass_ && energies.hourglass > doubtful_hourglass * taken_up &&

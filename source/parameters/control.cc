@@ -244,11 +244,12 @@ void Solver::declare(ParameterHandler &prm) {
       "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower "
       "triangle or the mean of "
       "the consistent one in the contact frame, meant for mu <= 0.1.");
-  prm.declare_entry(
-      "Material tangent", "automatic", Patterns::Selection(selection(material_tangent_names)),
-      "Of bodies whose exact tangent is unsymmetric: hypoelastic ones, plastic ones that are neo-Hookean or "
-      "of one-point elements. automatic: its symmetric part where the matrix is symmetric otherwise, else "
-      "exact.");
+  prm.declare_entry("Material tangent", "automatic", Patterns::Selection(selection(material_tangent_names)),
+                    "Of bodies whose exact tangent is unsymmetric: hypoelastic ones, and plastic ones that "
+                    "are neo-Hookean; "
+                    "without any of them nothing but automatic is allowed. automatic: its symmetric part "
+                    "where the matrix is symmetric otherwise, else "
+                    "exact.");
   prm.declare_entry("Force tolerance", "1e-6", Patterns::Double(),
                     "Newton ends when the residual is below this part of the forces in the scene.");
   prm.declare_entry("Energy tolerance", "1e-10", Patterns::Double(),
@@ -288,7 +289,8 @@ void Solver::declare(ParameterHandler &prm) {
 
 void Solver::parse(Reader &reader) {
   contact_tangent = chosen(tangent_names, reader.text("Contact tangent"));
-  material_tangent = chosen(material_tangent_names, reader.text("Material tangent"));
+  material_tangent =
+      reader.located("Material tangent", chosen(material_tangent_names, reader.text("Material tangent")));
   force_tolerance = reader.positive("Force tolerance");
   if (force_tolerance >= 1.)
     reader.reject("Force tolerance", "a number > 0 and < 1");

@@ -72,7 +72,7 @@ constexpr std::array<Row, 33> rows = {{
     {statics, "Contact pairs", "Penetration tolerance", "", "1e-3", "1e-5"},
     // Of bodies that fold onto themselves, in few places and late.
     {statics, "Contact pairs", "Facets", "planed", "", ""},
-    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "40", "0.045 / E"},
+    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "40", "0.09 / E"},
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
     {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.95", "0.4", "0.9"},
     {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", ""},

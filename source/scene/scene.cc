@@ -265,11 +265,17 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
 void Scene::choose_material_tangents() {
   using Tangent = parameters::MaterialTangent;
   using Kind = parameters::Solver::LinearSolver;
-  const Tangent wanted = parameters_.solver.material_tangent;
+  const auto &[wanted, origin] = parameters_.solver.material_tangent;
+  const auto is_symmetric = [](const Body &body) {
+    return has_symmetric_tangent(body.formulation,
+                                 !std::holds_alternative<std::monostate>(body.material.hardening));
+  };
+  if (wanted != Tangent::automatic && std::all_of(bodies_.begin(), bodies_.end(), is_symmetric))
+    throw InputError(origin + ": found '" + (wanted == Tangent::exact ? "exact" : "symmetrised") +
+                     "', but the exact material tangent of every body is symmetric; allowed is automatic");
   const auto &solver = parameters_.solver.linear_solver;
   for (auto &body : bodies_) {
-    const bool is_plastic = !std::holds_alternative<std::monostate>(body.material.hardening);
-    if (has_symmetric_tangent(body.formulation, is_plastic))
+    if (is_symmetric(body))
       continue;
     body.formulation.is_symmetrised =
         wanted == Tangent::symmetrised || (wanted == Tangent::automatic && !capabilities_.unsymmetric_matrix);
@@ -459,7 +465,7 @@ void Scene::describe(std::ostream &stream) const {
     stream << "Title          " << parameters_.title << "\n";
   if (parameters_.target_error > 0.)
     stream << "Target error   " << 100. * parameters_.target_error << " % of the "
-           << (parameters_.is_explicit() ? "energies" : "forces")
+           << (parameters_.is_dynamic() ? "energies" : "forces")
            << ", the mesh left out; controlled during the run, from\n";
   else
     stream << "Profile        " << parameters_.profile

@@ -7,8 +7,8 @@
 
 namespace billet {
 
-std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepest,
-                               const double displacement) {
+std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepest, const double displacement,
+                               const double part_of_work) {
   constexpr double deep = 0.1;       // of a facet: what is deeper is seen in pictures and counts in areas
   constexpr double much_taken = 0.2; // of the motion: a fifth of what bodies would bear
   constexpr double much_deeper = 10.;
@@ -19,8 +19,9 @@ std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepe
   record.displacement = std::max(record.displacement, displacement);
   const bool is_deep = deepest.of_facet > deep;
   const bool takes_motion = deepest.of_facet > least && deepest.length > much_taken * record.displacement;
-  has_soft_pairs_ = has_soft_pairs_ || is_deep || takes_motion;
-  if (!(is_deep || (is_slow && takes_motion)) ||
+  const bool takes_work = is_slow && deepest.of_facet > least && part_of_work > much_taken;
+  has_soft_pairs_ = has_soft_pairs_ || is_deep || takes_motion || takes_work;
+  if (!(is_deep || takes_work || (is_slow && takes_motion)) ||
       (record.told > 0. && deepest.of_facet < much_deeper * record.told))
     return "";
   record.told = deepest.of_facet;
@@ -30,6 +31,8 @@ std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepe
   if (takes_motion)
     text << ", " << std::round(100. * std::min(1., deepest.length / record.displacement))
          << " % of the largest displacement so far";
+  else if (takes_work)
+    text << ", and takes " << std::round(100. * part_of_work) << " % of the work done so far";
   text << ": its penalty is soft for what presses here. Try a larger 'Normal penalty'"
        << (is_slow ? " or a 'Penetration tolerance'" : "");
   return text.str();

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What knobs that have no table of their own cost and change: line search, predictor, forcing, symmetry of the model, smoothing of facets and the margin of their search."""
+"""What knobs that have no table of their own cost and change: line search, predictor, forcing, symmetry of the model, smoothing of facets and the margin of their search, and
+which facets."""
 
 from billet_runs import ROOT, arguments, number, percent, publish, table
 from curve_runs import error, run_all
@@ -16,6 +17,8 @@ LENGTH = {MESH + "Height": 30, MESH + "Layers": 10, "Bodies/billet/Symmetry plan
 ITERATIVE = {"Solver/Linear solver": "GMRES", MESH + "Refinements": 2, MESH + "Layers": 10}
 IRONING = {"Time stepping/End time": 1.6, "Time stepping/Stops": 1}
 FACE = "Contact pairs/face/"
+FACES = "Contact pairs/faces/"
+KINDS = [("overlap", "one"), ("planed", "one"), ("planed", "two"), ("mean gap", "two"), ("bilinear", "one"), ("bilinear", "two")]
 
 GROUPS = [  # scene, what all of its runs have, [(knob, value, changes)], the first is what errors are measured against
     ("billet_upsetting", {}, [
@@ -44,6 +47,12 @@ GROUPS = [  # scene, what all of its runs have, [(knob, value, changes)], the fi
         ("`Smoothing`, bilinear facets", "0.02", {FACE + "Smoothing": 0.02}),
         ("`Smoothing`, bilinear facets", "0.5", {FACE + "Smoothing": 0.5}),
     ]),
+    ("passing_spheres", {}, [
+        ("`Facets`, `Passes`", "overlap, one, augmented to 1e-3", {FACES + "Penetration tolerance": 1e-3}),
+        *(("`Facets`, `Passes`" + (f", {penalty} E/h" if penalty != 10 else ""), f"{facets}, {passes}",
+           {FACES + "Facets": facets, FACES + "Passes": passes, FACES + "Normal penalty": penalty})
+          for penalty in (10, 100) for facets, passes in KINDS),
+    ]),
 ]
 
 rows = []
@@ -57,5 +66,5 @@ publish(
     "knobs", "What the other knobs cost, and change", options,
     "Knobs without a page of their own. The billet of `prm/billet_upsetting.prm`, for `Forcing` with 480 bricks and GMRES; "
     "`prm/ironing.prm` until the die has been drawn 3 mm (time 1.6). Difference: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of the "
-    "first of each group. Symmetry: between two dies, without the plane z = 0. Each run once.",
+    "first of each group. The spheres of `prm/passing_spheres.prm` begin and end apart: with soft penalties what differs is mostly how far they give way, with stiff ones what the facets make. Symmetry: between two dies, without the plane z = 0. Each run once.",
     table(["scene", "knob", "value", "steps", "Newton iterations", "CPU seconds", "difference"], rows))

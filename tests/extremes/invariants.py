@@ -151,6 +151,7 @@ class Invariants(unittest.TestCase):
         # J = 1; 1 % of E and 10 % hardening: 10 + 100 * 0.1
         make = lambda: made_up("upset", {"law": "elastoplastic"}, von_mises_stress=20.0, equivalent_plastic_strain=0.1)  # noqa: E731
         self.about(must.yields, make, lambda r: r.fields.update(von_mises_stress=r.fields["von_mises_stress"] * 1.01),
+                   lambda r: r.fields.update(equivalent_plastic_strain=0 * r.fields["equivalent_plastic_strain"], von_mises_stress=9.0 + 0 * r.fields["von_mises_stress"]),
                    lambda r: r.fields.update(equivalent_plastic_strain=r.fields["equivalent_plastic_strain"] - 0.2))
         # the stress that counts is Kirchhoff's
         small = made_up("upset", {"law": "elastoplastic"}, move=lambda x: -0.01 * x, von_mises_stress=20.3, equivalent_plastic_strain=0.1)
@@ -174,6 +175,19 @@ class Invariants(unittest.TestCase):
         across = closed_forms.lateral_hencky(1000, 0.3, -0.1, stress)
         make = lambda: made_up("upset", {"law": "elastoplastic"}, move=stretched(-0.1, across), history=force("ram", z=stress / math.exp(-0.1)))  # noqa: E731
         self.about(must.bar, make, lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]}))
+
+    def test_strained(self):
+        make = lambda: made_up("upset", {"strained": True}, move=stretched(-0.1, 0.03))  # noqa: E731
+        self.about(must.strained, make, lambda r: r.fields.update(displacement=0.85 * r.fields["displacement"]))
+        # 0.1 E under penalties of 10 E/h would take as much as the block is high
+        flat = scenes.make("upset", {"strained": True, "aspect": 1e-3})
+        self.assertGreater(flat.knobs.penalty, 1e4)
+        self.assertEqual(scenes.make("upset", {"aspect": 1e-3}).knobs.penalty, 10.0)
+
+    def test_bar_in_motion(self):
+        strain, across = -0.1, 0.03
+        make = lambda: made_up("stretch.explicit", move=stretched(strain, across), stress_zz=1000 * strain / math.exp(strain + 2 * across))  # noqa: E731
+        self.about(must.bar_in_motion, make, lambda r: r.fields.update(stress_zz=0.85 * r.fields["stress_zz"]))
 
     def test_stack(self):
         strain = -0.01
@@ -422,6 +436,17 @@ class Running(unittest.TestCase):
         said = report.programs([ours, record, record], other.program_hash)
         self.assertIn("1 scene ran with the program as it is, 2 with one other state", said)
         self.assertIn("2 crashed", said)
+
+    def test_doubt(self):
+        runner, work = self.runner(), self.folder / "work"
+        work.mkdir(exist_ok=True)
+        setup = scenes.make("stretch.explicit", {})
+        setup.checks = [lambda r: [must.Finding("stress of the bar", 0.5, 0.1)]]
+        for log, outcome in (("", "wrong"), ("Body 'block' is strained to principal stretches of 0.1, 2 and 2, where its law is no longer stable: waves grow\n", "doubtful"),
+                             ("At time 1 hourglass control has 30 % of the energy that deforms the bodies\n", "doubtful")):
+            (work / "stdout").write_text(log)
+            with unittest.mock.patch.object(Result, "read", return_value=made_up("stretch.explicit")):
+                self.assertEqual(runner._verdict(plan.Case("stretch.explicit", {}, (), ()), setup, work, (0, "", "", 1.0))["outcome"], outcome)
 
     def test_soft(self):
         runner, work = self.runner(), self.folder / "work"

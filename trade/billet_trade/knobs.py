@@ -363,10 +363,16 @@ def make_hourglass(scene, argument):
             if scene.get(f"Bodies/{body}/Element") == "one point"}
 
 
+def has_unsymmetric_tangent(scene, body):
+    law = scene.get(f"{body}/Material/Kinematics")
+    return law == "hypoelastic" or (scene.get(f"{body}/Material/Law") == "elastoplastic" and law == "neo-Hookean")
+
+
 @knob("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
 def make_material_tangent(scene, argument):
     implicit(scene)
     need(scene.knows("Solver/Material tangent"), "this billet has no such parameter")
+    need(any(has_unsymmetric_tangent(scene, f"Bodies/{body}") for body in scene.names("Bodies")), "the exact one of every body is symmetric")
     return {"Solver/Material tangent": argument}
 
 

@@ -4,6 +4,7 @@
 
 #include "billet/solve/solution.h"
 
+#include <functional>
 #include <string>
 
 namespace billet {
@@ -19,13 +20,18 @@ public:
   static constexpr double doubtful_drift = 0.05;
 
   /// Why energies may fail to balance: what can be done differs.
-  enum class Cause { steps, soft_penalties, sticking_overlaps };
+  enum class Cause { steps, soft_penalties, sticking_overlaps, unstable_law };
+  /// In words, and what to do.
+  static std::string advise(Cause cause);
 
   explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
       : balance_(balance), allowed_drift_(allowed_drift) {}
 
-  /// A message for the console, empty if there is nothing to tell; `cause` is the likely one.
-  std::string look(double time, const EnergyLedger &energies, Cause cause = Cause::steps);
+  /// A message for the console, empty if there is nothing to tell. `find_cause` is asked for the likely one
+  /// where energies fail to balance, on all ranks.
+  std::string look(
+      double time, const EnergyLedger &energies,
+      const std::function<Cause()> &find_cause = [] { return Cause::steps; });
   /// Why the run has to end after the last look(); empty if it may go on.
   const std::string &imbalance() const { return imbalance_; }
 

@@ -85,7 +85,7 @@ struct Solver {
   enum class Forcing { eisenstat_walker, fixed };
 
   ContactTangent contact_tangent;
-  MaterialTangent material_tangent;
+  Located<MaterialTangent> material_tangent;
   double force_tolerance, energy_tolerance;
   unsigned int most_iterations;
   unsigned int most_augmentations; ///< in a step

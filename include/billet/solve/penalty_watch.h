@@ -10,9 +10,10 @@
 
 namespace billet {
 
-/// Says which contact pairs have penalties that are too soft for what presses them, by two signs: nodes a
-/// tenth of a facet deep, or deeper than a fifth of the largest displacement so far, of bodies or of the
-/// pair's tool: then the penalty gives way in place of the body. Once for each pair, and again where nodes
+/// Says which contact pairs have penalties that are too soft for what presses them, by three signs: nodes a
+/// tenth of a facet deep; or deeper than a fifth of the largest displacement so far, of bodies or of the
+/// pair's tool; or more than a fifth of all work in the pair's springs, as where what is pressed is flat and
+/// moves aside: then the penalty gives way in place of the body. Once for each pair, and again where nodes
 /// get ten times as deep. In a blow nodes come in before bodies deform: there only the first sign is told.
 class PenaltyWatch {
 public:
@@ -20,9 +21,10 @@ public:
 
   explicit PenaltyWatch(const Motion motion) : motion_(motion) {}
 
-  /// The deepest node of the pair, and the largest displacement [length], of all ranks. A line for the
-  /// console, empty if there is nothing to tell.
-  std::string look(const std::string &pair, const Penetration &deepest, double displacement);
+  /// The deepest node of the pair, the largest displacement [length], and what part of all work the pair's
+  /// springs hold, of all ranks. A line for the console, empty if there is nothing to tell.
+  std::string look(const std::string &pair, const Penetration &deepest, double displacement,
+                   double part_of_work = 0.);
   /// Whether a pair has shown either sign.
   bool has_soft_pairs() const { return has_soft_pairs_; }
 

@@ -288,7 +288,10 @@ def yields(r):
     j = volume_ratio(r)
     limit = numpy.array([yield_stress(k, float(a), k.young * (k.modulus_ratio if b == 1 else 1.0)) for a, b in zip(plastic, body)])
     loose = 3e-2 if k.element == "full" or k.hardening != "linear" else 3e-3
-    return [Finding("plastic strain >= 0", max(0.0, -float(numpy.min(plastic))), 1e-9),
+    gentle = (k.penalty < 10 or abs(k.strain) < 0.05 or k.press < 0.02 or k.slide < 0.2 or k.speed < 0.01 or k.step is not None or k.force or k.moment
+              or k.modulus_ratio != 1 or k.spring or k.turns < 0.1 or k.radius != 1)
+    found = [] if gentle else [Finding("yields at all", 0.0 if float(numpy.max(plastic)) > 0 else 1.0, 0.5)]
+    return found + [Finding("plastic strain >= 0", max(0.0, -float(numpy.min(plastic))), 1e-9),
             Finding("yield condition", float(numpy.max(stress * j / limit - 1)), loose)]
 
 
@@ -305,6 +308,23 @@ def stretch(r):
     h = r.setup.facts["height"]
     strain = math.log1p((high - low) / h)
     return strain, 4 * ROUNDING * (abs(low) + abs(high)) / (h + high - low)
+
+
+def strained(r):
+    """The block itself is strained as named, in the mean: neither penalties nor the step gave way instead."""
+    named, (reached, known) = r.setup.facts["strain"], stretch(r)
+    return [Finding("strained as named", abs(reached - named) / abs(named), 0.1 + known / abs(named), f"{reached:.3g}")]
+
+
+def bar_in_motion(r):
+    """Slowly strained, its stress is that of a bar, but for waves."""
+    strain, known = stretch(r)
+    expected = expected_stress(r, strain)
+    if expected is None or r.knobs.law != "elastic":
+        return []
+    stress, across, loose = expected
+    cauchy = stress / math.exp(strain + 2 * across)
+    return [Finding("stress of the bar", abs(float(numpy.mean(r.fields["stress_zz"])) - cauchy) / abs(cauchy), 0.1 + loose + 3 * part(known, abs(strain)))]
 
 
 def expected_stress(r, strain):

@@ -42,6 +42,7 @@ COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda 
 KNOB_OF = {"augmented penalty": "penalty"}
 DEFAULTS = {**KNOBS, "law": "Hencky"}
 PENALTIES = ("penalty", "augmented penalty")
+STRAINED = ("strain", "aspect")  # a penalty that is soft would hide what they do
 
 
 def shown(value):
@@ -72,7 +73,7 @@ def safe(records, parameter):
 def span(own, parameter):
     by_value = defaultdict(set)
     for r in own:
-        soft = parameter in PENALTIES and r.get("soft")
+        soft = parameter in PENALTIES + STRAINED and r.get("soft")
         by_value[r["values"][r["parameters"].index(parameter)]].add("soft" if soft else r["outcome"])
     good = {v for v, outcomes in by_value.items() if outcomes == {"right"}}
     if any(isinstance(v, str) for v in by_value):
@@ -182,7 +183,8 @@ def write(records, folder, planned=0, program=""):
              "computed from what the run wrote: equilibrium, closed forms of bars and columns, the yield condition, the friction cone "
              "of nodes and of whole forces, the ledger of energies, momentum, impulse, mirror symmetry, penetration, elements inside "
              "out, and that the same scene in other units takes as many steps and iterations, and turned in space gives the same.",
-             "*right*: all of that holds. *doubtful*: it does not, and the log says that the energies fail to balance, and what to do. "
+             "*right*: all of that holds. *doubtful*: it does not, and the log says why, and what to do: energies fail to balance, a law is no longer "
+             "stable at such strains, or hourglass control has much of the energy. "
              "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
              f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
              + slow(records),
@@ -260,7 +262,7 @@ def draw(records, file, pair, x_label, y_label, bases):
         xs, ys = sorted({k[0] for k in found}), sorted({k[1] for k in found})
         def outcome_of(key):
             r = found.get(key, {})
-            soft = "penalty" in pair and r.get("outcome") == "right" and r.get("soft")
+            soft = set(pair) & {*PENALTIES, *STRAINED} and r.get("outcome") == "right" and r.get("soft")
             return "right, but soft" if soft else r.get("outcome")
         outcome = [[outcome_of((a, b)) for a in xs] for b in ys]
         used |= {o for row in outcome for o in row if o}

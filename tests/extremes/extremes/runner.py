@@ -21,7 +21,7 @@ from .scenes import make, nudged
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Said in the log of a run that comes to its end: what it makes doubtful, which is all but these.
-DOUBT = re.compile(r"^.*the energies fail to balance by .*$", re.MULTILINE)
+DOUBT = re.compile(r"^.*(the energies fail to balance by|its law is no longer stable|hourglass control has)\b.*$", re.MULTILINE)
 # What the log says that rounding leaves of the forces: as much of them need not balance.
 ROUND_OFF = re.compile(r"^Round-off leaves (\S+) of the forces", re.MULTILINE)
 SOFT = re.compile(r"^Contact pair .* lets nodes .* deep.*: its penalty is soft", re.MULTILINE)

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MATERIAL_STABILITY_H
+#define BILLET_MATERIAL_STABILITY_H
+
+#include "billet/material/hencky.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace billet {
+
+using Stretches = std::array<double, 3>;
+
+/// The least stiffness of plane waves, over the shear modulus, in an isotropic elastic law at these principal
+/// stretches: the least eigenvalue, over directions n, of
+///   Q_ik(n) = n_p n_q c_ipkq + δ_ik n_p τ_pq n_q                                                       (M39)
+/// (Legendre & Hadamard's condition; Ogden 1997, ch. 6). Where it is negative such waves grow. Directions are
+/// a grid of an eighth of the sphere in the principal frame, 15 degrees apart, which the others mirror. −∞
+/// where the law has no stress.
+template <class Law>
+double least_wave_stiffness(const Law &law, const double shear, const Stretches &stretches) {
+  constexpr unsigned int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  constexpr unsigned int n_angles = 6; // of a right angle
+  dealii::Tensor<2, 3> F;
+  for (unsigned int i = 0; i < 3; ++i)
+    F[i][i] = stretches[i];
+  typename Law::History none;
+  dealii::SymmetricTensor<2, 3> tau;
+  SpatialModuli c;
+  if (!law.update(F, none, none, tau, &c))
+    return -std::numeric_limits<double>::infinity();
+  const double step = std::acos(0.) / n_angles;
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned int a = 0; a <= n_angles; ++a)
+    for (unsigned int b = 0; b <= n_angles; ++b) {
+      const std::array<double, 3> n = {std::sin(a * step) * std::cos(b * step),
+                                       std::sin(a * step) * std::sin(b * step), std::cos(a * step)};
+      dealii::SymmetricTensor<2, 3> Q;
+      for (unsigned int p = 0; p < 3; ++p)
+        for (unsigned int q = 0; q < 3; ++q)
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int k = i; k < 3; ++k)
+              Q[i][k] += n[p] * n[q] * (c[entry[i][p]][entry[k][q]] + (i == k ? tau[p][q] : 0.));
+      least = std::min(least, dealii::eigenvalues(Q)[2]);
+    }
+  return least / shear;
+}
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_STABILITY_WATCH_H
+#define BILLET_SOLVE_STABILITY_WATCH_H
+
+#include "billet/discretization/discretization.h"
+#include "billet/material/stability.h"
+#include "billet/scene/scene.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Says once of each elastic body when it is strained farther than its law is stable, theory (M39): where
+/// Hencky's, or the neo-Hookean one, has waves that grow, what the body does is the mesh's. Looks into the
+/// middles of the elements; bodies that yield, whose elastic strains are small, and rates of stress are left
+/// out.
+class StabilityWatch {
+public:
+  StabilityWatch(const Scene &scene, const Discretization &discretization);
+
+  /// At these (ghosted) displacements: lines for the console, empty if there is nothing to tell. Collective.
+  std::string look(const Vector &displacements);
+  /// Whether a body has been found so.
+  bool has_unstable_bodies() const { return has_unstable_bodies_; }
+
+private:
+  struct Watched {
+    std::size_t body;
+    std::string name;
+    ElasticModuli elastic;
+    bool is_hencky, is_told;
+  };
+  struct Weakest {
+    double stiffness; ///< over the shear modulus
+    Stretches stretches;
+  };
+  /// Of all ranks.
+  Weakest find_weakest(const Watched &watched, const Vector &displacements) const;
+
+  const Discretization &discretization_;
+  std::vector<Watched> bodies_;
+  bool has_unstable_bodies_ = false;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/stability_watch.h"
+#include "billet/material/elastic.h"
+#include "billet/material/neo_hookean.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+/// ∂x/∂ξ in the middle of a brick, in deal.II's order of its nodes.
+dealii::Tensor<2, 3> middle_jacobian(const ElementVectors &x) {
+  dealii::Tensor<2, 3> result;
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    for (unsigned int j = 0; j < 3; ++j)
+      for (unsigned int i = 0; i < 3; ++i)
+        result[i][j] += ((a >> j & 1U) != 0 ? 0.25 : -0.25) * x[3 * a + i];
+  return result;
+}
+
+Stretches principal_stretches(const dealii::Tensor<2, 3> &F) {
+  const auto squares = dealii::eigenvalues(dealii::symmetrize(dealii::transpose(F) * F));
+  return {std::sqrt(std::max(0., squares[0])), std::sqrt(std::max(0., squares[1])),
+          std::sqrt(std::max(0., squares[2]))};
+}
+
+double stiffness_of(const bool is_hencky, const ElasticModuli &elastic, const Stretches &stretches) {
+  return is_hencky ? least_wave_stiffness(HenckyElasticity(elastic), elastic.shear, stretches)
+                   : least_wave_stiffness(NeoHookeanElasticity(elastic), elastic.shear, stretches);
+}
+
+} // namespace
+
+StabilityWatch::StabilityWatch(const Scene &scene, const Discretization &discretization)
+    : discretization_(discretization) {
+  using Kinematics = parameters::Material::Kinematics;
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    const Kinematics kinematics = scene.parameters().bodies[b].material.kinematics.value;
+    if (std::holds_alternative<std::monostate>(body.material.hardening) &&
+        kinematics != Kinematics::hypoelastic)
+      bodies_.push_back({b, body.name, body.material.elastic, kinematics == Kinematics::hencky, false});
+  }
+}
+
+std::string StabilityWatch::look(const Vector &displacements) {
+  std::ostringstream text;
+  text.precision(2);
+  for (Watched &watched : bodies_) {
+    if (watched.is_told)
+      continue;
+    const auto [stiffness, stretches] = find_weakest(watched, displacements);
+    if (!(stiffness < 0.))
+      continue;
+    watched.is_told = has_unstable_bodies_ = true;
+    text << (text.str().empty() ? "" : "\n") << "Body '" << watched.name
+         << "' is strained to principal stretches of " << stretches[2] << ", " << stretches[1] << " and "
+         << stretches[0] << ", where its law is no longer stable: waves grow in it, and what it does is the "
+         << "mesh's. Try "
+         << (watched.is_hencky && stiffness_of(false, watched.elastic, stretches) > 0.
+                 ? "'Kinematics = neo-Hookean', which is, or "
+                 : "")
+         << "smaller strains";
+  }
+  return text.str();
+}
+
+StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,
+                                                     const Vector &displacements) const {
+  // Where every law is stable, whatever Poisson's ratio.
+  constexpr double surely_above = 0.75, surely_below = 1.3;
+  Weakest weakest = {1., {1., 1., 1.}};
+  for (const Element &element : discretization_.elements(watched.body)) {
+    const dealii::Tensor<2, 3> J = middle_jacobian(nodal_positions(element.cell));
+    const Stretches stretches =
+        principal_stretches((J + middle_jacobian(gather(displacements, element.dofs))) * dealii::invert(J));
+    if (stretches[2] > surely_above && stretches[0] < surely_below)
+      continue;
+    const double stiffness = stiffness_of(watched.is_hencky, watched.elastic, stretches);
+    if (stiffness < weakest.stiffness)
+      weakest = {stiffness, stretches};
+  }
+  const auto of_ranks = dealii::Utilities::MPI::all_gather(
+      discretization_.communicator(), std::array<double, 4>{weakest.stiffness, weakest.stretches[0],
+                                                            weakest.stretches[1], weakest.stretches[2]});
+  const auto &least = *std::min_element(of_ranks.begin(), of_ranks.end());
+  return {least[0], {least[1], least[2], least[3]}};
+}
+
+} // namespace billet
