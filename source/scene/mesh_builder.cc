@@ -82,9 +82,20 @@ template <int dim> void check_counts(const parameters::Mesh &parameters) {
   }
 }
 
+/// With its assertions on, deal.II ends the program where arguments of a mesh are not what it needs; here
+/// they are the user's.
+class AssertionsThrow {
+public:
+  AssertionsThrow() { dealii::deal_II_exceptions::disable_abort_on_exception(); }
+  ~AssertionsThrow() { dealii::deal_II_exceptions::enable_abort_on_exception(); }
+  AssertionsThrow(const AssertionsThrow &) = delete;
+  AssertionsThrow &operator=(const AssertionsThrow &) = delete;
+};
+
 template <int dim> void generate_primitive(const parameters::Mesh &parameters, Triangulation<dim> &mesh) {
   check_counts<dim>(parameters);
   try {
+    const AssertionsThrow refusals_are_errors;
     dealii::GridGenerator::generate_from_name_and_arguments(mesh, parameters.primitive.value,
                                                             parameters.arguments);
   } catch (const std::exception &error) {

@@ -38,6 +38,16 @@ int main() {
     check("half of the motion is told, however small", tells(text, "deep, 50 % of the largest displacement"));
   }
   {
+    // A flat body moves aside by much more than it is high.
+    PenaltyWatch watch(PenaltyWatch::Motion::slow), sudden(PenaltyWatch::Motion::sudden);
+    const auto look_at = [](PenaltyWatch &at, const double part_of_work) {
+      return at.look("pair", {1e-3, 2e-3}, 1., part_of_work);
+    };
+    check("a tenth of the work is no matter", look_at(watch, 0.1).empty() && !watch.has_soft_pairs());
+    check("half of it is told", tells(look_at(watch, 0.5), "deep, and takes 50 % of the work done so far"));
+    check("in a blow it is not", look_at(sudden, 0.5).empty() && !sudden.has_soft_pairs());
+  }
+  {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     look(watch, 0., 1.);
     check("the largest motion so far counts", look(watch, 0.01, 0.).empty());

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// An elastic body that is strained farther than its law is stable is named, once, with the law that is; one
+// that is not, or yields, or has rates of stress, is not.
+#include "scene_run.h"
+
+#include "billet/solve/stability_watch.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+using Kinematics = parameters::Material::Kinematics;
+
+/// What is said of the billet when it is pulled to this logarithmic strain along its axis, and to so much of
+/// it across.
+std::string look(const double strain, const Kinematics kinematics, const bool is_elastic = true,
+                 const double across = -0.3) {
+  auto parameters = testing::read_shipped_scene("billet_upsetting.prm");
+  auto &material = parameters.bodies[0].material;
+  if (is_elastic)
+    material.law = parameters::Material::Law::elastic;
+  material.poisson_ratio = 0.3;
+  material.kinematics.value = kinematics;
+  const Scene scene(parameters);
+  const Discretization discretization(scene, MPI_COMM_WORLD);
+  Vector displacements = discretization.make_ghosted_vector(), owned = discretization.make_owned_vector();
+  for (const Element &element : discretization.elements(0)) {
+    const ElementVectors x = nodal_positions(element.cell);
+    for (unsigned int i = 0; i < n_element_dofs; ++i)
+      if (owned.in_local_range(element.dofs[i]))
+        owned[element.dofs[i]] = x[i] * std::expm1(i % 3 == 2 ? strain : across * strain);
+  }
+  owned.compress(dealii::VectorOperation::insert);
+  displacements = owned;
+  StabilityWatch watch(scene, discretization);
+  const std::string text = watch.look(displacements);
+  check("said once", watch.look(displacements).empty() && watch.has_unstable_bodies() == !text.empty());
+  return text;
+}
+
+bool tells(const std::string &text, const std::string &what) { return text.find(what) != std::string::npos; }
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (!testing::is_first_rank())
+    std::cout.setstate(std::ios::failbit);
+  check("Hencky's law at ln -1.5", look(-1.5, Kinematics::hencky).empty());
+  const std::string text = look(-2., Kinematics::hencky);
+  check("at ln -2", tells(text, "Body 'billet' is strained to principal stretches of 0.14, 1.8 and 1.8,") &&
+                        tells(text, "Try 'Kinematics = neo-Hookean', which is, or smaller strains"));
+  check("the neo-Hookean one", look(-2., Kinematics::neo_hookean).empty());
+  const std::string large = look(1., Kinematics::neo_hookean, true, 1.);
+  check("of a volume 20 times as large", tells(large, "no longer stable") && !tells(large, "Kinematics"));
+  check("rates of stress", look(-2., Kinematics::hypoelastic).empty());
+  check("a body that yields", look(-2., Kinematics::hencky, false).empty());
+  return testing::exit_code();
+}
