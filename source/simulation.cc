@@ -144,6 +144,24 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
          "let the material harden. ";
 }
 
+/// Whether a body that yields, of another law than Hencky's, has elastic strains of the order of what
+/// energies may be off. Collective.
+bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
+                             const Solution &solution) {
+  constexpr double large = 0.02;
+  double largest = 0.;
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    if (std::holds_alternative<std::monostate>(body.material.hardening) ||
+        scene.parameters().bodies[b].material.kinematics.value == parameters::Material::Kinematics::hencky)
+      continue;
+    for (const ElementSummary &summary : solution.summarize(b))
+      largest = std::max(largest,
+                         dealii::deviator(summary.cauchy_stress).norm() / (2. * body.material.elastic.shear));
+  }
+  return dealii::Utilities::MPI::max(largest, discretization.communicator()) > large;
+}
+
 /// Shear and bulk modulus as far apart as here leave Newton's method few digits.
 std::string describe_incompressibility(const parameters::Scene &parameters) {
   const double nearly = 0.49995;
@@ -497,9 +515,11 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       outputs.progress.warn(stability.look(problem.state().displacements));
       outputs.progress.warn(energies.look(control.time(), problem.state().energies, [&] {
         return stability.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
-               : problem.has_soft_penalties()  ? EnergyWatch::Cause::soft_penalties
-               : has_sticking_overlaps         ? EnergyWatch::Cause::sticking_overlaps
-                                               : EnergyWatch::Cause::steps;
+               : has_inexact_dissipation(scene, discretization, problem)
+                   ? EnergyWatch::Cause::inexact_dissipation
+               : problem.has_soft_penalties() ? EnergyWatch::Cause::soft_penalties
+               : has_sticking_overlaps        ? EnergyWatch::Cause::sticking_overlaps
+                                              : EnergyWatch::Cause::steps;
       }));
       if (!energies.imbalance().empty()) {
         outputs.snapshots.write(problem);

@@ -27,22 +27,29 @@ Stretches principal_stretches(const dealii::Tensor<2, 3> &F) {
           std::sqrt(std::max(0., squares[2]))};
 }
 
-double stiffness_of(const bool is_hencky, const ElasticModuli &elastic, const Stretches &stretches) {
-  return is_hencky ? least_wave_stiffness(HenckyElasticity(elastic), elastic.shear, stretches)
-                   : least_wave_stiffness(NeoHookeanElasticity(elastic), elastic.shear, stretches);
+using Kinematics = parameters::Material::Kinematics;
+
+double stiffness_of(const Kinematics kinematics, const ElasticModuli &elastic, const Stretches &stretches) {
+  switch (kinematics) {
+  case Kinematics::hencky:
+    return least_wave_stiffness(HenckyElasticity(elastic), elastic.shear, stretches);
+  case Kinematics::neo_hookean:
+    return least_wave_stiffness(NeoHookeanElasticity(elastic), elastic.shear, stretches);
+  case Kinematics::hypoelastic:
+    break;
+  }
+  return least_wave_stiffness_of_rates(stretches);
 }
 
 } // namespace
 
 StabilityWatch::StabilityWatch(const Scene &scene, const Discretization &discretization)
     : discretization_(discretization) {
-  using Kinematics = parameters::Material::Kinematics;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
-    const Kinematics kinematics = scene.parameters().bodies[b].material.kinematics.value;
-    if (std::holds_alternative<std::monostate>(body.material.hardening) &&
-        kinematics != Kinematics::hypoelastic)
-      bodies_.push_back({b, body.name, body.material.elastic, kinematics == Kinematics::hencky, false});
+    if (std::holds_alternative<std::monostate>(body.material.hardening))
+      bodies_.push_back({b, body.name, body.material.elastic,
+                         scene.parameters().bodies[b].material.kinematics.value, false});
   }
 }
 
@@ -60,7 +67,7 @@ std::string StabilityWatch::look(const Vector &displacements) {
          << "' is strained to principal stretches of " << stretches[2] << ", " << stretches[1] << " and "
          << stretches[0] << ", where its law is no longer stable: waves grow in it, and what it does is the "
          << "mesh's. Try "
-         << (watched.is_hencky && stiffness_of(false, watched.elastic, stretches) > 0.
+         << (stiffness_of(Kinematics::neo_hookean, watched.elastic, stretches) > 0.
                  ? "'Kinematics = neo-Hookean', which is, or "
                  : "")
          << "smaller strains";
@@ -79,7 +86,7 @@ StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,
         principal_stretches((J + middle_jacobian(gather(displacements, element.dofs))) * dealii::invert(J));
     if (stretches[2] > surely_above && stretches[0] < surely_below)
       continue;
-    const double stiffness = stiffness_of(watched.is_hencky, watched.elastic, stretches);
+    const double stiffness = stiffness_of(watched.kinematics, watched.elastic, stretches);
     if (stiffness < weakest.stiffness)
       weakest = {stiffness, stretches};
   }

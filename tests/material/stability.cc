@@ -80,6 +80,8 @@ int main() {
   check("Hencky's law where Bruhns, Xiao and Meyers have it", is_stable);
   check("as second differences of the energy, Hencky", agrees(hencky, bar(-1.)) && agrees(hencky, bar(-2.5)));
   check("and neo-Hookean", agrees(neo_hookean, bar(-2.5)) && agrees(neo_hookean, {1.2, 0.4, 2.}));
+  check("rates of stress, sheared by more than 2 G",
+        least_wave_stiffness_of_rates(bar(-0.76)) > 0. && least_wave_stiffness_of_rates(bar(0.78)) < 0.);
   check("without a stress there is none", of_hencky({0., 1., 1.}) < 0.);
   return exit_code();
 }

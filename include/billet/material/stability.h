@@ -48,6 +48,13 @@ double least_wave_stiffness(const Law &law, const double shear, const Stretches 
   return least / shear;
 }
 
+/// The same of rates of stress, dev τ̊ = 2G dev d with the spin of the material, whose shear waves have
+/// G − (τ_max − τ_min)/2 (M40); on a straight path τ_max − τ_min = 2G ln(λ_max/λ_min).
+inline double least_wave_stiffness_of_rates(const Stretches &stretches) {
+  const auto [least, most] = std::minmax_element(stretches.begin(), stretches.end());
+  return *least > 0. ? 1. - std::log(*most / *least) : -std::numeric_limits<double>::infinity();
+}
+
 } // namespace billet
 
 #endif

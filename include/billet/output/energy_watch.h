@@ -20,7 +20,7 @@ public:
   static constexpr double doubtful_drift = 0.05;
 
   /// Why energies may fail to balance: what can be done differs.
-  enum class Cause { steps, soft_penalties, sticking_overlaps, unstable_law };
+  enum class Cause { steps, soft_penalties, sticking_overlaps, unstable_law, inexact_dissipation };
   /// In words, and what to do.
   static std::string advise(Cause cause);
 

@@ -13,9 +13,8 @@
 namespace billet {
 
 /// Says once of each elastic body when it is strained farther than its law is stable, theory (M39): where
-/// Hencky's, or the neo-Hookean one, has waves that grow, what the body does is the mesh's. Looks into the
-/// middles of the elements; bodies that yield, whose elastic strains are small, and rates of stress are left
-/// out.
+/// waves grow in it, what the body does is the mesh's. Looks into the middles of the elements; bodies that
+/// yield, whose elastic strains are small, are left out.
 class StabilityWatch {
 public:
   StabilityWatch(const Scene &scene, const Discretization &discretization);
@@ -30,7 +29,8 @@ private:
     std::size_t body;
     std::string name;
     ElasticModuli elastic;
-    bool is_hencky, is_told;
+    parameters::Material::Kinematics kinematics;
+    bool is_told;
   };
   struct Weakest {
     double stiffness; ///< over the shear modulus
