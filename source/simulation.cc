@@ -679,6 +679,13 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     }
   };
   constexpr unsigned int steps_between_looks = ExplicitDynamics::steps_between_looks;
+  const auto advise_on_law = [&]() -> std::string {
+    outputs.progress.warn(stability.look(problem.state().displacements));
+    return stability.has_unstable_bodies() ? EnergyWatch::advise(EnergyWatch::Cause::unstable_law)
+           : has_inexact_dissipation(scene, discretization, problem)
+               ? EnergyWatch::advise(EnergyWatch::Cause::inexact_dissipation)
+               : "";
+  };
   // The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
   // which a node enters; it is a small part soon. Energy without limit grows on.
   const auto stop_on_drift = [&](const bool is_finished) {
@@ -689,8 +696,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       return;
     problem.update_state();
     outputs.snapshots.write(problem);
-    if (is_finite)
-      outputs.progress.warn(stability.look(problem.state().displacements));
+    const std::string of_law = is_finite ? advise_on_law() : "";
     std::ostringstream message;
     message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
             << " steps the energies ";
@@ -698,7 +704,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       message << "fail to balance by " << 100. * problem.relative_drift()
               << " % of the largest energy so far, allowed are "
               << 100. * parameters.explicit_dynamics.largest_drift << " % ('Largest drift'): "
-              << (stability.has_unstable_bodies() ? EnergyWatch::advise(EnergyWatch::Cause::unstable_law)
+              << (!of_law.empty() ? of_law
                   : problem.has_soft_penalties()
                       ? "contact pairs are soft, and nodes that are deep make energy: try a larger 'Normal "
                         "penalty'"
@@ -727,8 +733,14 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     } catch (const SolutionFailure &failure) { // nothing already computed is lost
       problem.update_state();
       outputs.snapshots.write(problem);
-      throw SolutionFailure(std::string(failure.what()) + ". " + describe_limit_load(parameters) +
-                            "What was computed until then is in '" + parameters.output.folder.value + "'.");
+      if (std::isfinite(problem.relative_drift()))
+        outputs.progress.warn(stability.look(problem.state().displacements));
+      throw SolutionFailure(std::string(failure.what()) + ". " +
+                            (stability.has_unstable_bodies()
+                                 ? "Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) + ". "
+                                 : "") +
+                            describe_limit_load(parameters) + "What was computed until then is in '" +
+                            parameters.output.folder.value + "'.");
     }
   };
   for (bool is_finished = false; !is_finished;) {

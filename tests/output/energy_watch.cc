@@ -19,6 +19,10 @@ EnergyLedger flight(const double kinetic, const double elastic) {
   return energies;
 }
 
+auto because(const EnergyWatch::Cause cause) {
+  return [cause] { return cause; };
+}
+
 } // namespace
 
 int main() {
@@ -34,15 +38,30 @@ int main() {
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_told);
-    const std::string text = watch.look(0.3, flight(0.8, 0.4), EnergyWatch::Cause::soft_penalties);
+    const std::string text = watch.look(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::soft_penalties));
     check("of soft penalties the advice is another",
           tells(text, "20 %") && tells(text, "Try a larger 'Normal penalty'") && !tells(text, "softer"));
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_told);
     check("of overlaps that stick, too",
-          tells(watch.look(0.3, flight(0.8, 0.4), EnergyWatch::Cause::sticking_overlaps),
+          tells(watch.look(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::sticking_overlaps)),
                 "Try 'Facets = bilinear'"));
+  }
+  {
+    EnergyWatch watch(EnergyWatch::Balance::is_told), other(EnergyWatch::Balance::is_told);
+    check("and of laws",
+          tells(watch.look(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::unstable_law)),
+                "'Kinematics = neo-Hookean'") &&
+              tells(other.look(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::inexact_dissipation)),
+                    "'Kinematics = Hencky'"));
+    unsigned int n_asked = 0;
+    EnergyWatch balanced(EnergyWatch::Balance::is_told);
+    balanced.look(0.1, flight(0.6, 0.4), [&] {
+      ++n_asked;
+      return EnergyWatch::Cause::steps;
+    });
+    check("causes are asked for where there is an effect", n_asked == 0);
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_kept, 0.3);
