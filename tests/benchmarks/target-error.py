@@ -139,7 +139,7 @@ publish(
     "target-error", "Runs with a target error", options,
     "Each scene with `Target error` = 10, 3, 1 and 0.3 %, beside runs set by hand: equal steps (cut where they fail), "
     "penalties as they are or augmented, tight or loose tolerances; of the explicit scene penalty, safety factor and contact "
-    "resolution. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of the explicit scene of "
+    "resolution. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt, from the end of a run's first step on, of the forces of all tools and pairs, of the explicit scene of "
     f"kinetic energy and what is stored or dissipated, against a reference on the same mesh, with {REFERENCE_STEPS} steps, "
     "augmented to 1e-5 of a facet (ironing: 1e-4), residuals below 1e-9; in the explicit scene with a penalty factor of 300, a "
     "safety factor of 0.3 and a contact resolution of 4. Work: Newton iterations, with those of failed steps and of "

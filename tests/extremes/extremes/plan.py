@@ -65,6 +65,11 @@ def product(names, bases, firsts, seconds, along=None):
                 yield Case(base, {**(along or {}), names[0]: a, names[1]: b}, tuple(names), (a, b))
 
 
+def strain_of(law, more=()):
+    """A row of the table for each law, elastic or not: they end at different strains."""
+    return "strain" + (f", {law}" if law != "Hencky" else "") + (", yields" if more else "")
+
+
 def works(base, element, law):
     """What billet has: `full` is for implicit scenes."""
     return not (element == "full" and base.endswith("explicit"))
@@ -144,11 +149,13 @@ def everything():  # noqa: C901
     # shape and loading
     for law in LAWS:
         for more in ({}, PLASTIC):
-            yield from single("strain", ("upset",), STRAINS, along={"kinematics": law, "strained": True, **more})
-            yield from single("strain", ("pull",), STRETCHES, along={"kinematics": law, **more})
-            yield from single("strain", ("upset",), STRAINS[:3], along={"kinematics": law, "mu": 0.3, "strained": True, **more})
-            yield from single("strain", ("stretch.explicit", "stretch.implicit"), STRAINS + STRETCHES, along={"kinematics": law, **more})
-        yield from single("strain", ("stretch.explicit", "stretch.implicit"), STRAINS[:4] + STRETCHES[4:], along={"kinematics": law, "element": "one point"})
+            row = strain_of(law, more)
+            yield from single(row, ("upset",), STRAINS, "strain", {"kinematics": law, "strained": True, **more})
+            yield from single(row, ("pull",), STRETCHES, "strain", {"kinematics": law, **more})
+            yield from single(row, ("upset",), STRAINS[:3], "strain", {"kinematics": law, "mu": 0.3, "strained": True, **more})
+            yield from single(row, ("stretch.explicit", "stretch.implicit"), STRAINS + STRETCHES, "strain", {"kinematics": law, **more})
+        yield from single(strain_of(law), ("stretch.explicit", "stretch.implicit"), STRAINS[:4] + STRETCHES[4:], "strain",
+                          {"kinematics": law, "element": "one point"})
     aspects = decades(-3, 3)
     yield from single("aspect", ("pull", "stretch.explicit", "stretch.implicit"), aspects)
     yield from single("aspect", ("upset",), aspects, along={"strained": True})
@@ -321,9 +328,9 @@ def everything():  # noqa: C901
         yield from single("turns", strikes, [turns], along={"mu": 0.3, "feature": "coincident"})
         yield from single("oscillations", strikes, [10 * turns], along={"turns": 0.02, "mu": 0.3, "feature": "coincident"})
     for more in ({}, {**PLASTIC}, {**PLASTIC, "hardening modulus": 0.0}):
-        yield from single("strain", presses, STRAINS, along={"strained": True, **more})
-    yield from single("strain", presses, STRAINS[:4], along={"strained": True, "kinematics": "neo-Hookean"})
-    yield from single("strain", presses, STRAINS[:4], along={**PLASTIC, "strained": True, "element": "one point"})
+        yield from single(strain_of("Hencky", more), presses, STRAINS, "strain", {"strained": True, **more})
+    yield from single(strain_of("neo-Hookean"), presses, STRAINS[:4], "strain", {"strained": True, "kinematics": "neo-Hookean"})
+    yield from single(strain_of("Hencky", PLASTIC), presses, STRAINS[:4], "strain", {**PLASTIC, "strained": True, "element": "one point"})
     yield from single("aspect", presses, aspects, along={"strained": True})
     yield from product(("aspect", "strain"), presses, aspects[::2], STRAINS[:4], along={"strained": True, **PLASTIC})
     for element in ("mean dilatation", "one point"):

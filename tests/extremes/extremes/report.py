@@ -21,7 +21,7 @@ COLOURS = {"right": "#4c9f70", "right, but soft": "#a9d3b5", "doubtful": "#c7dc6
            "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
 WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient",
          **{f"mu, {law}": f"friction coefficient, `{law}`" for law in FRICTION_LAWS[1:]}, "nu": "Poisson's ratio", "step": "fixed step, of the load",
-         "strain": "logarithmic strain", "aspect": "height over width of a brick", "yield": "yield stress, E",
+         "aspect": "height over width of a brick", "yield": "yield stress, E",
          "hardening modulus": "hardening modulus, E", "augmentation": "`Penetration tolerance`", "hourglass": "`Hourglass stiffness`",
          "tangential penalty": "tangential penalty, E/h", "grading": "largest over smallest element", "distortion": "inner node moved, bricks",
          "length": "length of the scene", "radius": "radius of the tool, block sizes", "turns": "turns of a tool", "oscillations": "oscillations of a tool",
@@ -39,10 +39,12 @@ COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda 
            "explicit": lambda base: base.endswith(".explicit")}
 
 
-KNOB_OF = {"augmented penalty": "penalty"}
+STRAINS = ("strain", *(f"strain{law}{yields}" for law in ("", ", neo-Hookean", ", hypoelastic") for yields in ("", ", yields") if law or yields))
+WORDS |= {row: "logarithmic strain" + row[len("strain"):] for row in STRAINS}
+KNOB_OF = {"augmented penalty": "penalty", **dict.fromkeys(STRAINS, "strain")}
 DEFAULTS = {**KNOBS, "law": "Hencky"}
 PENALTIES = ("penalty", "augmented penalty")
-STRAINED = ("strain", "aspect")  # a penalty that is soft would hide what they do
+STRAINED = (*STRAINS, "aspect")  # a penalty that is soft would hide what they do
 
 
 def shown(value):
