@@ -37,7 +37,7 @@ std::string look(const double strain, const Kinematics kinematics, const bool is
   owned.compress(dealii::VectorOperation::insert);
   displacements = owned;
   StabilityWatch watch(scene, discretization);
-  const std::string text = watch.look(displacements);
+  std::string text = watch.look(displacements);
   check("said once", watch.look(displacements).empty() && watch.has_unstable_bodies() == !text.empty());
   return text;
 }
