@@ -156,8 +156,9 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
         scene.parameters().bodies[b].material.kinematics.value == parameters::Material::Kinematics::hencky)
       continue;
     for (const ElementSummary &summary : solution.summarize(b))
-      largest = std::max(largest,
-                         dealii::deviator(summary.cauchy_stress).norm() / (2. * body.material.elastic.shear));
+      if (summary.equivalent_plastic_strain > 0.)
+        largest = std::max(largest, dealii::deviator(summary.cauchy_stress).norm() /
+                                        (2. * body.material.elastic.shear));
   }
   return dealii::Utilities::MPI::max(largest, discretization.communicator()) > large;
 }
@@ -515,11 +516,11 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       outputs.progress.warn(stability.look(problem.state().displacements));
       outputs.progress.warn(energies.look(control.time(), problem.state().energies, [&] {
         return stability.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
+               : problem.has_soft_penalties()  ? EnergyWatch::Cause::soft_penalties
                : has_inexact_dissipation(scene, discretization, problem)
                    ? EnergyWatch::Cause::inexact_dissipation
-               : problem.has_soft_penalties() ? EnergyWatch::Cause::soft_penalties
-               : has_sticking_overlaps        ? EnergyWatch::Cause::sticking_overlaps
-                                              : EnergyWatch::Cause::steps;
+               : has_sticking_overlaps ? EnergyWatch::Cause::sticking_overlaps
+                                       : EnergyWatch::Cause::steps;
       }));
       if (!energies.imbalance().empty()) {
         outputs.snapshots.write(problem);
@@ -672,17 +673,19 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
     outputs.progress.warn(problem.watch_penalties());
     outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
-    if (problem.time() >= next_look && std::isfinite(problem.relative_drift())) {
-      problem.update_state();
-      outputs.progress.warn(stability.look(problem.state().displacements));
-      next_look = problem.time() + events.end() / n_looks;
-    }
+  };
+  const auto look_at_stability = [&] {
+    if (problem.time() < next_look || !std::isfinite(problem.relative_drift()))
+      return;
+    problem.update_state();
+    outputs.progress.warn(stability.look(problem.state().displacements));
+    next_look = problem.time() + events.end() / n_looks;
   };
   constexpr unsigned int steps_between_looks = ExplicitDynamics::steps_between_looks;
   const auto advise_on_law = [&]() -> std::string {
     outputs.progress.warn(stability.look(problem.state().displacements));
     return stability.has_unstable_bodies() ? EnergyWatch::advise(EnergyWatch::Cause::unstable_law)
-           : has_inexact_dissipation(scene, discretization, problem)
+           : !problem.has_soft_penalties() && has_inexact_dissipation(scene, discretization, problem)
                ? EnergyWatch::advise(EnergyWatch::Cause::inexact_dissipation)
                : "";
   };
@@ -758,6 +761,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       problem.update_ledger();
     if (is_due || problem.n_steps() % steps_between_looks == 0) {
       outputs.progress.warn(problem.watch_steps());
+      look_at_stability();
       stop_on_drift(is_finished);
       if (errors) {
         errors->add(problem.time(), problem.state().energies);

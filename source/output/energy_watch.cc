@@ -17,7 +17,7 @@ std::string EnergyWatch::advise(const Cause cause) {
            "contact pairs";
   case Cause::unstable_law:
     return "an elastic body is strained farther than its law is stable, and waves grow in it. Try smaller "
-           "strains, or 'Kinematics = neo-Hookean' if that is another one";
+           "strains, or the 'Kinematics' that the log names, if it does";
   case Cause::inexact_dissipation:
     return "a body that yields has large elastic strains, and its law, which is not Hencky's, knows what it "
            "dissipates to their order only. Try 'Kinematics = Hencky', or a larger 'Largest drift'";

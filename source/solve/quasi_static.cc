@@ -61,6 +61,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
       body_contacts_.back()->check_overlap();
   }
   state_.body_pair_loads.resize(body_contacts_.size());
+  tool_pair_energies_.resize(contacts_.size());
   if (body_contacts_.empty()) // else when it is known who touches whom
     build_matrix();
 
@@ -637,9 +638,11 @@ void QuasiStatic::commit(const double t) {
   const std::vector<Placement> placements_n = state_.placements;
   find_slipping_tools();
   std::fill(state_.tool_loads.begin(), state_.tool_loads.end(), ContactLoad());
-  for (auto &contact : contacts_) {
-    state_.tool_loads[contact.tool()] += contact.compute_load();
-    contact.commit();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLoad load = contacts_[i].compute_load();
+    tool_pair_energies_[i] = load.stored_energy;
+    state_.tool_loads[contacts_[i].tool()] += load;
+    contacts_[i].commit();
   }
   state_.energies.contact = 0.;
   for (std::size_t i = 0; i < body_contacts_.size(); ++i) {

@@ -16,27 +16,27 @@ std::string QuasiStatic::watch_penalties() {
   std::ostringstream note;
   note.precision(2);
   const double displacement = u_n_.linfty_norm();
-  // Of the step before: what this one stores is known when it is taken.
   const double work = state_.energies.total();
   const auto look = [&](const std::string &name, Penetration deepest, const double moved,
-                        const ContactLoad &load) {
+                        const double stored_energy) {
     const MPI_Comm communicator = discretization_.communicator();
     deepest = {dealii::Utilities::MPI::max(deepest.of_facet, communicator),
                dealii::Utilities::MPI::max(deepest.length, communicator)};
     const std::string text =
-        soft_penalties_.look(name, deepest, moved, work > 0. ? load.stored_energy / work : 0.);
+        soft_penalties_.look(name, deepest, moved, work > 0. ? stored_energy / work : 0.);
     note << text << (text.empty() ? "" : "\n");
   };
-  for (const auto &contact : contacts_) {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const auto &contact = contacts_[i];
     const std::size_t tool = contact.tool();
     const double tool_moved =
         largest_motion(scene_.tools()[tool].placement(0.), state_.placements[tool], discretization_.radius());
     look(scene_.pairs()[contact.pair()].name, contact.penetration(), std::max(displacement, tool_moved),
-         state_.tool_loads[tool]);
+         tool_pair_energies_[i]);
   }
   for (std::size_t i = 0; i < body_contacts_.size(); ++i)
     look(body_contacts_[i]->name(), body_contacts_[i]->penetration(), displacement,
-         state_.body_pair_loads[i]);
+         state_.body_pair_loads[i].stored_energy);
   const double tolerance = scene_.parameters().solver.force_tolerance;
   if (!has_told_stiff_ && force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
     note << "Round-off leaves " << contact_round_off_force() / force_scale_

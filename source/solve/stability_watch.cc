@@ -38,7 +38,7 @@ double stiffness_of(const Kinematics kinematics, const ElasticModuli &elastic, c
   case Kinematics::hypoelastic:
     break;
   }
-  return least_wave_stiffness_of_rates(stretches);
+  return least_wave_stiffness_of_rates(elastic, stretches);
 }
 
 } // namespace

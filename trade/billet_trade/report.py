@@ -86,7 +86,7 @@ def judge_forces(result, forces, limits):
 
 def judge(point, outputs, weights, reference, scene, limits, forces):
     """Fills in errors and status. What failed has no error: nothing that failed looks good. By a reference that is itself
-    known no better than a useless run nobody is judged. `forces`: (Force, Reference that knows it), which tell whether a run
+    known no better than a useless run nobody is judged, but by forces, if these are known better. `forces`: (Force, Reference that knows it), which tell whether a run
     is locked or soft whatever the outputs; None where there are none."""
     result = point.result
     point.status, point.reason = result.status, result.reason

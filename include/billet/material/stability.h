@@ -48,11 +48,17 @@ double least_wave_stiffness(const Law &law, const double shear, const Stretches 
   return least / shear;
 }
 
-/// The same of rates of stress, dev τ̊ = 2G dev d with the spin of the material, whose shear waves have
-/// G − (τ_max − τ_min)/2 (M40); on a straight path τ_max − τ_min = 2G ln(λ_max/λ_min).
-inline double least_wave_stiffness_of_rates(const Stretches &stretches) {
+/// The same of rates of stress, dev τ̊ = 2G dev d with the spin of the material, on a straight path: of shear
+/// waves G − (τ_max − τ_min)/2, τ_max − τ_min = 2G ln(λ_max/λ_min), and of waves along a principal direction
+/// κ (1 − ln J) + 4/3 G − 2G dev ln λ (M40).
+inline double least_wave_stiffness_of_rates(const ElasticModuli &elastic, const Stretches &stretches) {
   const auto [least, most] = std::minmax_element(stretches.begin(), stretches.end());
-  return *least > 0. ? 1. - std::log(*most / *least) : -std::numeric_limits<double>::infinity();
+  if (!(*least > 0.))
+    return -std::numeric_limits<double>::infinity();
+  const double volumetric = std::log(stretches[0]) + std::log(stretches[1]) + std::log(stretches[2]);
+  const double along =
+      elastic.bulk / elastic.shear * (1. - volumetric) + 4. / 3. - 2. * (std::log(*most) - volumetric / 3.);
+  return std::min({1. - std::log(*most / *least), along, 1.});
 }
 
 } // namespace billet

@@ -335,6 +335,8 @@ private:
   double allowed_at_measurement_ = 0.; ///< part of the forces
   std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
+  std::vector<double>
+      tool_pair_energies_;      ///< in the springs of each pair with a tool, at the last step's end
   bool has_told_stiff_ = false; ///< by watch_penalties()
   double told_round_off_ = 0.;  ///< part of the forces
   bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
