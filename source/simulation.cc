@@ -189,7 +189,13 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
     return message.str() + computed.str();
   message << "; residual " << report.newton.force << " of the forces, allowed is "
           << parameters.solver.force_tolerance << ". " << describe_limit_load(parameters);
-  if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
+  if (report.newton.goes_round && !parameters.pairs.empty())
+    message << "More iterations would not help: a node touches and lets go by turns, or sticks and slips, "
+               "since a body "
+               "snaps there, or friction is strong. Try a penalty that is a half or twice as stiff, 'Normal "
+               "penalty' or 'Tangential penalty', a 'Penetration tolerance', or "
+            << (parameters.is_dynamic() ? "a smaller 'Error tolerance'" : "'Scheme = implicit dynamics'");
+  else if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
   else
     message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step

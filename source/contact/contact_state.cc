@@ -49,6 +49,12 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   writer.write_rows("gaps", gap_width, node_keys, gaps);
   if (pair_.has_friction())
     writer.write_rows("friction", friction_width, node_keys, friction);
+  if (has_inertia_) {
+    std::vector<double> behind;
+    for (const auto &node : nodes_)
+      behind.push_back(node.is_behind ? 1. : 0.);
+    writer.write_rows("behind", 1, node_keys, behind);
+  }
   if (!is_explicit_)
     return;
   std::vector<std::uint64_t> facet_keys;
@@ -77,6 +83,11 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
     nodes_[i].patch = static_cast<unsigned int>(row.number());
     nodes_[i].lift = nodes_[i].lift_n = row.number();
     nodes_[i].initial_depth = row.number();
+  }
+  if (has_inertia_ && reader.has("behind")) {
+    const std::vector<double> behind = reader.read_rows("behind", 1, node_keys);
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      nodes_[i].is_behind = behind[i] != 0.;
   }
   if (is_explicit_ && reader.has("shallow areas")) {
     std::vector<std::uint64_t> facet_keys;
@@ -113,6 +124,7 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
     states_[i] = NodeState();
     states_[i].position = position;
     nodes_[i].lift = nodes_[i].lift_n = nodes_[i].initial_depth = 0.;
+    nodes_[i].is_behind = false;
     if (pair_.overlap.is_allowed && projection.exists)
       nodes_[i].initial_depth = std::max(0., -projection.gap);
     states_[i].gap = nodes_[i].gap_n = projection.gap - lift_of(nodes_[i]);

@@ -33,9 +33,8 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
                            const ContactTangent tangent)
     : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
       communicator_(discretization.communicator()), tangent_(tangent),
-      is_explicit_(scene.parameters().is_explicit()),
-      touching_gap_(scene.parameters().is_dynamic() && !scene.parameters().is_explicit() ? 0.
-                                                                                         : touching_gap) {
+      has_inertia_(scene.parameters().is_dynamic()), is_explicit_(scene.parameters().is_explicit()),
+      touching_gap_(has_inertia_ && !is_explicit_ ? 0. : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
   placement_n_ = placement_ = tool_.placement(0.);
   states_.resize(nodes_.size());
@@ -211,6 +210,23 @@ bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
   return false;
 }
 
+bool RigidContact::misses(const Node &node, const Tensor<1, 3> &position,
+                          const RigidSurface::Projection &projection) const {
+  if (!has_inertia_)
+    return false;
+  if (projection.exists)
+    return node.is_behind && projection.gap < 0.;
+  if (!projection.is_behind)
+    return false;
+  if (node.is_behind)
+    return true;
+  constexpr double far = 2.; // facet sizes: what is farther away comes by here first
+  const double width = fading_width * node.size;
+  const double depth_squared = projection.gap * projection.gap - projection.beyond * projection.beyond;
+  return projection.beyond >= width && projection.beyond < far * node.size && depth_squared > width * width &&
+         !goes_on(position, placement_.rotation * projection.normal, node.size);
+}
+
 template <class Law>
 RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t i,
                                                const Tensor<1, 3> &position, FrictionHistory *history) const {
@@ -220,7 +236,11 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
   auto projection = tool_.surface().project(on_tool, node.patch);
   const double width = fading_width * node.size;
-  const bool fades = !projection.exists && projection.beyond < width &&
+  state.is_behind = misses(node, position, projection);
+  state.is_passed = state.is_behind && projection.exists;
+  if (state.is_passed) // how far it is from being in front
+    projection.gap = -projection.gap;
+  const bool fades = !state.is_behind && !projection.exists && projection.beyond < width &&
                      !goes_on(position, placement_.rotation * projection.normal, node.size);
   Fading fading{};
   if (fades) {
@@ -241,7 +261,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const double on_it = node.touching_gap;
   const double rounding = 1e-13 * node.size + 4. * std::numeric_limits<double>::epsilon() * position.norm();
   const bool rests = node.gap_n <= on_it && state.gap <= std::min(on_it, node.gap_n + rounding);
-  const bool touches = projection.exists && (state.gap < 0. || rests);
+  const bool touches = projection.exists && !state.is_behind && (state.gap < 0. || rests);
   if (touches) {
     state.normal = placement_.rotation * projection.normal;
     state.turning = placement_.rotation * projection.turning * dealii::transpose(placement_.rotation);
@@ -719,8 +739,11 @@ RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
 }
 
 void RigidContact::commit() {
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i].gap_n = states_[i].gap;
+    nodes_[i].is_behind = states_[i].is_behind;
+    has_nodes_behind_ = has_nodes_behind_ || states_[i].is_passed;
+  }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node &node = nodes_[i];
     if (states_[i].status == ContactStatus::open) { // it begins without when it comes back

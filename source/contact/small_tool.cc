@@ -75,6 +75,17 @@ std::string RigidContact::describe_thin_tool() const {
   return text.str();
 }
 
+std::string RigidContact::tell_nodes_behind() {
+  if (!has_inertia_ || has_told_nodes_behind_ ||
+      dealii::Utilities::MPI::max(has_nodes_behind_ ? 1 : 0, communicator_) == 0)
+    return "";
+  has_told_nodes_behind_ = true;
+  return "Nodes of contact pair '" + pair_.name + "' have gone round the border of tool '" + tool_.name() +
+         "', whose surface has no back: what is behind it is free. Give the tool sides, a larger surface, or "
+         "a "
+         "radius where it ends";
+}
+
 std::string RigidContact::describe_small_tool() const {
   double smallest = std::numeric_limits<double>::infinity();
   for (const auto &node : nodes_)

@@ -114,8 +114,9 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
                                                              const unsigned int patch) const {
   const Tensor<1, 3> arm = x - nearest.position;
   const double distance = arm.norm();
-  const double beyond = (arm - (arm * nearest.normal) * nearest.normal).norm();
-  const Projection none{false, nearest.normal, distance, {}, patch, beyond};
+  const double along = arm * nearest.normal;
+  const double beyond = (arm - along * nearest.normal).norm();
+  const Projection none{false, nearest.normal, distance, {}, patch, beyond, along < 0.};
   if (patches_.size() == 1)
     return none;
   const Neighbours around = find_neighbours(x, nearest, patch);

@@ -14,6 +14,17 @@
 
 namespace billet {
 
+namespace {
+
+constexpr auto within_reach =
+    "0, or a size from 1e-60 to 1e60: products of others leave the range of the machine's numbers";
+
+bool is_beyond_reach(const double value) {
+  return std::abs(value) > largest_number || (value != 0. && std::abs(value) < 1. / largest_number);
+}
+
+} // namespace
+
 void Reader::enter(const std::string &name) {
   prm_.enter_subsection(name);
   path_.push_back(name);
@@ -47,6 +58,8 @@ double Reader::number(const std::string &key) const {
   }
   if (!std::isfinite(value))
     reject(key, "a finite number");
+  if (is_beyond_reach(value))
+    reject(key, within_reach);
   return value;
 }
 
@@ -90,6 +103,8 @@ std::vector<double> Reader::numbers(const std::string &key) const {
     } catch (const std::invalid_argument &) {
       reject(key, "finite numbers, separated by commas");
     }
+    if (is_beyond_reach(result.back()))
+      reject(key, within_reach);
   }
   return result;
 }

@@ -641,15 +641,18 @@ std::string ExplicitDynamics::watch_penalties() {
 
   std::ostringstream note;
   auto next = maxima.begin() + 1;
-  const auto look = [&](const std::string &name, const double displacement) {
-    const std::string text = soft_penalties_.look(name, {next[0], next[1]}, displacement);
+  const auto add_line = [&note](const std::string &text) {
     note << (note.str().empty() || text.empty() ? "" : "\n") << text;
+  };
+  const auto look = [&](const std::string &name, const double displacement) {
+    add_line(soft_penalties_.look(name, {next[0], next[1]}, displacement));
     next += 2;
   };
-  for (const auto &contact : contacts_) {
+  for (auto &contact : contacts_) {
     const double tool_moved = largest_motion(scene_.tools()[contact.tool()].placement(0.),
                                              tools_[contact.tool()].now(), discretization_.radius());
     look(scene_.pairs()[contact.pair()].name, std::max(maxima[0], tool_moved));
+    add_line(contact.tell_nodes_behind());
   }
   for (const auto &contact : body_contacts_)
     look(contact->name(), maxima[0]);

@@ -281,6 +281,11 @@ public:
                         std::to_string(settings_.most_iterations) + " will not do";
       status_ = NOX::StatusTest::Failed;
     }
+    if (status_ == NOX::StatusTest::Failed && goes_round(n)) {
+      report_.goes_round = true;
+      report_.failure = "after " + std::to_string(n) +
+                        " iterations they go to and fro between the same states, of which none is in balance";
+    }
     // Residuals that are larger than estimated, but not by much, are round-off's, too.
     constexpr double by_much = 10.;
     largest_round_off_ = std::max(largest_round_off_, contact); // nodes may just have let go
@@ -304,6 +309,22 @@ private:
     const double to_go = std::log(report_.force / settings_.force_tolerance);
     const double pace = std::log(before / report_.force) / window; // per iteration
     return to_go > 0. && pace * (settings_.most_iterations - n) < to_go;
+  }
+
+  /// Whether the last residuals are those of a few iterations before, once and again.
+  bool goes_round(const unsigned int n) const {
+    constexpr unsigned int longest = 4, window = 2 * longest;
+    constexpr double alike = 0.02;
+    const auto &iterations = report_.iterations;
+    for (unsigned int period = 1; period <= longest && n >= window + longest; ++period) {
+      unsigned int i = n - window;
+      while (i < n &&
+             std::abs(iterations[i].force - iterations[i - period].force) <= alike * iterations[i].force)
+        ++i;
+      if (i == n)
+        return true;
+    }
+    return false;
   }
 
   const NonlinearProblem &problem_;

@@ -27,12 +27,14 @@ std::string QuasiStatic::watch_penalties() {
     note << text << (text.empty() ? "" : "\n");
   };
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const auto &contact = contacts_[i];
+    auto &contact = contacts_[i];
     const std::size_t tool = contact.tool();
     const double tool_moved =
         largest_motion(scene_.tools()[tool].placement(0.), state_.placements[tool], discretization_.radius());
     look(scene_.pairs()[contact.pair()].name, contact.penetration(), std::max(displacement, tool_moved),
          tool_pair_energies_[i]);
+    const std::string text = contact.tell_nodes_behind();
+    note << text << (text.empty() ? "" : "\n");
   }
   for (std::size_t i = 0; i < body_contacts_.size(); ++i)
     look(body_contacts_[i]->name(), body_contacts_[i]->penetration(), displacement,

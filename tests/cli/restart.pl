@@ -84,13 +84,14 @@ sub largest_difference
 # --- going on ------------------------------------------------------------------------------------------------------
 
 my @same = ('history.csv', 'scene.pvd');
-my %base = (block => $block, impact => $impact, aimed => $block, drop => read_text("$here/drop.prm"));
+my %base = (block => $block, impact => $impact, aimed => $block, drop => read_text("$here/drop.prm"),
+  edge => read_text("$here/edge.prm"));
 my %every = (block => 'set Every steps = 1', impact => 'set Interval = 0.1e-3', aimed => 'set Every steps = 1',
-  drop => 'set Every steps = 1');
+  drop => 'set Every steps = 1', edge => 'set Interval = 20e-6');
 # With a target error, what was measured so far goes on, too.
-my %extra = (block => '', impact => ' & Output: Interval = 0.1e-3', drop => ' & Target error = 1 % & Time stepping: End time = 0.1e-3 & + subsection Solver\n set Force tolerance = 1e-10\nend',
+my %extra = (block => '', edge => '', impact => ' & Output: Interval = 0.1e-3', drop => ' & Target error = 1 % & Time stepping: End time = 0.1e-3 & + subsection Solver\n set Force tolerance = 1e-10\nend',
   aimed => ' & Target error = 1 % & Time stepping: - Initial step & Time stepping: - Largest step');
-for my $which ('block', 'impact', 'aimed', 'drop')
+for my $which ('block', 'impact', 'aimed', 'drop', 'edge')
 {
   for my $ranks (1, @launcher ? 2 : ())
   {

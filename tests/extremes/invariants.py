@@ -284,6 +284,13 @@ class Invariants(unittest.TestCase):
 class ClosedForms(unittest.TestCase):
     def test_small_strains(self):
         for nu in (-0.5, 0.0, 0.3, 0.499):
+            stress, across = closed_forms.uniaxial_hypoelastic(1000, nu, [0.5e-3 * i for i in range(2001)])
+            self.assertAlmostEqual(stress, 1000, delta=1e-4)
+            self.assertAlmostEqual(across, -nu, delta=1e-6)
+            stress, across = closed_forms.uniaxial_hypoelastic(1000, nu, [-0.5e-3 * i for i in range(2001)], lambda plastic: 100 + 50 * plastic)
+            plastic = (1000 - 100) / (1000 + 50)
+            self.assertAlmostEqual(stress, -100 - 50 * plastic, delta=1e-3)
+            self.assertAlmostEqual(across, plastic / 2 + nu * -stress / 1000, delta=1e-5)
             stress, across = closed_forms.uniaxial_neo_hookean(1000, nu, 1e-5)
             self.assertAlmostEqual(stress / 1e-2, 1, places=3)
             self.assertAlmostEqual(across / 1e-5, -nu, places=3)
@@ -432,7 +439,7 @@ class Running(unittest.TestCase):
         ours = {**record, "program": other.program_hash}
         self.assertFalse(other.stale(ours))
         self.assertTrue(other.stale({**ours, "checks of": "others"}))
-        self.assertEqual(report.programs([ours], other.program_hash), "All of them ran with one and the same program.")
+        self.assertEqual(report.programs([ours], other.program_hash), "All of them ran with one and the same program, and were judged by the same checks.")
         said = report.programs([ours, record, record], other.program_hash)
         self.assertIn("1 scene ran with the program as it is, 2 with one other state", said)
         self.assertIn("2 crashed", said)
@@ -467,6 +474,12 @@ class Running(unittest.TestCase):
         self.assertEqual(report.safe(records, "penalty"), "1 to 100")
         # Turned beside another one that is as it is by default it is turned alone.
         self.assertEqual(report.safe([*records, of(["penalty", "mu"], [100.0, 0.0], "failed")], "penalty"), "1 to 10")
+        # Soft ones are not safe, but for scenes that are soft anyway.
+        turned = [{**of(["nu"], [nu], soft=True), "base": "drag", "changes": {"facets": "planed", "nu": nu}} for nu in (0.0, 0.3)]
+        self.assertEqual(report.safe(turned, "nu"), "-")
+        self.assertEqual(report.soft_by_default(turned), {"drag/facets=planed"})
+        self.assertEqual(report.safe(turned, "nu", {"drag/facets=planed"}), "0 to 0.3")
+        self.assertEqual(report.safe(turned, "nu", {"drag"}), "-")
         # What is never turned alone is told of its pairs.
         self.assertEqual(report.safe(records, "nu"), "0.49, in pairs")
         self.assertEqual(report.safe(records, "aspect"), "")

@@ -24,13 +24,14 @@ template <class Expect>
 void check_border(const std::string &name, const RigidSurface &surface, const Expect &expect) {
   billet::testing::Random random;
   WorstError gap, beyond, directions, spreading, turning;
-  bool is_beyond = true;
+  bool is_beyond = true, knows_side = true;
   for (unsigned int i = 0; i < 200; ++i) {
     const double u = random(-0.4, 0.4), d = random(0.001, 0.1), g = random(-0.2, 0.2);
     Tensor<1, 3> x;
     const Expected expected = expect(u, d, g, x);
     const auto projection = surface.project(x);
     is_beyond = is_beyond && !projection.exists;
+    knows_side = knows_side && projection.is_behind == (g < 0.);
     const auto border = surface.border(x, projection.patch, width);
     gap.add(std::abs(border.gap - expected.gap));
     beyond.add(std::abs(border.beyond - expected.beyond) + std::abs(projection.beyond - expected.beyond));
@@ -41,6 +42,7 @@ void check_border(const std::string &name, const RigidSurface &surface, const Ex
     turning.add((border.turning - expected.turning * twice).norm());
   }
   check(name + ": the surface does not lie before the points", is_beyond);
+  check(name + ": which side they are on", knows_side);
   check(name + ": gap", gap.value(), 1e-14);
   check(name + ": how far beyond", beyond.value(), 1e-14);
   check(name + ": directions", directions.value(), 1e-11);

@@ -33,6 +33,10 @@ namespace billet {
 /// part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it, and is pushed out by what
 /// that takes of the energy ½ k s g² per area, −½ k g² s′ e, e pointing away from the border.
 ///
+/// Where bodies have inertia, a node that is beyond the border and deeper than w below the surface there has
+/// missed it: what it meets if it moves back in is the surface's back, which is none, until it comes out in
+/// front again. It would jump to its full depth there, in a step or two, with energy from nowhere.
+///
 /// Node states are kept, and computed alike, on every rank that owns a facet at the node.
 class RigidContact {
 public:
@@ -130,6 +134,8 @@ public:
   std::string describe_thin_tool() const;
   /// Whether that is looked for, on all ranks alike.
   bool has_thin_tool() const { return thickness_of_thin_tool_ > 0.; }
+  /// The first time that nodes have been found behind the tool, what to say; else nothing. Collective.
+  std::string tell_nodes_behind();
   /// A line on each tool that fits between the nodes. Collective.
   static std::string describe_small_tools(const std::vector<RigidContact> &contacts);
 
@@ -186,6 +192,7 @@ private:
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
     double lift = 0., lift_n = 0.; ///< of the tool's surface, by augmentation
     double initial_depth = 0.;     ///< in the tool, if that is allowed
+    bool is_behind = false;        ///< at the start of the step: it has missed the tool's surface
   };
   /// What follows from a node's position.
   struct NodeState {
@@ -203,6 +210,8 @@ private:
     double tangential_energy = 0.; ///< per area; of a node that has lifted off, what its spring held before
     double share = 1.;             ///< s, of the normal penalty
     double fading_stiffness = 0.;  ///< beside that of the penalties [stress/length]
+    bool is_behind = false;        ///< has missed the tool's surface, ...
+    bool is_passed = false;        ///< ... and the surface is before it now
   };
   /// What a node beyond a border adds, with the penalty k in full.
   struct Fading {
@@ -254,6 +263,9 @@ private:
   std::string describe_small_tool() const;
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
+  /// Whether a node there has missed the tool's surface.
+  bool misses(const Node &node, const dealii::Tensor<1, 3> &position,
+              const RigidSurface::Projection &projection) const;
   /// The state of node i at `position`; with friction, the history that goes with it.
   template <class Law>
   NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
@@ -306,6 +318,7 @@ private:
   const Tool &tool_;
   const MPI_Comm communicator_;
   ContactTangent tangent_;
+  const bool has_inertia_;
   const bool is_explicit_;    ///< works are those of the trapezoidal rule
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
   std::vector<Node> nodes_;
@@ -328,6 +341,7 @@ private:
   double most_stiffening_ = std::numeric_limits<double>::infinity();
   double most_tangential_stiffening_ = std::numeric_limits<double>::infinity(); ///< of the penalties as given
   bool is_removed_ = false;
+  bool has_nodes_behind_ = false, has_told_nodes_behind_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction},
       augmentation_memory_{Capability::augmentation};
 };

@@ -27,6 +27,7 @@ public:
     /// Where the surface does not lie before the point: how far, along its tangent plane at the border, the
     /// point is beyond that [length].
     double beyond = 0.;
+    bool is_behind = false; ///< and on the inner side of that plane
   };
 
   /// The contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)). The answer does not depend on

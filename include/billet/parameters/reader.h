@@ -19,6 +19,10 @@ template <class T> struct Located {
   std::string origin;
 };
 
+/// Powers and products of larger numbers, and of smaller ones than its inverse, may leave the range of
+/// double.
+constexpr double largest_number = 1e60;
+
 /// A whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
 unsigned int parse_count(const std::string &text);
 

@@ -45,6 +45,7 @@ struct NewtonReport {
   bool makes_energy = false; ///< of the step: it converged, but contact makes energy in it
   /// Contact's round-off leaves more of the forces than it may: residuals come no nearer to their tolerance.
   bool is_lost_in_round_off = false;
+  bool goes_round = false;   ///< it did not converge, but came back to where it had been
   bool is_explained = false; ///< `failure` says what to do, too, and it is not the iterations' fault
   unsigned int linear_iterations = 0;
   std::string note; ///< of the linear solver, for the user; lines
@@ -58,6 +59,7 @@ struct NewtonReport {
     failure = next.failure;
     makes_energy = next.makes_energy;
     is_lost_in_round_off = next.is_lost_in_round_off;
+    goes_round = next.goes_round;
     is_explained = next.is_explained;
     force = next.force;
     linear_iterations += next.linear_iterations;

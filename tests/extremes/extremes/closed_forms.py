@@ -58,6 +58,32 @@ def uniaxial_neo_hookean(young, poisson, strain):
     return stresses(across)[0], across
 
 
+def uniaxial_hypoelastic(young, poisson, strains, yield_stress=None):
+    """(Kirchhoff stress, logarithmic strain across) of a bar at the last of the logarithmic strains, reached step by step: the
+    deviator grows by 2 G times that of 2 Δλ/(λ_n + λ_n+1) in all three directions, the pressure is κ ln J; returned radially
+    to yield_stress(plastic strain)."""
+    kappa, g = bulk(young, poisson), shear(young, poisson)
+
+    def midpoint(a, b):
+        return 2 * math.tanh(0.5 * (b - a))
+
+    across = stress = plastic = 0.0
+    for before, after in zip(strains, strains[1:]):
+        def returned(side):
+            """(stress along if there is none across, plastic strain)"""
+            trial = stress + 2 * g * (midpoint(before, after) - midpoint(across, side))
+            if yield_stress is None or abs(trial) <= yield_stress(plastic):
+                return trial, plastic
+            flow = root(lambda p: abs(trial) - 3 * g * p - yield_stress(plastic + p), 0.0, abs(trial) / (3 * g))
+            return math.copysign(abs(trial) - 3 * g * flow, trial), plastic + flow
+
+        bound = 5 * abs(after - before)
+        side = root(lambda a: kappa * (after + 2 * a) - returned(a)[0] / 3, across - bound, across + bound)
+        stress, plastic = returned(side)
+        across = side
+    return stress, across
+
+
 def confined_modulus(young, poisson):
     return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
 

@@ -337,13 +337,17 @@ def expected_stress(r, strain):
         return (*closed_forms.uniaxial_neo_hookean(k.young, k.nu, strain), 0.0)
     loose = 0.0
     if k.kinematics == "hypoelastic":
-        # midpoint rule of d ln λ: x²/12 of each step's x; steps are equal parts of a linear motion, the last one the largest
-        lengths = r.history["step_length"]
-        end = r.history["time"][-1]
-        stretches = 1 + (math.exp(r.setup.facts["strain"]) - 1) * numpy.concatenate(([0.0], numpy.cumsum(lengths))) / end
-        x = float(numpy.max(numpy.abs(numpy.diff(numpy.log(stretches)))))
-        if x > 0.5:
-            return None
+        # What counts are the steps, parts of a linear motion; what contact took of it is spread evenly. Where they are many
+        # and short the midpoint rule's error, x²/12 of each step's x, is small.
+        times = numpy.concatenate(([0.0], numpy.cumsum(r.history["step_length"])))
+        named = r.setup.facts["strain"]
+        strains = numpy.log1p(math.expm1(named) * times / times[-1])
+        x = float(numpy.max(numpy.abs(numpy.diff(strains))))
+        if x > 0.1:
+            from .scenes import yield_stress
+            stress, across = closed_forms.uniaxial_hypoelastic(
+                k.young, k.nu, strains * strain / named, (lambda a: yield_stress(k, a)) if k.law == "elastoplastic" else None)
+            return stress, across, 1e-6 + x * x / 6 * abs(strain / named - 1)
         loose = x * x / 6 + (0.02 if k.law == "elastoplastic" else 0.0)
     if k.law == "elastic":
         return k.young * strain, -k.nu * strain, loose

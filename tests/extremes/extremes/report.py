@@ -17,7 +17,7 @@ from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE  # noqa: E402
 from .plan import FRICTION_LAWS  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
-COLOURS = {"right": "#4c9f70", "right, but soft": "#a9d3b5", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
+COLOURS = {"right": "#4c9f70", "soft": "#a9d3b5", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
            "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
 WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient",
          **{f"mu, {law}": f"friction coefficient, `{law}`" for law in FRICTION_LAWS[1:]}, "nu": "Poisson's ratio", "step": "fixed step, of the load",
@@ -60,23 +60,42 @@ def alone(records, parameter):
     return [r for r in records if parameter in r["parameters"]]
 
 
-def safe(records, parameter):
+def outcome_of(record):
+    """As the tables have it: where all that must hold does, but a penalty is soft, "soft"."""
+    return "soft" if record.get("outcome") == "right" and record.get("soft") else record.get("outcome")
+
+
+def is_default(record, but=None):
+    return all(p == but or v == DEFAULTS.get(KNOB_OF.get(p, p)) for p, v in zip(record["parameters"], record["values"]))
+
+
+def variant(record):
+    """The scene in which its parameters are turned: the base, with what is set beside."""
+    turned = {KNOB_OF.get(p, p) for p in record["parameters"]}
+    return "/".join([record.get("base", ""), *(f"{p}={v}" for p, v in record.get("changes", {}).items() if p not in turned)])
+
+
+def soft_by_default(records):
+    """The scenes whose penalty is soft whatever other parameter is turned."""
+    return {variant(r) for r in records if is_default(r) and outcome_of(r) == "soft"}
+
+
+def safe(records, parameter, soft=frozenset()):
     """Of the scenes in which this parameter alone is turned, any other being as it is by default: the values, in a row around the
-    default, at which all are right, and no penalty is soft; words: those at which all are. Where it is never turned alone, of all
-    its scenes."""
-    own = [r for r in alone(records, parameter)
-           if all(p == parameter or v == DEFAULTS.get(KNOB_OF.get(p, p)) for p, v in zip(r["parameters"], r["values"]))]
+    default, at which all are right, and no penalty is soft, but for those that are `soft` by default where it is not about penalties;
+    words: those at which all are. Where it is never turned alone, of all its scenes: what is soft there is so by the other one."""
+    own = [r for r in alone(records, parameter) if is_default(r, parameter)]
     if not own:
         pairs = alone(records, parameter)
         return f"{span(pairs, parameter)}, in pairs" if pairs else ""
-    return span(own, parameter)
+    excused = set() if parameter in PENALTIES + STRAINED else soft
+    return span([r if variant(r) in excused else {**r, "outcome": outcome_of(r)} for r in own], parameter)
 
 
 def span(own, parameter):
     by_value = defaultdict(set)
     for r in own:
-        soft = parameter in PENALTIES + STRAINED and r.get("soft")
-        by_value[r["values"][r["parameters"].index(parameter)]].add("soft" if soft else r["outcome"])
+        by_value[r["values"][r["parameters"].index(parameter)]].add(r["outcome"])
     good = {v for v, outcomes in by_value.items() if outcomes == {"right"}}
     if any(isinstance(v, str) for v in by_value):
         bad = [v for v in by_value if v not in good]
@@ -117,15 +136,25 @@ def reasons(records, outcome):
             words = re.sub(r"-?\d[\d.]*(e[-+]?\d+)?", "#", words)
             words = re.sub(r"'(Bodies|Tools|Contact pairs) / [^']*'|pair '[^']*'", "...", words)
             words = re.sub(r"; residual # of the forces.*", "", words)
-            found[words[:220]].append(r["name"])
+            found[words[:220]].append(r)
     return sorted(found.items(), key=lambda item: -len(item[1]))
+
+
+def examples(records):
+    """One of each kind of scene, at most three, those with the fewest parameters."""
+    first = {}
+    for r in sorted(records, key=lambda r: (len(r["parameters"]), len(r["name"]))):
+        first.setdefault(r["base"], r["name"])
+    return ", ".join(f"`{name}`" for name in list(first.values())[:3])
 
 
 def programs(records, ours):
     """In words: which programs the outcomes are of; `ours`: the one that is named now."""
     count = Counter(r["program"] for r in records)
+    checks = Counter(r.get("checks of") for r in records)
     if set(count) == {ours}:
-        return "All of them ran with one and the same program."
+        return ("All of them ran with one and the same program" + (
+            ", and were judged by the same checks." if len(checks) == 1 else f"; {len(records) - max(checks.values())} were judged by older checks."))
     now = count.pop(ours, 0)
     others = ", ".join(f"{n} with {name}" for name, n in count.most_common())
     other = sum(count.values())
@@ -178,26 +207,30 @@ def forgetful(records):
 def write(records, folder, planned=0, program=""):
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
-    outcomes = [o for o in OUTCOMES if any(r["outcome"] == o for r in records)]
-    whole = Counter(r["outcome"] for r in records)
+    soft = soft_by_default(records)
+    outcomes = [o for o in (OUTCOMES[0], "soft", *OUTCOMES[1:]) if any(outcome_of(r) == o for r in records)]
+    whole = Counter(map(outcome_of, records))
     parts = ["# Scenes at the extremes", f"Written by `scripts/extremes`, on one rank: {len(records)} {f'of the {planned} ' if planned > len(records) else ''}tiny scenes of the plan "
              "(1 to 64 bricks), each parameter over its range, alone and in pairs, in every kind of run. In each, what must hold is "
              "computed from what the run wrote: equilibrium, closed forms of bars and columns, the yield condition, the friction cone "
              "of nodes and of whole forces, the ledger of energies, momentum, impulse, mirror symmetry, penetration, elements inside "
              "out, and that the same scene in other units takes as many steps and iterations, and turned in space gives the same.",
-             "*right*: all of that holds. *doubtful*: it does not, and the log says why, and what to do: energies fail to balance, a law is no longer "
+             f"*right*: all of that holds. *soft*: it does, but a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is soft, since it "
+             "takes more than a fifth of the motion: what is in balance then is less than the scene asks for, and forces are too small, by any factor. A larger penalty, "
+             "or a 'Penetration tolerance', mends that. *doubtful*: it does not hold, and the log says why, and what to do: energies fail to balance, a law is no longer "
              "stable at such strains, or hourglass control has much of the energy. "
              "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
              f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
              + slow(records),
              " ".join(said for said in (units(records), forgetful(records), programs(records, program)) if said),
              table(["", *outcomes, "scenes"], [["all", *[whole[o] for o in outcomes], len(records)]]
-                   + [[kind, *[sum(r["base"] in bases and r["outcome"] == o for r in records) for o in outcomes],
+                   + [[kind, *[sum(r["base"] in bases and outcome_of(r) == o for r in records) for o in outcomes],
                        sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),
              "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
-             "alone is right, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. Of "
-             f"penalties, values at which a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is soft, since it takes more than a fifth of the "
-             "motion, are not safe, either: forces are too small; that happens to the default of 10 E/h where a block of four planed facets is dragged. "
+             "alone is right, and not soft, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. "
+             "Scenes that are soft as they are" + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "") + " count as soft for penalties, strains and shapes only. "
+             "Blocks are strained as named only under penalties that do not give way: where a strain or a shape is turned they are raised to what that takes, "
+             "up to 1e5 E/h (the default of 10 E/h lets an elastic block that is pressed to ln -1 give way at -0.76, and one pressed to ln -3 at -1.3: soft, and the log says so). "
              "*In pairs*: it is never turned alone, and all its scenes count. Empty: not tried. Counts are of all scenes, those in pairs with it included. Scenes of "
              "fixed steps below a hundredth of the load end after twenty of them."]
     names = []
@@ -206,9 +239,9 @@ def write(records, folder, planned=0, program=""):
     rows = []
     for name in names:
         mine = alone(records, name)
-        count = Counter(r["outcome"] for r in mine)
+        count = Counter(map(outcome_of, mine))
         rows.append([WORDS.get(name, name), tried(records, name), len(mine), *[count[o] or "" for o in outcomes],
-                     *[safe([r for r in mine if of(r["base"])], name) for of in COLUMNS.values()]])
+                     *[safe([r for r in mine if of(r["base"])], name, soft) for of in COLUMNS.values()]])
     rows.sort(key=lambda row: -row[2])
     parts.append(table(["parameter", "tried", "scenes", *outcomes, *(f"safe: {c}" for c in COLUMNS)], rows))
     parts += draw_all(records, folder / "images")
@@ -216,8 +249,8 @@ def write(records, folder, planned=0, program=""):
                            ("unhelpful", "Messages that do not help"), ("doubtful", "Doubtful")):
         found = reasons(records, outcome)
         if found:
-            parts += [f"## {title}", table(["scenes", "said (numbers left out)", "one of them"],
-                                           [[len(n), words.replace("|", "\\|"), f"`{n[0]}`"] for words, n in found[:20]])]
+            parts += [f"## {title}", table(["scenes", "said (numbers left out)", "such as"],
+                                           [[len(n), words.replace("|", "\\|"), examples(n)] for words, n in found[:25]])]
     bad = [r for r in records if r["outcome"] in ("wrong", "crashed", "hung")]
     if bad:
         parts += ["## What must not be", table(["", "scene", "why"], [
@@ -262,11 +295,7 @@ def draw(records, file, pair, x_label, y_label, bases):
     for ax, (base, title) in zip(axes[0], panels):
         found = cells[base]
         xs, ys = sorted({k[0] for k in found}), sorted({k[1] for k in found})
-        def outcome_of(key):
-            r = found.get(key, {})
-            soft = set(pair) & {*PENALTIES, *STRAINED} and r.get("outcome") == "right" and r.get("soft")
-            return "right, but soft" if soft else r.get("outcome")
-        outcome = [[outcome_of((a, b)) for a in xs] for b in ys]
+        outcome = [[outcome_of(found.get((a, b), {})) for a in xs] for b in ys]
         used |= {o for row in outcome for o in row if o}
         ax.imshow([[order.index(o) for o in row] for row in outcome], cmap=colours, norm=norm, origin="lower", aspect="auto")
         for i, b in enumerate(ys):
