@@ -113,7 +113,7 @@ double Expression::value(const double t, const dealii::Point<3> &position) const
     const WithoutTraps quiet;
     return parser_->value(position);
   }();
-  if (!(std::abs(value) <= largest_number)) {
+  if (!std::isfinite(value) || std::abs(value) > largest_number) {
     std::ostringstream message;
     message << origin_ << ": '" << text_ << "' is " << value << " at time " << t << "; allowed are "
             << (std::isfinite(value) ? "values up to 1e60 in size" : "finite values");
