@@ -189,20 +189,23 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
     return message.str() + computed.str();
   message << "; residual " << report.newton.force << " of the forces, allowed is "
           << parameters.solver.force_tolerance << ". " << describe_limit_load(parameters);
-  if (report.newton.goes_round && !parameters.pairs.empty())
-    message << "More iterations would not help: a node touches and lets go by turns, or sticks and slips, "
-               "since a body "
-               "snaps there, or friction is strong. Try a penalty that is a half or twice as stiff, 'Normal "
-               "penalty' or 'Tangential penalty', a 'Penetration tolerance', or "
-            << (parameters.is_dynamic() ? "a smaller 'Error tolerance'" : "'Scheme = implicit dynamics'");
-  else if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
+  const bool goes_round = report.newton.goes_round && !parameters.pairs.empty();
+  if (goes_round)
+    message << "Nodes that touch and let go by turns, or stick and slip, do that: where a body snaps, or "
+               "friction "
+               "is strong. Try a penalty that is a half or twice as stiff, normal or tangential, or a "
+               "'Penetration "
+               "tolerance'. ";
+  if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
   else
     message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step
             << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
                                         : ":")
-            << (parameters.pairs.empty() ? " try" : " try a softer penalty,")
-            << " more 'Most iterations', or look at the last picture for an unstable or torn mesh";
+            << (report.newton.goes_round   ? ""
+                : parameters.pairs.empty() ? " try more 'Most iterations', or"
+                                           : " try a softer penalty, more 'Most iterations', or")
+            << " look at the last picture for an unstable or torn mesh";
   return message.str() + describe_incompressibility(parameters) +
          (is_unstable ? ". Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +
          computed.str();

@@ -21,6 +21,7 @@ void restore(RowReader &row, Frame &frame) {
 }
 
 constexpr std::size_t gap_width = 4, friction_width = 20; // of a node on a tool
+constexpr std::size_t behind_width = 4;                   // of a node that may be behind a tool
 constexpr std::size_t areas_width = 4;                    // of a facet
 constexpr std::size_t touch_width = 9, slave_width = 17;  // of a node on facets
 
@@ -51,9 +52,10 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
     writer.write_rows("friction", friction_width, node_keys, friction);
   if (has_inertia_) {
     std::vector<double> behind;
+    RowWriter behind_row(behind);
     for (const auto &node : nodes_)
-      behind.push_back(node.is_behind ? 1. : 0.);
-    writer.write_rows("behind", 1, node_keys, behind);
+      behind_row.number(node.is_behind ? 1. : 0.).vector(node.behind_at);
+    writer.write_rows("behind", behind_width, node_keys, behind);
   }
   if (!is_explicit_)
     return;
@@ -85,9 +87,12 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
     nodes_[i].initial_depth = row.number();
   }
   if (has_inertia_ && reader.has("behind")) {
-    const std::vector<double> behind = reader.read_rows("behind", 1, node_keys);
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-      nodes_[i].is_behind = behind[i] != 0.;
+    const std::vector<double> behind = reader.read_rows("behind", behind_width, node_keys);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      RowReader row(&behind[behind_width * i]);
+      nodes_[i].is_behind = row.flag();
+      row.vector(nodes_[i].behind_at);
+    }
   }
   if (is_explicit_ && reader.has("shallow areas")) {
     std::vector<std::uint64_t> facet_keys;

@@ -190,6 +190,13 @@ bool RigidContact::goes_on(const Tensor<1, 3> &position, const Tensor<1, 3> &nor
   });
 }
 
+bool RigidContact::is_near_another(const Tensor<1, 3> &position, const double near) const {
+  return std::any_of(others_.begin(), others_.end(), [&](const RigidContact *other) {
+    const auto projection = other->tool_.surface().project(other->placement_.to_tool(position));
+    return !other->is_removed_ && projection.exists && std::abs(projection.gap) < near;
+  });
+}
+
 bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
   constexpr double same = 1e-8, near = 0.1; // facet sizes
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -210,21 +217,23 @@ bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
   return false;
 }
 
-bool RigidContact::misses(const Node &node, const Tensor<1, 3> &position,
+bool RigidContact::misses(const Node &node, const Tensor<1, 3> &position, const Tensor<1, 3> &on_tool,
                           const RigidSurface::Projection &projection) const {
   if (!has_inertia_)
     return false;
-  if (projection.exists)
-    return node.is_behind && projection.gap < 0.;
+  if (projection.exists) // and it has not come through from the front of what is before it now
+    return node.is_behind && projection.gap - lift_of(node) < 0. &&
+           projection.gap - projection.normal * (on_tool - node.behind_at) < 0.;
   if (!projection.is_behind)
     return false;
   if (node.is_behind)
     return true;
   constexpr double far = 2.; // facet sizes: what is farther away comes by here first
   const double width = fading_width * node.size;
-  const double depth_squared = projection.gap * projection.gap - projection.beyond * projection.beyond;
-  return projection.beyond >= width && projection.beyond < far * node.size && depth_squared > width * width &&
-         !goes_on(position, placement_.rotation * projection.normal, node.size);
+  const double along_squared = projection.gap * projection.gap - projection.beyond * projection.beyond;
+  return projection.beyond >= width && projection.beyond < far * node.size &&
+         std::sqrt(std::max(0., along_squared)) + lift_of(node) > width &&
+         !is_near_another(position, node.size);
 }
 
 template <class Law>
@@ -236,10 +245,8 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
   auto projection = tool_.surface().project(on_tool, node.patch);
   const double width = fading_width * node.size;
-  state.is_behind = misses(node, position, projection);
+  state.is_behind = misses(node, position, on_tool, projection);
   state.is_passed = state.is_behind && projection.exists;
-  if (state.is_passed) // how far it is from being in front
-    projection.gap = -projection.gap;
   const bool fades = !state.is_behind && !projection.exists && projection.beyond < width &&
                      !goes_on(position, placement_.rotation * projection.normal, node.size);
   Fading fading{};
@@ -254,6 +261,8 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
     state.fading_stiffness = fading.stiffness;
   }
   state.gap = projection.gap - lift_of(node);
+  if (state.is_passed) // how far it is from being in front
+    state.gap = -state.gap;
   state.patch = projection.patch;
   // A node that starts on the tool counts as touching: its stiffness may be all that holds the body. Inertia
   // holds it anyway, and a stiffness without a force would mislead Newton's method when it lifts off: so it
@@ -742,6 +751,8 @@ void RigidContact::commit() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     nodes_[i].gap_n = states_[i].gap;
     nodes_[i].is_behind = states_[i].is_behind;
+    if (states_[i].is_behind)
+      nodes_[i].behind_at = placement_.to_tool(states_[i].position);
     has_nodes_behind_ = has_nodes_behind_ || states_[i].is_passed;
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

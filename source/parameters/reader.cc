@@ -20,7 +20,7 @@ constexpr auto within_reach =
     "0, or a size from 1e-60 to 1e60: products of others leave the range of the machine's numbers";
 
 bool is_beyond_reach(const double value) {
-  return std::abs(value) > largest_number || (value != 0. && std::abs(value) < 1. / largest_number);
+  return std::abs(value) > largest_number || (value != 0. && std::abs(value) < smallest_number);
 }
 
 } // namespace

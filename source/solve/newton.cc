@@ -281,7 +281,7 @@ public:
                         std::to_string(settings_.most_iterations) + " will not do";
       status_ = NOX::StatusTest::Failed;
     }
-    if (status_ == NOX::StatusTest::Failed && goes_round(n)) {
+    if (status_ == NOX::StatusTest::Failed && std::isfinite(norm) && go_round(report_.iterations)) {
       report_.goes_round = true;
       report_.failure = "after " + std::to_string(n) +
                         " iterations they go to and fro between the same states, of which none is in balance";
@@ -309,22 +309,6 @@ private:
     const double to_go = std::log(report_.force / settings_.force_tolerance);
     const double pace = std::log(before / report_.force) / window; // per iteration
     return to_go > 0. && pace * (settings_.most_iterations - n) < to_go;
-  }
-
-  /// Whether the last residuals are those of a few iterations before, once and again.
-  bool goes_round(const unsigned int n) const {
-    constexpr unsigned int longest = 4, window = 2 * longest;
-    constexpr double alike = 0.02;
-    const auto &iterations = report_.iterations;
-    for (unsigned int period = 1; period <= longest && n >= window + longest; ++period) {
-      unsigned int i = n - window;
-      while (i < n &&
-             std::abs(iterations[i].force - iterations[i - period].force) <= alike * iterations[i].force)
-        ++i;
-      if (i == n)
-        return true;
-    }
-    return false;
   }
 
   const NonlinearProblem &problem_;
@@ -372,6 +356,26 @@ RCP<Teuchos::ParameterList> make_options(const parameters::Solver &settings) {
 }
 
 } // namespace
+
+bool go_round(const std::vector<NewtonIteration> &iterations) {
+  constexpr std::size_t longest = 4, window = 2 * longest;
+  constexpr double alike = 0.02, apart = 0.2;
+  if (iterations.size() < window + longest)
+    return false;
+  const auto force = [&](const std::size_t back) { return iterations[iterations.size() - 1 - back].force; };
+  for (std::size_t period = 2; period <= longest; ++period) {
+    bool returns = true;
+    double least = force(0), most = force(0);
+    for (std::size_t back = 0; back < window; ++back) {
+      returns = returns && std::abs(force(back) - force(back + period)) <= alike * force(back);
+      least = std::min(least, force(back));
+      most = std::max(most, force(back));
+    }
+    if (returns && most - least > apart * most)
+      return true;
+  }
+  return false;
+}
 
 NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings,
                           const Epetra_Vector &x_n, Epetra_Vector &x) {

@@ -35,7 +35,8 @@ namespace billet {
 ///
 /// Where bodies have inertia, a node that is beyond the border and deeper than w below the surface there has
 /// missed it: what it meets if it moves back in is the surface's back, which is none, until it comes out in
-/// front again. It would jump to its full depth there, in a step or two, with energy from nowhere.
+/// front again. It would jump to its full depth there, in a step or two, with energy from nowhere. Not where
+/// another tool is near, nor of a part of the surface that it comes to from the front.
 ///
 /// Node states are kept, and computed alike, on every rank that owns a facet at the node.
 class RigidContact {
@@ -190,9 +191,10 @@ private:
     double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
-    double lift = 0., lift_n = 0.; ///< of the tool's surface, by augmentation
-    double initial_depth = 0.;     ///< in the tool, if that is allowed
-    bool is_behind = false;        ///< at the start of the step: it has missed the tool's surface
+    double lift = 0., lift_n = 0.;  ///< of the tool's surface, by augmentation
+    double initial_depth = 0.;      ///< in the tool, if that is allowed
+    bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
+    dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
   };
   /// What follows from a node's position.
   struct NodeState {
@@ -264,7 +266,7 @@ private:
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
   /// Whether a node there has missed the tool's surface.
-  bool misses(const Node &node, const dealii::Tensor<1, 3> &position,
+  bool misses(const Node &node, const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &on_tool,
               const RigidSurface::Projection &projection) const;
   /// The state of node i at `position`; with friction, the history that goes with it.
   template <class Law>
@@ -296,6 +298,8 @@ private:
   /// Whether another tool has a surface there that faces like this (in space), nearer than `near`: one that
   /// presses the other side of a sheet has not.
   bool goes_on(const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &normal, double near) const;
+  /// Whether another tool has a surface there, nearer than `near`, whatever way it faces.
+  bool is_near_another(const dealii::Tensor<1, 3> &position, double near) const;
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
   Springs springs_of(std::size_t i, double energy) const;

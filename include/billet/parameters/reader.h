@@ -19,9 +19,8 @@ template <class T> struct Located {
   std::string origin;
 };
 
-/// Powers and products of larger numbers, and of smaller ones than its inverse, may leave the range of
-/// double.
-constexpr double largest_number = 1e60;
+/// Powers and products of larger numbers, and of smaller ones, may leave the range of double.
+constexpr double largest_number = 1e60, smallest_number = 1e-60;
 
 /// A whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
 unsigned int parse_count(const std::string &text);

@@ -45,7 +45,7 @@ struct NewtonReport {
   bool makes_energy = false; ///< of the step: it converged, but contact makes energy in it
   /// Contact's round-off leaves more of the forces than it may: residuals come no nearer to their tolerance.
   bool is_lost_in_round_off = false;
-  bool goes_round = false;   ///< it did not converge, but came back to where it had been
+  bool goes_round = false;   ///< it did not converge: go_round()
   bool is_explained = false; ///< `failure` says what to do, too, and it is not the iterations' fault
   unsigned int linear_iterations = 0;
   std::string note; ///< of the linear solver, for the user; lines
@@ -73,6 +73,10 @@ struct NewtonReport {
     hardest = next.hardest;
   }
 };
+
+/// Whether the last residuals rise and fall, and are those of two to four iterations before, again and again:
+/// Newton's method goes to and fro between the same states.
+bool go_round(const std::vector<NewtonIteration> &iterations);
 
 /// Part of the force scale that round-off of contact's penalties may leave as residual: forces are then as
 /// exact as users of contact by penalties may hope for, and two digits better than noise. Above that they are

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Iterations that go round are told from those that stand still, or get on slowly.
+#include "../testing.h"
+#include "billet/solve/newton.h"
+
+#include <cmath>
+#include <functional>
+
+using namespace billet;
+using billet::testing::check;
+
+namespace {
+
+bool go_round_with(const std::function<double(int)> &residual, const int n = 20) {
+  std::vector<NewtonIteration> iterations;
+  for (int i = 0; i < n; ++i)
+    iterations.push_back({residual(i), 0., 1.});
+  return go_round(iterations);
+}
+
+} // namespace
+
+int main() {
+  check("two states by turns", go_round_with([](const int i) { return i % 2 == 0 ? 1e-5 : 1e-3; }));
+  check("as good as the same",
+        go_round_with([](const int i) { return (i % 2 == 0 ? 1e-5 : 1e-3) * (1. + 0.005 * std::sin(i)); }));
+  check("three", go_round_with([](const int i) { return 1. + i % 3; }));
+  check("four", go_round_with([](const int i) { return i % 2 == 0 ? 1. : 5. + i % 4; }));
+  check("after a while only", go_round_with([](const int i) { return i < 8 ? 1e3 / (1. + i) : 1. + i % 2; }));
+  check("not yet", !go_round_with([](const int i) { return i % 2 == 0 ? 1e-5 : 1e-3; }, 11));
+  check("it stands still", !go_round_with([](const int) { return 1e-3; }));
+  check("it gets on slowly", !go_round_with([](const int i) { return std::pow(0.99, i); }));
+  check("up and down, and on", !go_round_with([](const int i) { return (1. + i % 2) * std::pow(0.9, i); }));
+  check("without order", !go_round_with([](const int i) { return 1.5 + std::sin(i * i); }));
+  return testing::exit_code();
+}
