@@ -397,15 +397,16 @@ void tell_errors(ErrorReport report, const Solution &solution, const Discretizat
 }
 
 ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
-  const ErrorControl::Estimate estimate = watch.control().estimate();
+  const ErrorWatch::Belief belief = watch.belief();
+  const ErrorControl::Estimate &estimate = belief.estimate;
   ErrorReport result;
-  result.of_what = "forces";
-  result.is_known = watch.control().has_forces();
+  result.of_what = belief.of_what;
+  result.is_known = belief.has_results;
   result.sources = {
       {"steps", estimate.steps,
        "try a smaller 'Largest step' or 'Initial step': no step is taken back for its error, and "
        "where contacts come and go their estimate is on the safe side",
-       !watch.measures_steps() || watch.control().n_measurements() > 0},
+       !watch.measures_steps() || watch.n_measurements() > 0},
       {"penetrations", estimate.penetration,
        watch.controls_penetration()
            ? "what they are at the start, and where much begins to touch at once, is known afterwards only: "
@@ -413,7 +414,7 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
              "a smaller 'Initial step', or a 'Penetration tolerance' of your own in every pair"
            : "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error in all "
              "pairs",
-       !watch.measures_penetration() || watch.control().knows_penetration()},
+       !watch.measures_penetration() || belief.knows_penetration},
       {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
   result.costs = {{"steps taken", report.step},
                   {"Newton iterations", report.total_iterations},
@@ -457,8 +458,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       });
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
+  double errors_since = 0.;
   if (resumption != nullptr) {
     control.begin(resumption->report.time, 0);
+    errors_since = resumption->report.time;
     if (watch)
       watch->begin(resumption->report.time);
     if (resumption->reader.has("steps"))
@@ -468,12 +471,15 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         continued = resumption->report.is_exact ? totals.at(0) : 0.;
         report.total_iterations = static_cast<unsigned int>(totals.at(1));
         report.total_cuts = control.n_cuts();
-        if (watch && resumption->reader.has("errors"))
-          watch->load(resumption->reader);
-        if (errors && resumption->reader.has("errors"))
+        if (watch && watch->load(resumption->reader))
+          errors_since = 0.;
+        if (errors && resumption->reader.has("errors")) {
           errors->load(resumption->reader);
+          errors_since = 0.;
+        }
       });
   }
+  const std::array<bool, 3> free_directions = scene.free_directions();
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
   if (resumption != nullptr)
@@ -511,7 +517,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       }
       if (errors) {
         const double factor = errors->step_factor();
-        errors->add(control.time(), problem.state().energies);
+        errors->add(control.time(), problem.state().energies,
+                    carried_energy(free_directions, problem.state().momentum, problem.mass()));
         if (errors->step_factor() < factor)
           control.limit(errors->step_factor() * report.length);
       }
@@ -565,10 +572,14 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       throw SolutionFailure(explain_failure(parameters, report, from, to, stability.has_unstable_bodies()));
     }
   }
-  if (watch)
-    tell_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
+  if (watch) {
+    ErrorReport believed = make_report(*watch, report);
+    believed.since = errors_since;
+    tell_errors(std::move(believed), problem, discretization, parameters, outputs);
+  }
   if (errors) {
     ErrorReport believed = make_report(*errors, "try a smaller 'Largest step'");
+    believed.since = errors_since;
     believed.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
     tell_errors(std::move(believed), problem, discretization, parameters, outputs);
   }
@@ -637,9 +648,11 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   if (parameters.target_error > 0.)
     errors = std::make_unique<EnergyErrors>(parameters.target_error);
   unsigned int balanced_step = 0; // the last at which the energies were seen to balance
+  double errors_since = 0.;
   if (resumption != nullptr) {
     resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
     problem.plan_to(events.next(problem.time()));
+    errors_since = problem.time();
     if (resumption->report.is_exact && resumption->reader.has("rows"))
       resumption->reader.in("rows", [&] {
         // Of another interval the next row is due at once.
@@ -648,10 +661,12 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         balanced_step = static_cast<unsigned int>(resumption->reader.number("balanced step"));
         if (errors && resumption->reader.has("errors")) {
           errors->load(resumption->reader);
+          errors_since = 0.;
           problem.shorten_steps(errors->step_factor());
         }
       });
   }
+  const std::array<bool, 3> free_directions = scene.free_directions();
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
   if (resumption != nullptr)
@@ -773,7 +788,9 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       look_at_stability();
       stop_on_drift(is_finished);
       if (errors) {
-        errors->add(problem.time(), problem.state().energies);
+        errors->add(
+            problem.time(), problem.state().energies,
+            carried_energy(free_directions, problem.state().momentum, problem.mass() + problem.added_mass()));
         problem.shorten_steps(errors->step_factor());
       }
     }
@@ -800,6 +817,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     report.costs = {{"steps taken", problem.n_steps()},
                     {"element updates", static_cast<double>(problem.n_steps()) *
                                             static_cast<double>(discretization.n_global_elements())}};
+    report.since = errors_since;
     problem.update_state();
     tell_errors(report, problem, discretization, parameters, outputs);
   }

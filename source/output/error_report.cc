@@ -31,7 +31,13 @@ std::string ErrorReport::describe() const {
   const auto unknown =
       std::find_if(sources.begin(), sources.end(), [](const Source &source) { return !source.is_known; });
   text << "believed error " << (unknown == sources.end() ? "" : "at least ") << percent(total())
-       << " % of the " << of_what << " (";
+       << " % of the " << of_what;
+  if (since > 0.) {
+    text.precision(6);
+    text << " from time " << since << " on, since the run up to then kept no account of them";
+    text.precision(2);
+  }
+  text << " (";
   for (const auto &source : sources) {
     text << (&source == sources.data() ? "" : ", ") << source.name << " ";
     if (source.is_known)
@@ -71,6 +77,8 @@ void ErrorReport::write(const std::string &folder) const {
   };
   const bool all_known =
       std::all_of(sources.begin(), sources.end(), [](const Source &source) { return source.is_known; });
+  if (since > 0.)
+    file << "since," << since << "\n";
   file << "error," << believed(total(), all_known) << "\n";
   for (const auto &source : sources)
     file << source.name << "," << believed(source.error, source.is_known) << "\n";

@@ -54,7 +54,7 @@ constexpr std::array<Row, 33> rows = {{
     {implicit_dynamics, "Time stepping", "Initial step", "", "", "0.01 T"},
     {implicit_dynamics, "Time stepping", "Smallest step", "", "", "1e-7 T"},
     {implicit_dynamics, "Time stepping", "Largest step", "", "", "0.1 T"},
-    {implicit_dynamics, "Implicit dynamics", "Error tolerance", "2e-2", "1e-4", "0.1 E"},
+    {implicit_dynamics, "Implicit dynamics", "Error tolerance", "2e-2", "1e-4", "0.2 E 2e-2"},
     {implicit_dynamics, "Time stepping", "Few iterations", "8", "", "8"},
     {implicit_dynamics, "Time stepping", "Many iterations", "14", "", "14"},
     {implicit_dynamics, "Time stepping", "Growth factor", "2", "", "2"},

@@ -28,6 +28,23 @@ double evaluate_amplitude(const parameters::Amplitude &amplitude, const double t
   return values[i - 1] + weight * (values[i] - values[i - 1]);
 }
 
+std::vector<double> corners(const parameters::Amplitude &amplitude) {
+  constexpr double notable = 0.1;
+  std::vector<double> rates = {0.};
+  for (std::size_t i = 1; i < amplitude.times.size(); ++i)
+    rates.push_back((amplitude.values[i] - amplitude.values[i - 1]) /
+                    (amplitude.times[i] - amplitude.times[i - 1]));
+  rates.push_back(0.);
+  double greatest = 0.;
+  for (const double rate : rates)
+    greatest = std::max(greatest, std::abs(rate));
+  std::vector<double> times;
+  for (std::size_t i = 0; i < amplitude.times.size(); ++i)
+    if (std::abs(rates[i + 1] - rates[i]) > notable * greatest)
+      times.push_back(amplitude.times[i]);
+  return times;
+}
+
 namespace {
 
 /// "0,1" would be two values to muParser, of which it takes the last; its author meant 0.1.

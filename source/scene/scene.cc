@@ -390,7 +390,37 @@ std::vector<double> Scene::stops() const {
     for (const double time : {tool.removal_time(), tool.removal_time() + tool.release_time()})
       if (time < parameters_.time_stepping.end_time)
         times.push_back(time);
+  if (parameters_.time_stepping.scheme != parameters::TimeStepping::Scheme::explicit_dynamics)
+    add_corners(times);
   return times;
+}
+
+void Scene::add_corners(std::vector<double> &times) const {
+  const parameters::TimeStepping &stepping = parameters_.time_stepping;
+  for (const auto &amplitude : parameters_.amplitudes)
+    for (const double corner : corners(amplitude)) {
+      const bool is_new = std::none_of(times.begin(), times.end(), [&](const double time) {
+        return std::abs(time - corner) < stepping.smallest_step;
+      });
+      if (is_new && corner >= stepping.smallest_step && corner <= stepping.end_time - stepping.smallest_step)
+        times.push_back(corner);
+    }
+}
+
+std::array<bool, 3> Scene::free_directions() const {
+  std::array<bool, 3> are_free;
+  are_free.fill(tools_.empty());
+  for (unsigned int i = 0; i < 3; ++i)
+    for (const auto &body : parameters_.bodies) {
+      const auto &planes = body.symmetry_planes.value;
+      are_free[i] =
+          are_free[i] &&
+          std::none_of(planes.begin(), planes.end(),
+                       [i](const parameters::SymmetryPlane &plane) { return plane.normal[i] != 0.; }) &&
+          std::none_of(body.supports.begin(), body.supports.end(),
+                       [i](const parameters::Support &support) { return support.components[i]; });
+    }
+  return are_free;
 }
 
 void Scene::describe_capabilities(std::ostream &stream) const {
@@ -465,7 +495,14 @@ void Scene::describe(std::ostream &stream) const {
     stream << "Title          " << parameters_.title << "\n";
   if (parameters_.target_error > 0.)
     stream << "Target error   " << 100. * parameters_.target_error << " % of the "
-           << (parameters_.is_dynamic() ? "energies" : "forces")
+           << (parameters_.is_dynamic() ? "energies"
+               : std::any_of(tools_.begin(), tools_.end(),
+                             [](const Tool &tool) {
+                               return tool.control() == Tool::Control::force ||
+                                      tool.control() == Tool::Control::moment;
+                             })
+                   ? "forces, or of the travel of tools that loads drive"
+                   : "forces")
            << ", the mesh left out; controlled during the run, from\n";
   else
     stream << "Profile        " << parameters_.profile

@@ -134,7 +134,9 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   // So far steps since the last measurement count with c from there. Those that were measured now are known,
   // and those between have something in between: the geometric mean, so that what happens once, such as a
   // node that begins to slip, does not count for all.
-  const double between = slope > 0. ? std::sqrt(last_slope / slope) : 0.;
+  const double between = !(slope > 0.)                             ? 0.
+                         : tolerances_.stays && last_slope < slope ? 1.
+                                                                   : std::sqrt(last_slope / slope);
   const double h_squared = unmeasured_ - 2. * h * h;
   slopes_.resize(forces.size());
   errors_.resize(forces.size());
@@ -149,7 +151,8 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   // From here on this, unless it is much more than last time, for the same reason. Errors that turn around do
   // not add up.
   constexpr double most_sudden = 3.;
-  const double sudden = slope > most_sudden * last_slope ? most_sudden * last_slope / slope : 1.;
+  const double sudden =
+      slope > most_sudden * last_slope && !tolerances_.stays ? most_sudden * last_slope / slope : 1.;
   const bool has_turned = product(now, slopes_) < 0.;
   for (std::size_t i = 0; i < forces.size(); ++i)
     slopes_[i] = has_turned ? 0.5 * (slopes_[i] + sudden * now[i]) : sudden * now[i];
@@ -222,7 +225,7 @@ void ErrorControl::measure_penetration(const double penetration, const Forces &f
 }
 
 void ErrorControl::miss_measurement(const double h, const bool failed) {
-  if (failed && is_little_) { // nothing is gained by shorter ones
+  if (failed && is_little_ && !tolerances_.stays) { // nothing is gained by shorter ones
     until_measurement_ = interval_;
     return;
   }

@@ -58,6 +58,12 @@ ErrorControl::Tolerances tolerances_of(const Scene &scene) {
           !stresses_depend_on_steps(scene)};
 }
 
+ErrorControl::Tolerances tolerances_of_travels(const Scene &scene) {
+  ErrorControl::Tolerances tolerances = tolerances_of(scene);
+  tolerances.stays = true;
+  return tolerances;
+}
+
 } // namespace
 
 bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
@@ -65,7 +71,9 @@ bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
 }
 
 ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem)
-    : problem_(problem), errors_(tolerances_of(scene), scene.parameters().time_stepping.end_time),
+    : problem_(problem),
+      controls_(problem.result_names().size(),
+                ErrorControl(tolerances_of(scene), scene.parameters().time_stepping.end_time)),
       // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
       // surface about the square root of their number times theirs.
       residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
@@ -77,13 +85,67 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
                                     ? std::min(1., residual_of_measurements(scene.parameters().target_error) /
                                                        scene.parameters().solver.force_tolerance)
                                     : 1.) {
-  memory_.set(sizeof(*this));
+  for (std::size_t i = 1; i < controls_.size(); ++i)
+    controls_[i] = ErrorControl(tolerances_of_travels(scene), end_time_);
+  memory_.set(sizeof(*this) + controls_.size() * sizeof(ErrorControl));
   allow_penetration();
+}
+
+void ErrorWatch::begin(const double time) {
+  for (auto &control : controls_)
+    control.begin(time);
+}
+
+double ErrorWatch::longest_step() const {
+  double longest = controls_.front().longest_step();
+  for (const auto &control : controls_)
+    longest = std::min(longest, control.longest_step());
+  return longest;
+}
+
+bool ErrorWatch::wants_measurement(const double length) const {
+  return std::any_of(controls_.begin(), controls_.end(),
+                     [length](const ErrorControl &control) { return control.wants_measurement(length); });
+}
+
+bool ErrorWatch::wants_penetration() const {
+  return std::any_of(controls_.begin(), controls_.end(),
+                     [](const ErrorControl &control) { return control.wants_penetration(); });
+}
+
+double ErrorWatch::allowed_at_first() const {
+  double allowed = controls_.front().allowed_at_first();
+  for (const auto &control : controls_)
+    allowed = std::min(allowed, control.allowed_at_first());
+  return allowed;
+}
+
+void ErrorWatch::miss_measurement(const double length, const bool failed) {
+  for (auto &control : controls_)
+    control.miss_measurement(length, failed);
+}
+
+ErrorWatch::Belief ErrorWatch::belief() const {
+  const std::vector<std::string> names = problem_.result_names();
+  Belief belief;
+  for (std::size_t i = 0; i < controls_.size(); ++i) {
+    const ErrorControl::Estimate estimate = controls_[i].estimate();
+    if (controls_[i].has_forces() && (!belief.has_results || estimate.total() > belief.estimate.total()))
+      belief = {estimate, names[i], true, controls_[i].knows_penetration()};
+  }
+  if (!belief.has_results)
+    belief.of_what = names.front();
+  return belief;
 }
 
 void ErrorWatch::allow_penetration() {
   if (controls_penetration_)
-    problem_.set_penetration_allowed(errors_.penetration_allowed());
+    problem_.set_penetration_allowed(std::min_element(controls_.begin(), controls_.end(),
+                                                      [](const ErrorControl &a, const ErrorControl &b) {
+                                                        return a.penetration_allowed() <
+                                                               b.penetration_allowed();
+                                                      })
+                                         ->penetration_allowed());
 }
 
 void ErrorWatch::demand_accuracy(const bool is_measured) {
@@ -95,19 +157,19 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   const bool is_second = probe_length_ > 0.;
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
   // Of steps that are compared not the first: all have to go equally deep.
-  if (measures_penetration_ && errors_.wants_penetration() && (is_second || probe_length_ == 0.))
-    problem_.measure_penetration(errors_.allowed_at_first());
+  if (measures_penetration_ && wants_penetration() && (is_second || probe_length_ == 0.))
+    problem_.measure_penetration(allowed_at_first());
   return n_iterations;
 }
 
 unsigned int ErrorWatch::probe(StepControl &control, const double previous_step) {
-  if (!errors_.wants_measurement(control.next_step()))
+  if (!wants_measurement(control.next_step()))
     return 0;
   const double first = control.next_step(), end = control.time_after_next(),
                second = end - control.next_time();
   constexpr double alike = 0.01;
   if (!(std::abs(second - first) <= alike * first)) { // a stop is near; after it, then
-    errors_.miss_measurement(first, false);
+    miss_measurement(first, false);
     return 0;
   }
   demand_accuracy(true);
@@ -119,8 +181,8 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
     probe_end_ = end;
   } else {
     demand_accuracy(false);
-    errors_.miss_measurement(first, true);
-    control.limit(errors_.longest_step());
+    miss_measurement(first, true);
+    control.limit(longest_step());
   }
   return n_iterations;
 }
@@ -130,43 +192,46 @@ void ErrorWatch::take_measurement() {
   if (!measured)
     return;
   n_iterations_ += measured->n_iterations;
-  if (measured->without.empty())
-    errors_.miss_penetration(measured->penetration > 0.);
-  else
-    errors_.measure_penetration(measured->penetration, measured->forces, measured->without,
-                                residual_factor_ * measured->residual);
+  for (std::size_t i = 0; i < controls_.size(); ++i)
+    if (measured->without.empty())
+      controls_[i].miss_penetration(measured->penetration > 0.);
+    else
+      controls_[i].measure_penetration(measured->penetration, measured->with[i], measured->without[i],
+                                       residual_factor_ * measured->residual);
   allow_penetration();
 }
 
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
-  const ErrorControl::Forces forces = problem_.forces();
-  errors_.accept(length, forces, residual_factor_ * report.force, problem_.penetration());
+  const QuasiStatic::Results results = problem_.results();
+  for (std::size_t i = 0; i < controls_.size(); ++i)
+    controls_[i].accept(length, results[i], residual_factor_ * report.force, problem_.penetration());
   if (probe_length_ > 0. && control.time() < probe_end_) {
     control.plan(probe_length_);
     last_residual_ = report.force;
     return;
   }
   if (probe_length_ > 0.)
-    errors_.measure_steps(probe_length_, forces, probe_.forces,
-                          residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
+    for (std::size_t i = 0; i < controls_.size(); ++i)
+      controls_[i].measure_steps(probe_length_, results[i], probe_.results[i],
+                                 residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
   take_measurement();
   if (!measures_steps_)
     return;
   probe_length_ = 0.;
   demand_accuracy(false);
   last_residual_ = report.force;
-  control.limit(errors_.longest_step());
+  control.limit(longest_step());
 }
 
 void ErrorWatch::after_failure() {
   if (probe_length_ > 0.)
-    errors_.miss_measurement(probe_length_, true);
+    miss_measurement(probe_length_, true);
   probe_length_ = 0.;
   demand_accuracy(false);
 }
 
 std::string ErrorWatch::take_note(const StepControl &control) {
-  if (errors_.has_given_up() && !has_told_surrender_) {
+  if (controls_.front().has_given_up() && !has_told_surrender_) {
     has_told_surrender_ = true;
     return "Steps cannot be compared with ones of twice the length, which do not converge: what steps make "
            "of "
@@ -189,24 +254,41 @@ std::string ErrorWatch::take_note(const StepControl &control) {
 }
 
 void ErrorWatch::save(StateWriter &writer) const {
-  errors_.save(writer);
+  const std::vector<std::string> names = problem_.result_names();
+  for (std::size_t i = 0; i < controls_.size(); ++i)
+    writer.in(names[i], [&] {
+      controls_[i].save(writer);
+      // Between two steps that are compared with one: that one, too.
+      ErrorControl::save(writer, "probed", probe_length_ > 0. ? probe_.results[i] : ErrorControl::Forces());
+    });
   writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
-  // Between two steps that are compared with one: that one, too.
   writer.write("comparison", {probe_length_, probe_end_, last_residual_, probe_.newton.force});
-  ErrorControl::save(writer, "probed forces", probe_.forces);
 }
 
-void ErrorWatch::load(const StateReader &reader) {
-  errors_.load(reader);
+bool ErrorWatch::load(StateReader &reader) {
+  const std::vector<std::string> names = problem_.result_names();
+  probe_.results.assign(names.size(), {});
+  bool is_whole = true;
+  for (std::size_t i = 0; i < controls_.size(); ++i) {
+    const bool is_there = reader.has(names[i]); // else of a tool that is new
+    is_whole = is_whole && is_there;
+    if (is_there)
+      reader.in(names[i], [&] {
+        controls_[i].load(reader);
+        probe_.results[i] = ErrorControl::load(reader, "probed");
+      });
+  }
+  if (!reader.has("comparison"))
+    return false;
   allow_penetration();
   n_iterations_ = static_cast<unsigned int>(reader.read("iterations of measurements").at(0));
   const std::vector<double> comparison = reader.read("comparison");
-  probe_length_ = comparison.at(0);
+  probe_length_ = is_whole ? comparison.at(0) : 0.;
   probe_end_ = comparison.at(1);
   last_residual_ = comparison.at(2);
   probe_.newton.force = comparison.at(3);
-  probe_.forces = ErrorControl::load(reader, "probed forces");
   demand_accuracy(probe_length_ > 0.);
+  return is_whole;
 }
 
 } // namespace billet

@@ -170,7 +170,7 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
       break;
     }
     if (measures_penetration_ && !is_probing_ && !of_penetration_)
-      of_penetration_ = OfPenetration{find_penetration(), trial_forces(), {}, 0., 0};
+      of_penetration_ = OfPenetration{find_penetration(), trial_results(), {}, 0., 0};
     augment_contacts();
     if (n > 0)
       stiffen_slow_contacts(before, errors);

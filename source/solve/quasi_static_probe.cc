@@ -11,11 +11,29 @@ namespace billet {
 
 namespace {
 
-double size(const std::vector<dealii::Tensor<1, 3>> &forces) {
+double size(const std::vector<dealii::Tensor<1, 3>> &values) {
   double sum = 0.;
-  for (const auto &force : forces)
-    sum += force.norm();
+  for (const auto &value : values)
+    sum += value.norm();
   return sum;
+}
+
+/// The largest difference of a group, as part of it.
+double difference(const QuasiStatic::Results &a, const QuasiStatic::Results &b) {
+  double largest = 0.;
+  for (std::size_t group = 0; group < a.size(); ++group) {
+    std::vector<dealii::Tensor<1, 3>> change = a[group];
+    for (std::size_t i = 0; i < change.size(); ++i)
+      change[i] -= b[group][i];
+    const double scale = size(b[group]);
+    if (scale > 0.)
+      largest = std::max(largest, size(change) / scale);
+  }
+  return largest;
+}
+
+bool is_driven(const Tool &tool) {
+  return tool.control() == Tool::Control::force || tool.control() == Tool::Control::moment;
 }
 
 } // namespace
@@ -26,26 +44,43 @@ bool QuasiStatic::has_forces_of_contacts() const {
          std::any_of(pairs.begin(), pairs.end(), [](const auto &pair) { return !pair.is_self_contact; });
 }
 
-std::vector<dealii::Tensor<1, 3>> QuasiStatic::forces() const {
-  std::vector<dealii::Tensor<1, 3>> result;
+QuasiStatic::Results QuasiStatic::results() const {
+  Results results(1);
   for (const auto &load : state_.tool_loads)
-    result.push_back(load.force);
+    results[0].push_back(load.force);
   for (const auto &load : state_.body_pair_loads)
-    result.push_back(load.force);
+    results[0].push_back(load.force);
   if (!has_forces_of_contacts())
-    result.push_back(dealii::Tensor<1, 3>({support_forces_n_.l2_norm(), 0., 0.}));
-  return result;
+    results[0].push_back(dealii::Tensor<1, 3>({support_forces_n_.l2_norm(), 0., 0.}));
+  add_travels(offsets_n_, results);
+  return results;
 }
 
-std::vector<dealii::Tensor<1, 3>> QuasiStatic::trial_forces() const {
-  std::vector<dealii::Tensor<1, 3>> result(state_.tool_loads.size());
+QuasiStatic::Results QuasiStatic::trial_results() const {
+  Results results(1);
+  results[0].resize(state_.tool_loads.size());
   for (const auto &contact : contacts_)
-    result[contact.tool()] += contact.compute_load().force;
+    results[0][contact.tool()] += contact.compute_load().force;
   for (const auto &contact : body_contacts_)
-    result.push_back(contact->compute_load().force);
+    results[0].push_back(contact->compute_load().force);
   if (!has_forces_of_contacts())
-    result.push_back(dealii::Tensor<1, 3>({support_forces_.l2_norm(), 0., 0.}));
-  return result;
+    results[0].push_back(dealii::Tensor<1, 3>({support_forces_.l2_norm(), 0., 0.}));
+  add_travels(offsets_, results);
+  return results;
+}
+
+void QuasiStatic::add_travels(const std::vector<double> &offsets, Results &results) const {
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
+    if (is_driven(scene_.tools()[i]))
+      results.push_back({dealii::Tensor<1, 3>({offsets[i], 0., 0.})});
+}
+
+std::vector<std::string> QuasiStatic::result_names() const {
+  std::vector<std::string> names = {"forces"};
+  for (const auto &tool : scene_.tools())
+    if (is_driven(tool))
+      names.push_back("travel of '" + tool.name() + "'");
+  return names;
 }
 
 QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step) {
@@ -58,7 +93,7 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
   probe.newton = attempt_step(t, previous_step);
   is_probing_ = false;
   if (probe.newton.converged) {
-    probe.forces = trial_forces();
+    probe.results = trial_results();
     probe_ = std::make_unique<ProbedState>(ProbedState{t, trial_, offsets_});
   }
   probe.newton.linear_iterations = linear_->take_iterations();
@@ -67,7 +102,7 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
 }
 
 void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonReport &report) {
-  if (of_penetration_ && of_penetration_->forces.empty()) // of no use any more
+  if (of_penetration_ && of_penetration_->with.empty()) // of no use any more
     return;
   if (!of_penetration_ && (!(force_scale_ > 0.) || !(find_penetration() > 0.))) {
     of_penetration_ = OfPenetration(); // nothing touches
@@ -76,11 +111,11 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
   Epetra_Vector x(accepted), residual(accepted), dx(accepted);
   double left = 0.;
   if (of_penetration_) { // tractions have been augmented in this step
-    of_penetration_->without = trial_forces();
+    of_penetration_->without = trial_results();
     of_penetration_->residual = report.force;
     left = find_penetration() / of_penetration_->penetration;
   } else if (!(contacts_.empty() && body_contacts_.empty())) {
-    of_penetration_ = OfPenetration{find_penetration(), trial_forces(), {}, 0., 0};
+    of_penetration_ = OfPenetration{find_penetration(), trial_results(), {}, 0., 0};
     augment_contacts();
     // As far as the difference is known to some digits.
     constexpr unsigned int most_iterations = 4;
@@ -100,15 +135,12 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
       residual.Norm2(&norm);
       report.iterations.push_back({norm / force_scale_, std::abs(energy), 1.});
       of_penetration_->residual = norm / force_scale_;
-      auto change = trial_forces();
-      const double force = size(change);
-      for (std::size_t i = 0; i < change.size(); ++i)
-        change[i] -= of_penetration_->forces[i];
-      is_accurate = of_penetration_->residual * force <=
-                    std::max(accuracy_ * solver.force_tolerance * force, accurate * size(change));
+      is_accurate = of_penetration_->residual <=
+                    std::max(accuracy_ * solver.force_tolerance,
+                             accurate * difference(trial_results(), of_penetration_->with));
     }
     if (is_admissible && is_accurate) {
-      of_penetration_->without = trial_forces();
+      of_penetration_->without = trial_results();
       left = find_penetration() / of_penetration_->penetration;
     }
     for (auto &contact : contacts_)
@@ -121,21 +153,19 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
   // What is left of the penetrations goes on like this: a geometric series.
   constexpr double most_left = 0.8;
   left = std::isfinite(left) ? std::min(most_left, left) : 0.;
-  for (std::size_t i = 0; i < of_penetration_->forces.size(); ++i)
-    of_penetration_->without[i] +=
-        left / (1. - left) * (of_penetration_->without[i] - of_penetration_->forces[i]);
+  for (std::size_t group = 0; group < of_penetration_->with.size(); ++group)
+    for (std::size_t i = 0; i < of_penetration_->with[group].size(); ++i)
+      of_penetration_->without[group][i] +=
+          left / (1. - left) * (of_penetration_->without[group][i] - of_penetration_->with[group][i]);
 }
 
 bool QuasiStatic::allow_less_penetration() {
   if (!of_penetration_ || of_penetration_->without.empty())
     return false;
-  auto change = of_penetration_->without;
-  for (std::size_t i = 0; i < change.size(); ++i)
-    change[i] -= of_penetration_->forces[i];
-  const double error = size(change), allowed = allowed_at_measurement_ * size(of_penetration_->forces);
-  if (!(error > allowed && allowed > 0.))
+  const double error = difference(of_penetration_->without, of_penetration_->with);
+  if (!(error > allowed_at_measurement_ && allowed_at_measurement_ > 0.))
     return false;
-  penetration_allowed_ = std::max(1., of_penetration_->penetration * allowed / error);
+  penetration_allowed_ = std::max(1., of_penetration_->penetration * allowed_at_measurement_ / error);
   return true;
 }
 

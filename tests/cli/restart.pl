@@ -135,6 +135,13 @@ for my $types (['double', 'float'], ['float', 'double'])
     return ($text =~ /^Goes on from in_$from/m ? '' : "says $text") || is('end', $rest[-1][1], $whole[-1][1]);
   };
 }
+check 'a target error after a run without one: from then on', sub {
+  scene('aimed_late.prm', $block, "Output: Folder = aimed_late$extra{aimed}");
+  my $text = runs(0, on(1, '--restart', 'block1.whole/checkpoint_00003.h5', 'aimed_late.prm'));
+  my ($time) = $text =~ /^Goes on from .* at time (\S+)$/m;
+  return $text =~ /^Target error 1 %: believed error [\d.e-]+ % of the forces from time \Q$time\E on, since the run up to then/m
+    && read_text('aimed_late/believed_error.csv') =~ /^since,\Q$time\E$/m ? '' : "says $text";
+};
 check 'HDF5 pictures go on', sub {
   scene('hdf5.prm', $block, 'Output: Folder = hdf5 & Output: Format = hdf5', 'set Every steps = 2');
   runs(0, on(1, 'hdf5.prm'));

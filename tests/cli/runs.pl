@@ -231,6 +231,35 @@ check 'a target error that is missed is told', sub {
     . ' & Time stepping: Largest step = 0.5 & top on die: Penetration tolerance = 1e-6');
   return $said =~ /^The target was not reached: steps make most of the error; try a smaller 'Largest step'/m ? '' : "says $said";
 };
+# An amplitude that turns back at 0.7371, a straight point at 0.3, and another one, unused.
+my $turning = 'ramp: Times = 0, 0.3, 0.7371, 1 & ramp: Values = 0, 0.0407, 0.1, 0.05';
+check 'steps end where an amplitude turns, and nowhere else', sub {
+  for my $steps ($open, 'Target error = 1 % & ' . $open, $fixed) {
+    my $folder = billet("$turning & $steps");
+    my @times = @{history($folder)->{time}};
+    return "$steps: steps end at @times" unless grep { abs($_ - 0.7371) < 1e-9 } @times;
+  }
+  my $folder = billet("$turning & Time stepping: Initial step = 0.4 & Time stepping: Largest step = 0.4");
+  my @times = @{history($folder)->{time}};
+  return (grep { abs($_ - 0.3) < 1e-3 } @times) ? "steps end at @times" : '';
+};
+check 'a target error knows of amplitudes that turn', sub {
+  my $folder = billet("$turning & Target error = 0.5 % & $open");
+  my $exact = billet("$turning & $fixed & Time stepping: Initial step = 0.002 & top on die: Penetration tolerance = 1e-4");
+  return near('plastic work', last_of($folder, 'plastic_work'), last_of($exact, 'plastic_work'), 0.005);
+};
+my $driven = 'Motion: Translation = 0 ; 0 ; 0 & Motion: Force = 40*t & Motion: Force direction = 0, 0, -1';
+check 'of a tool that a force drives the travel is what errors are parts of', sub {
+  my $exact = billet("$driven & $fixed & Time stepping: Initial step = 0.002 & top on die: Penetration tolerance = 1e-4");
+  for my $target (3, 0.5) {
+    my $folder = billet("$driven & Target error = $target % & $open");
+    return "says $said" unless $said =~ /^Target error $target %: believed error ([-\d.e]+) % of the travel of 'die' \(/m;
+    return "believes $1 %" unless $1 <= $target;
+    my $fault = near('travel', last_of($folder, 'die.travel_z'), last_of($exact, 'die.travel_z'), $target / 100);
+    return "$target %: $fault" if $fault;
+  }
+  return '';
+};
 check 'penalties alone are measured, too', sub {
   my $scene = "$fixed & Time stepping: Initial step = 0.002";
   my $exact = billet("$scene & top on die: Penetration tolerance = 1e-5");

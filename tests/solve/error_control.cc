@@ -159,6 +159,33 @@ int main() {
   rough.measure_penetration(100., force(0.1, 0.), force(0.1, 1e-3), 1e-3);
   check("what residuals make of penetrations does not count", rough.estimate().penetration == 0.);
   check("penetrations that make little are measured seldom", n_wanted > 2 && n_wanted < 8);
+  // A body that yields under a force: what it makes from then on counts in full, and a comparison that fails
+  // there is tried again with shorter steps, however little there was before.
+  const auto yielding = [](const bool stays) {
+    ErrorControl control({1e-3, 0., false, stays}, 1.);
+    double t = 0.;
+    for (const double difference : {0., 0., 1e-2})
+      for (unsigned int i = 0; i < 2; ++i) {
+        control.accept(0.01, force(t += 0.01, 0.), 0., 0.);
+        if (i == 1)
+          control.measure_steps(0.01, force(t, 0.), force(t, difference), 0.);
+      }
+    for (unsigned int i = 0; i < 4; ++i)
+      control.accept(0.01, force(t += 0.01, 0.), 0., 0.);
+    return control;
+  };
+  check("what stays counts in full, what may happen once does not",
+        yielding(true).estimate().steps > 1.7 * yielding(false).estimate().steps);
+  for (const bool stays : {true, false}) {
+    ErrorControl control({1e-3, 0., false, stays}, 1.);
+    for (unsigned int i = 1; i <= 2; ++i)
+      control.accept(0.01, force(0.01 * i, 0.), 0., 0.);
+    control.measure_steps(0.01, force(0.02, 0.), force(0.02, 0.), 0.);
+    for (unsigned int i = 0; i < 3; ++i)
+      control.miss_measurement(0.04, true);
+    check("failed comparisons after little shorten steps where that may grow at once",
+          stays ? control.longest_step() <= 0.02 : control.longest_step() >= 0.04);
+  }
   // Bodies that meet late: what is found before would be nothing, and believed for long.
   ErrorControl late({1e-3, 1e-3}, 1.);
   for (unsigned int i = 1; i <= 4; ++i)

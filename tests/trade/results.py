@@ -124,6 +124,25 @@ class TestForce(unittest.TestCase):
         # What lies before the first step of the reference is nobody's fault.
         self.assertLess(force.error(self.run_with(200, 1.0, 5.0), exact), 1e-9)
 
+    def test_corners(self):
+        """Curves with a corner where all steps end differ by what they are off, not by what interpolation makes of the corner."""
+        def run(n, off):
+            times = numpy.arange(1, n + 1) / n
+            return Run(history={"time": times, "die.force_z": off * (1 + times) + numpy.where(times < 0.5, times, 4 - 6 * times)})
+        centre, finest = run(10, 0.04), run(40, 0.0)
+        force = results.Force(centre, self.scene, None, 0.05, finest)
+        exact = force.values(run(40, 0.0))
+        # Before the end of the first step the difference is that at its end.
+        beyond_finest = 0.04 * (1 + numpy.maximum(force.times, 0.1))[:, None]
+        numpy.testing.assert_allclose(force.values(centre) - force.values(finest), beyond_finest, atol=1e-12)
+        for n in (10, 20, 40):
+            self.assertAlmostEqual(force.norm(force.values(run(n, 0.0)) - exact), 0.0)
+            numpy.testing.assert_allclose(force.error(run(n, 0.01), exact), force.error(run(40, 0.01), exact), rtol=6 / n)
+            self.assertEqual(force.error(run(n, 0.0), exact), 0.0)
+        # At the ends of the centre's steps a finer run would be judged by an interpolated corner.
+        coarse = results.Force(centre, self.scene, None, 0.05)
+        self.assertGreater(coarse.error(run(40, 0.0), coarse.values(run(10, 0.0))), 0.01)
+
     def test_columns(self):
         with self.assertRaisesRegex(TradeError, "no column 'die.force_y'; it has die.force_x, die.force_z"):
             results.Force(self.run_with(5), self.scene, ["die.force_y"], 0.05)

@@ -4,6 +4,7 @@
 import argparse
 import itertools
 import os
+import re
 import shlex
 import signal
 import sys
@@ -140,8 +141,19 @@ def pilot(scene, options):
         except knobs.CannotTurn as why:
             raise TradeError(f"--mesh: {why}") from None
     if options.until:
-        scene = scene.changed({"Time stepping/End time": knobs.shown(options.until * scene.end_time)})
+        end = knobs.shown(options.until * scene.end_time)
+        stops = [s.strip() for s in scene.get("Time stepping/Stops").split(",") if s.strip()]
+        scene = scene.changed({"Time stepping/End time": end})
+        if stops:
+            scene = scene.changed({"Time stepping/Stops": ", ".join(s for s in stops if float(s) <= float(end)) or None})
     return scene.changed(results.output_settings(scene))
+
+
+def read_presets(said):
+    """{path: value} of what a profile or a target error sets in a scene, as --check tells it."""
+    block = re.search(r"^(?:Profile|Target error) .*\n((?: {15}.+ = .*\n)*)", said, re.MULTILINE)
+    lines = [line.strip().partition(" = ") for line in block.group(1).splitlines()] if block else []
+    return {path.replace(" / ", "/"): value for path, _, value in lines}
 
 
 def is_number(text):
@@ -364,12 +376,12 @@ def refuse_outputs(weights, scene):
         raise TradeError("--outputs: the scene has no tool and no pair of bodies, hence no force")
 
 
-def make_force(options, scene, centre):
-    """The force, whether it counts or only judges; None where there is none."""
+def make_force(options, scene, centre, finest=None):
+    """The force, whether it counts or only judges; None where there is none. `finest`: the run with the shortest steps."""
     if not any(".force_" in column for column in centre.history):
         return None
     columns = [c.strip() for c in options.force.split(",")] if options.force else None
-    return results.Force(centre, scene, columns, options.window)
+    return results.Force(centre, scene, columns, options.window, finest)
 
 
 def make_outputs(options, scene, centre, force):
@@ -460,9 +472,10 @@ def main(arguments, beside):
     try:
         runner.files = original.files(file.parent)
         scene = pilot(original, options)
-        elements, against, _ = runner.check(scene)
+        elements, against, said = runner.check(scene)
         if against:
             raise TradeError(f"billet refuses the scene as it would be measured: {against}")
+        scene.presets = read_presets(said)
         if options.list:
             print(Candidates(scene, runner, options).tell())
             return 0
@@ -505,7 +518,8 @@ def sweep_over(options, runner, scene, elements, file, arguments):
     reference_results = [work.result(found, level) for _, level in plan.runs()]
     centre = reference_results[0]
     if centre.status == "ok":
-        force = make_force(options, scene, centre)
+        ended = [work.result(found, level) for _, level in plan.axes[0].levels]
+        force = make_force(options, scene, centre, [result for result in ended if result.status == "ok"][-1])
         outputs, weights = make_outputs(options, scene, centre, force)
     else:
         force, outputs, weights = None, [], {}

@@ -74,9 +74,11 @@ def variant(text, changes):
 
 
 class Scene:
-    """A scene's `text` and `entries`; `defaults` is the text that `billet --print-parameters` prints."""
+    """A scene's `text` and `entries`; `defaults` is the text that `billet --print-parameters` prints, `presets` are what its
+    profile or target error makes of entries that it does not set, {path: value}."""
 
-    def __init__(self, text, defaults=""):
+    def __init__(self, text, defaults="", presets=None):
+        self.presets = presets or {}
         self.text, self.entries = text, entries(text)
         self.sections = []
         for _, _, path, kind, _ in statements(text):
@@ -85,7 +87,8 @@ class Scene:
         self._default_text, self._defaults = defaults, entries(defaults)
 
     def changed(self, changes):
-        return Scene(variant(self.text, changes), self._default_text)
+        chooses_others = any(path in ("Profile", "Target error") for path in changes)
+        return Scene(variant(self.text, changes), self._default_text, {} if chooses_others else self.presets)
 
     def names(self, *path):
         """Of the subsections in this one."""
@@ -109,7 +112,7 @@ class Scene:
         return None
 
     def get(self, path):
-        return self.entries.get(path, self.default(path))
+        return self.entries.get(path, self.presets.get(path, self.default(path)))
 
     def number(self, path):
         return float(self.get(path) or 0)

@@ -19,6 +19,7 @@ struct ErrorReport {
   };
 
   std::string of_what;         ///< that the errors are parts of: forces, energies
+  double since = 0.;           ///< time from which on they are known; 0: from the start
   double target = 0.;          ///< 0: none was asked for
   bool is_known = true;        ///< whether there was something that errors can be parts of
   std::vector<Source> sources; ///< that are estimated

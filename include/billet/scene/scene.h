@@ -135,7 +135,12 @@ public:
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
   /// Times at which something begins or ends, so that a step has to end there.
+  /// Where steps are long, at corners() of amplitudes, too.
   std::vector<double> stops() const;
+
+  /// Directions, x, y, z, in which nothing but the bodies themselves holds or drives them: no support, no
+  /// symmetry plane, no tool.
+  std::array<bool, 3> free_directions() const;
 
   /// Builds the meshes of all bodies in one; see merge_bodies(). Then checks what needs a mesh: boundary ids,
   /// nodes on symmetry planes, supports, initial penetration. Throws InputError. Serial.
@@ -145,6 +150,7 @@ public:
   void describe(std::ostream &stream) const;
 
 private:
+  void add_corners(std::vector<double> &times) const;
   void describe_capabilities(std::ostream &stream) const;
   void make_pairs();
   void allow_for_pressure();

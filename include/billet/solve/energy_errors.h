@@ -6,11 +6,16 @@
 #include "billet/state.h"
 #include "billet/usage.h"
 
+#include <array>
+
 namespace billet {
 
 /// What a run of explicit or implicit dynamics believes its energies to be off, ∫|E − E*| dt over ∫Σ E* dt:
 /// by steps, from the drift of the energies and what the integration dissipates, and by penalties, from what
 /// their springs hold. Steps get shorter while the first is more than its part of the tolerance, and grows.
+///
+/// Energies are those without `carried`, of a motion that all share and nothing holds: an observer who moves
+/// along would not see it, nor is it at stake.
 ///
 /// A node that is g deep in is late by g/v, v its velocity: kinetic energy, which falls by F v in a unit of
 /// time, is off by F g = 2 E_c, and the springs hold E_c themselves.
@@ -19,8 +24,8 @@ public:
   /// `tolerance`: part of the energies.
   explicit EnergyErrors(const double tolerance) : tolerance_(tolerance) { memory_.set(sizeof(*this)); }
 
-  /// The energies at a later time than the last ones.
-  void add(double time, const EnergyLedger &energies);
+  /// The energies at a later time than the last ones; of them `carried`, see carried_energy().
+  void add(double time, const EnergyLedger &energies, double carried = 0.);
   /// What the step's length should be multiplied by from now on, from 0.5 to 1.
   double step_factor() const { return step_factor_; }
 
@@ -38,6 +43,11 @@ private:
   double step_factor_ = 1.;
   HeldMemory memory_{Capability::error_control};
 };
+
+/// ½ Σ p_i²/m over the directions that are free: the kinetic energy of a motion that all bodies share. The
+/// momentum and the mass of all of them; see Scene::free_directions().
+double carried_energy(const std::array<bool, 3> &free_directions, const dealii::Tensor<1, 3> &momentum,
+                      double mass);
 
 } // namespace billet
 

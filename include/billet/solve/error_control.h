@@ -29,6 +29,9 @@ public:
     double steps = 0.;       ///< part of the forces; 0: steps are left alone
     double penetration = 0.; ///< part of the forces; 0: penetrations are left alone
     bool fade = false;       ///< errors of steps fade, else they add up
+    /// What grows at once stays so, as the pace of a tool under a force does once its body yields; else it
+    /// may have happened once, such as a node that begins to slip, and does not count for all steps.
+    bool stays = false;
   };
   ErrorControl(const Tolerances &tolerances, const double end_time)
       : tolerances_(tolerances), end_time_(end_time) {}

@@ -8,11 +8,12 @@
 #include "billet/usage.h"
 
 #include <string>
+#include <vector>
 
 namespace billet {
 
-/// Lets an ErrorControl choose the steps of a static scene, and how deep contacts may go in: makes the
-/// measurements that it wants.
+/// Lets ErrorControls, one for each group of QuasiStatic::Results, choose the steps of a static scene, and
+/// how deep contacts may go in: makes the measurements that they want. The strictest decides.
 class ErrorWatch {
 public:
   /// Whether the scene has an 'Error tolerance' of steps or a 'Target error'.
@@ -20,7 +21,7 @@ public:
   ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem);
 
   /// Begins at this time, with another method's state.
-  void begin(const double time) { errors_.begin(time); }
+  void begin(double time);
 
   /// Before a step: where a measurement is due, tries one of twice the length and steps back. Iterations that
   /// this took. `previous_step`: see QuasiStatic::step().
@@ -30,7 +31,15 @@ public:
   /// After one that has failed.
   void after_failure();
 
-  const ErrorControl &control() const { return errors_; }
+  /// What is believed of the results that are off the most, and their name.
+  struct Belief {
+    ErrorControl::Estimate estimate;
+    std::string of_what;
+    bool has_results = false;       ///< that errors can be parts of
+    bool knows_penetration = false; ///< see ErrorControl
+  };
+  Belief belief() const;
+  unsigned int n_measurements() const { return controls_.front().n_measurements(); } ///< of steps
   /// Whether it chooses how deep contacts may go in; else the scene does.
   bool controls_penetration() const { return controls_penetration_; }
   /// Whether steps, or penetrations, are a source of errors in this scene.
@@ -42,19 +51,26 @@ public:
   unsigned int n_iterations() const { return n_iterations_; }
 
   void save(StateWriter &writer) const;
-  void load(const StateReader &reader);
+  /// False where what came before is not known, or not all of it: then errors are those since then.
+  bool load(StateReader &reader);
 
 private:
   void allow_penetration();
   void demand_accuracy(bool is_measured);
+  /// Of the strictest.
+  double longest_step() const;
+  bool wants_measurement(double length) const;
+  bool wants_penetration() const;
+  double allowed_at_first() const;
+  void miss_measurement(double length, bool failed);
   /// Where a measurement of steps is due. Iterations that it took.
   unsigned int probe(StepControl &control, double previous_step);
   /// What the last step's penetrations made, if it has measured that.
   void take_measurement();
 
   QuasiStatic &problem_;
-  ErrorControl errors_;
-  double residual_factor_; ///< of a force, over that of the residual
+  std::vector<ErrorControl> controls_; ///< of forces first
+  double residual_factor_;             ///< of a force, over that of the residual
   double end_time_;
   bool measures_steps_, measures_penetration_, controls_penetration_;
   double accuracy_of_measurements_; ///< residuals of steps that are compared, over those of others

@@ -33,6 +33,8 @@ public:
   Vector driving_forces(const Vector &forces) const;
   /// The solution, on constrained dofs as well as the homogeneous constraints have it.
   void set_accelerations(const Vector &accelerations);
+  /// Of all bodies. Collective.
+  double mass() const { return lumped_.l1_norm() / 3.; }
   bool has_mass(const std::size_t tool) const { return tools_[tool].inertia > 0.; }
   /// Of a tool with a mass: what it exerts, and should.
   void start_tool(std::size_t tool, double exerted, double load);

@@ -37,25 +37,34 @@ public:
   /// SolutionFailure, on all ranks, where the removal of tools has left a body free.
   NewtonReport step(double t, double previous_step);
 
+  /// What errors are parts of, each group by itself: the forces of the tools and of pairs of bodies, or,
+  /// without either or with pairs of a body with itself only, whose forces cancel out, the norm of the forces
+  /// of supports; then, of each tool that a force or a moment drives, which leave its own force no error, how
+  /// far that has taken it.
+  using Results = std::vector<std::vector<dealii::Tensor<1, 3>>>;
+  /// At the last accepted step. Their number is that of result_names().
+  Results results() const;
+  /// "forces", "travel of 'die'": of each group.
+  std::vector<std::string> result_names() const;
+
   /// A step that is tried and not taken.
   struct Probe {
     NewtonReport newton;
-    std::vector<dealii::Tensor<1, 3>> forces; ///< at its end, as forces()
+    Results results; ///< at its end
   };
   /// Tries the step to `t`, and leaves the state as it is. The next steps up to `t` begin their iterations
   /// from what it found.
   Probe probe(double t, double previous_step);
 
-  /// What penetrations make of the forces at the end of a step.
+  /// What penetrations make of the results at the end of a step.
   struct OfPenetration {
-    double penetration = 0.; ///< the deepest, as penetration(), before augmentation
-    std::vector<dealii::Tensor<1, 3>> forces,
-        without;                   ///< with it and without, as forces(); or empty: not found
+    double penetration = 0.;       ///< the deepest, as penetration(), before augmentation
+    Results with, without;         ///< or empty: not found
     double residual = 0.;          ///< of `without`, as part of the forces
     unsigned int n_iterations = 0; ///< that it took besides those of the step
   };
   /// The next step measures that, if it is accepted. Where tractions are not augmented in it, anyway, one or
-  /// a few iterations more do it, and are taken back. If they make more than this part of the forces, that
+  /// a few iterations more do it, and are taken back. If they make more than this part of a result, that
   /// step already augments tractions until no more than that is left.
   void measure_penetration(const double allowed = std::numeric_limits<double>::infinity()) {
     measures_penetration_ = true;
@@ -63,9 +72,6 @@ public:
   }
   /// Of the last accepted step; once.
   std::optional<OfPenetration> take_measurement() { return std::exchange(of_penetration_, {}); }
-  /// Of the tools and of pairs of bodies at the last accepted step; without either, or with pairs of a body
-  /// with itself only, whose forces cancel out, the norm of the forces of supports.
-  std::vector<dealii::Tensor<1, 3>> forces() const;
   /// Of the last accepted step: the deepest, as part of the 'Penetration tolerance', or of 1e-5 facets in
   /// pairs without one.
   double penetration() const { return penetration_; }
@@ -84,6 +90,9 @@ public:
 
   /// Of the last step that was tried, in dynamic scenes: see ImplicitMotion::step_error().
   double time_error() const { return time_error_; }
+
+  /// Of all bodies, in dynamic scenes.
+  double mass() const { return motion_ ? motion_->mass() : 0.; }
 
   /// Moves the tools to where they are at `t`; residuals and tangents are those of the step that ends there.
   void start_step(double t);
@@ -248,8 +257,10 @@ private:
   std::string describe_slipping_tools() const;
   /// Where the residual of a failed step is largest. Collective.
   std::string describe_residual();
-  /// forces(), at the trial state.
-  std::vector<dealii::Tensor<1, 3>> trial_forces() const;
+  /// results(), at the trial state.
+  Results trial_results() const;
+  /// The tools' travel by these offsets, a group each.
+  void add_travels(const std::vector<double> &offsets, Results &results) const;
   /// Completes what augmentations in the step have begun to measure, or makes it, from the state `accepted`
   /// of a step that has converged. Adds its iterations.
   void measure_penetration(const Epetra_Vector &accepted, NewtonReport &report);
