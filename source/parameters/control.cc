@@ -13,8 +13,10 @@ using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
 void Amplitude::declare(ParameterHandler &prm) {
-  prm.declare_entry("Times", "0, 1", Patterns::Anything(),
-                    "Strictly increasing; constant before the first and after the last. [time]");
+  prm.declare_entry(
+      "Times", "0, 1", Patterns::Anything(),
+      "Strictly increasing; constant before the first and after the last. Steps of implicit scenes end "
+      "where the rate changes by more than a tenth of the greatest. [time]");
   prm.declare_entry("Values", "0, 1", Patterns::Anything(), "As many as there are times. [any]");
   prm.declare_entry("Interpolation", "linear", Patterns::Selection("linear|smooth"),
                     "linear: straight lines between the times; smooth: quintic steps with vanishing first "
@@ -43,7 +45,8 @@ void TimeStepping::declare(ParameterHandler &prm) {
       "differences, in steps as short as elements and contact demand; implicit dynamics: motion by Newton's "
       "method, in steps as long as accuracy allows. What moves needs a density.");
   prm.declare_entry("Stops", "", Patterns::Anything(),
-                    "Times at which steps end besides, separated by commas. [time]");
+                    "Times at which steps end besides, separated by commas: corners of motions that are no "
+                    "amplitude's. [time]");
   prm.declare_entry(
       "Step control", "automatic", Patterns::Selection("automatic|fixed"),
       "automatic: the step follows the iterations that the last one needed, and a failed step is cut and "
