@@ -401,6 +401,7 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
   const ErrorControl::Estimate &estimate = belief.estimate;
   ErrorReport result;
   result.of_what = belief.of_what;
+  result.since = belief.since;
   result.is_known = belief.has_results;
   result.sources = {
       {"steps", estimate.steps,
@@ -426,6 +427,8 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
 ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_steps) {
   ErrorReport result;
   result.of_what = "energies";
+  result.since = errors.start();
+  result.is_known = errors.has_energies();
   result.sources = {{"steps", errors.steps(), shorter_steps},
                     {"penetrations", errors.penetration(), "try a larger 'Normal penalty'"}};
   return result;
@@ -458,12 +461,12 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       });
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
-  double errors_since = 0.;
   if (resumption != nullptr) {
     control.begin(resumption->report.time, 0);
-    errors_since = resumption->report.time;
     if (watch)
       watch->begin(resumption->report.time);
+    if (errors)
+      errors->begin(resumption->report.time);
     if (resumption->reader.has("steps"))
       resumption->reader.in("steps", [&] {
         control.load(resumption->reader);
@@ -471,12 +474,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         continued = resumption->report.is_exact ? totals.at(0) : 0.;
         report.total_iterations = static_cast<unsigned int>(totals.at(1));
         report.total_cuts = control.n_cuts();
-        if (watch && watch->load(resumption->reader))
-          errors_since = 0.;
-        if (errors && resumption->reader.has("errors")) {
+        if (watch)
+          watch->load(resumption->reader);
+        if (errors && resumption->reader.has("errors"))
           errors->load(resumption->reader);
-          errors_since = 0.;
-        }
       });
   }
   const std::array<bool, 3> free_directions = scene.free_directions();
@@ -572,14 +573,10 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       throw SolutionFailure(explain_failure(parameters, report, from, to, stability.has_unstable_bodies()));
     }
   }
-  if (watch) {
-    ErrorReport believed = make_report(*watch, report);
-    believed.since = errors_since;
-    tell_errors(std::move(believed), problem, discretization, parameters, outputs);
-  }
+  if (watch)
+    tell_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
   if (errors) {
     ErrorReport believed = make_report(*errors, "try a smaller 'Largest step'");
-    believed.since = errors_since;
     believed.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
     tell_errors(std::move(believed), problem, discretization, parameters, outputs);
   }
@@ -648,11 +645,11 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   if (parameters.target_error > 0.)
     errors = std::make_unique<EnergyErrors>(parameters.target_error);
   unsigned int balanced_step = 0; // the last at which the energies were seen to balance
-  double errors_since = 0.;
   if (resumption != nullptr) {
     resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
     problem.plan_to(events.next(problem.time()));
-    errors_since = problem.time();
+    if (errors)
+      errors->begin(problem.time());
     if (resumption->report.is_exact && resumption->reader.has("rows"))
       resumption->reader.in("rows", [&] {
         // Of another interval the next row is due at once.
@@ -661,7 +658,6 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         balanced_step = static_cast<unsigned int>(resumption->reader.number("balanced step"));
         if (errors && resumption->reader.has("errors")) {
           errors->load(resumption->reader);
-          errors_since = 0.;
           problem.shorten_steps(errors->step_factor());
         }
       });
@@ -817,7 +813,6 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     report.costs = {{"steps taken", problem.n_steps()},
                     {"element updates", static_cast<double>(problem.n_steps()) *
                                             static_cast<double>(discretization.n_global_elements())}};
-    report.since = errors_since;
     problem.update_state();
     tell_errors(report, problem, discretization, parameters, outputs);
   }

@@ -24,8 +24,9 @@ std::string ErrorReport::describe() const {
   if (target > 0.)
     text << "Target error " << percent(target) << " %: ";
   if (!is_known) {
-    text << "nothing is believed, since there were no " << of_what
-         << " that errors could be parts of: of a tool, between two bodies or, without these, of supports";
+    text << "nothing is believed, since there were no " << of_what << " that errors could be parts of"
+         << (of_what == "energies" ? " besides that of a motion that all bodies share"
+                                   : ": of a tool, between two bodies or, without these, of supports");
     return text.str();
   }
   const auto unknown =

@@ -16,7 +16,7 @@ void Amplitude::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Times", "0, 1", Patterns::Anything(),
       "Strictly increasing; constant before the first and after the last. Steps of implicit scenes end "
-      "where the rate changes by more than a tenth of the greatest. [time]");
+      "where the motion turns, begins, ends or changes its pace by more than half. [time]");
   prm.declare_entry("Values", "0, 1", Patterns::Anything(), "As many as there are times. [any]");
   prm.declare_entry("Interpolation", "linear", Patterns::Selection("linear|smooth"),
                     "linear: straight lines between the times; smooth: quintic steps with vanishing first "

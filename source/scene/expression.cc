@@ -29,20 +29,21 @@ double evaluate_amplitude(const parameters::Amplitude &amplitude, const double t
 }
 
 std::vector<double> corners(const parameters::Amplitude &amplitude) {
-  constexpr double notable = 0.1;
-  std::vector<double> rates = {0.};
-  for (std::size_t i = 1; i < amplitude.times.size(); ++i)
-    rates.push_back((amplitude.values[i] - amplitude.values[i - 1]) /
-                    (amplitude.times[i] - amplitude.times[i - 1]));
-  rates.push_back(0.);
-  double greatest = 0.;
-  for (const double rate : rates)
-    greatest = std::max(greatest, std::abs(rate));
-  std::vector<double> times;
-  for (std::size_t i = 0; i < amplitude.times.size(); ++i)
-    if (std::abs(rates[i + 1] - rates[i]) > notable * greatest)
-      times.push_back(amplitude.times[i]);
-  return times;
+  const std::vector<double> &t = amplitude.times, &values = amplitude.values;
+  // Of the greater of two rates; of the range of values.
+  constexpr double notable = 0.5, rounding = 1e-9;
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const double range = *greatest - *least;
+  std::vector<double> found;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double length = std::max(i > 0 ? t[i] - t[i - 1] : 0., i + 1 < t.size() ? t[i + 1] - t[i] : 0.);
+    const double before = i > 0 ? (values[i] - values[i - 1]) / (t[i] - t[i - 1]) : 0.,
+                 after = i + 1 < t.size() ? (values[i + 1] - values[i]) / (t[i + 1] - t[i]) : 0.;
+    const double change = std::abs(after - before);
+    if (change > notable * std::max(std::abs(before), std::abs(after)) && change * length > rounding * range)
+      found.push_back(t[i]);
+  }
+  return found;
 }
 
 namespace {

@@ -395,16 +395,56 @@ std::vector<double> Scene::stops() const {
   return times;
 }
 
+namespace {
+
+/// Whether an expression of time that drives something has the amplitude.
+bool drives_something(const std::string &amplitude, const parameters::Scene &scene) {
+  const auto has_it = [&amplitude](const std::string &text) {
+    return text.find(amplitude) != std::string::npos;
+  };
+  const auto any_has_it = [&](const std::array<std::string, 3> &texts) {
+    return std::any_of(texts.begin(), texts.end(), has_it);
+  };
+  const auto moves = [&](const parameters::Tool &tool) {
+    return any_has_it(tool.motion.translation.value) || has_it(tool.motion.rotation_angle.value) ||
+           has_it(tool.motion.load.value);
+  };
+  const auto is_driven = [&](const parameters::Body &body) {
+    return std::any_of(
+               body.supports.begin(), body.supports.end(),
+               [&](const parameters::Support &support) { return any_has_it(support.displacement.value); }) ||
+           std::any_of(body.loads.begin(), body.loads.end(), [&](const parameters::Load &load) {
+             return any_has_it(load.acceleration.value) || has_it(load.pressure.value);
+           });
+  };
+  return std::any_of(scene.tools.begin(), scene.tools.end(), moves) ||
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), is_driven);
+}
+
+} // namespace
+
 void Scene::add_corners(std::vector<double> &times) const {
   const parameters::TimeStepping &stepping = parameters_.time_stepping;
-  for (const auto &amplitude : parameters_.amplitudes)
+  const bool is_fixed = stepping.control == parameters::TimeStepping::Control::fixed;
+  // As good as the same: no step is worth the while.
+  constexpr double little = 1e-3;
+  const double apart = little * (is_fixed ? stepping.initial_step : stepping.largest_step);
+  std::vector<double> known = times;
+  known.insert(known.end(), stepping.stops.begin(), stepping.stops.end());
+  known.push_back(0.);
+  known.push_back(stepping.end_time);
+  for (const auto &amplitude : parameters_.amplitudes) {
+    if (!drives_something(amplitude.name, parameters_))
+      continue;
     for (const double corner : corners(amplitude)) {
-      const bool is_new = std::none_of(times.begin(), times.end(), [&](const double time) {
-        return std::abs(time - corner) < stepping.smallest_step;
-      });
-      if (is_new && corner >= stepping.smallest_step && corner <= stepping.end_time - stepping.smallest_step)
-        times.push_back(corner);
+      const bool is_new = std::none_of(known.begin(), known.end(),
+                                       [&](const double time) { return std::abs(time - corner) < apart; });
+      if (!is_new || corner < 0. || corner > stepping.end_time)
+        continue;
+      times.push_back(corner);
+      known.push_back(corner);
     }
+  }
 }
 
 std::array<bool, 3> Scene::free_directions() const {
@@ -414,7 +454,7 @@ std::array<bool, 3> Scene::free_directions() const {
     for (const auto &body : parameters_.bodies) {
       const auto &planes = body.symmetry_planes.value;
       are_free[i] =
-          are_free[i] &&
+          are_free[i] && body.loads.empty() &&
           std::none_of(planes.begin(), planes.end(),
                        [i](const parameters::SymmetryPlane &plane) { return plane.normal[i] != 0.; }) &&
           std::none_of(body.supports.begin(), body.supports.end(),

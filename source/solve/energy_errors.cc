@@ -9,9 +9,11 @@ namespace billet {
 
 void EnergyErrors::add(const double time, const EnergyLedger &energies, const double carried) {
   Usage::count(Capability::error_control, 1);
-  const double drift = std::abs(energies.drift()) + std::abs(energies.numerical),
-               contact = std::abs(energies.contact),
-               total = std::max(0., std::max(energies.total(), std::abs(energies.initial)) - carried);
+  const double whole = std::max(energies.total(), std::abs(energies.initial)), at_stake = whole - carried;
+  constexpr double rounding = 1e-9; // what is no more than that of the whole is nothing
+  const bool is_something = at_stake > rounding * whole;
+  const double drift = is_something ? std::abs(energies.drift()) + std::abs(energies.numerical) : 0.,
+               contact = is_something ? std::abs(energies.contact) : 0., total = is_something ? at_stake : 0.;
   if (has_begun_) {
     // Waves carry on what came late when its springs have let go: on tubes and bars as much again, as
     // measured.
@@ -43,7 +45,7 @@ double carried_energy(const std::array<bool, 3> &free_directions, const dealii::
 
 void EnergyErrors::save(StateWriter &writer) const {
   writer.write("errors", {has_begun_ ? 1. : 0., time_, last_drift_, last_contact_, last_total_, drift_,
-                          penetration_, total_, step_factor_});
+                          penetration_, total_, step_factor_, start_});
 }
 
 void EnergyErrors::load(const StateReader &reader) {
@@ -57,6 +59,7 @@ void EnergyErrors::load(const StateReader &reader) {
   penetration_ = state.at(6);
   total_ = state.at(7);
   step_factor_ = state.at(8);
+  start_ = state.size() > 9 ? state[9] : 0.;
 }
 
 } // namespace billet

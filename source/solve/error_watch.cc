@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/error_watch.h"
+#include "billet/solve/restart.h"
 #include "billet/usage.h"
 
 #include <algorithm>
@@ -131,7 +132,7 @@ ErrorWatch::Belief ErrorWatch::belief() const {
   for (std::size_t i = 0; i < controls_.size(); ++i) {
     const ErrorControl::Estimate estimate = controls_[i].estimate();
     if (controls_[i].has_forces() && (!belief.has_results || estimate.total() > belief.estimate.total()))
-      belief = {estimate, names[i], true, controls_[i].knows_penetration()};
+      belief = {estimate, names[i], controls_[i].start(), true, controls_[i].knows_penetration()};
   }
   if (!belief.has_results)
     belief.of_what = names.front();
@@ -168,7 +169,8 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
   const double first = control.next_step(), end = control.time_after_next(),
                second = end - control.next_time();
   constexpr double alike = 0.01;
-  if (!(std::abs(second - first) <= alike * first)) { // a stop is near; after it, then
+  if (control.ends_at_stop() ||                       // over which the longer step would cut a corner
+      !(std::abs(second - first) <= alike * first)) { // a stop is near; after it, then
     miss_measurement(first, false);
     return 0;
   }
@@ -231,7 +233,9 @@ void ErrorWatch::after_failure() {
 }
 
 std::string ErrorWatch::take_note(const StepControl &control) {
-  if (controls_.front().has_given_up() && !has_told_surrender_) {
+  const bool has_given_up = std::any_of(controls_.begin(), controls_.end(),
+                                        [](const ErrorControl &errors) { return errors.has_given_up(); });
+  if (has_given_up && !has_told_surrender_) {
     has_told_surrender_ = true;
     return "Steps cannot be compared with ones of twice the length, which do not converge: what steps make "
            "of "
@@ -256,7 +260,8 @@ std::string ErrorWatch::take_note(const StepControl &control) {
 void ErrorWatch::save(StateWriter &writer) const {
   const std::vector<std::string> names = problem_.result_names();
   for (std::size_t i = 0; i < controls_.size(); ++i)
-    writer.in(names[i], [&] {
+    writer.in(group("results", i), [&] {
+      writer.write_text("name", names[i]);
       controls_[i].save(writer);
       // Between two steps that are compared with one: that one, too.
       ErrorControl::save(writer, "probed", probe_length_ > 0. ? probe_.results[i] : ErrorControl::Forces());
@@ -265,21 +270,21 @@ void ErrorWatch::save(StateWriter &writer) const {
   writer.write("comparison", {probe_length_, probe_end_, last_residual_, probe_.newton.force});
 }
 
-bool ErrorWatch::load(StateReader &reader) {
+void ErrorWatch::load(StateReader &reader) {
   const std::vector<std::string> names = problem_.result_names();
   probe_.results.assign(names.size(), {});
   bool is_whole = true;
   for (std::size_t i = 0; i < controls_.size(); ++i) {
-    const bool is_there = reader.has(names[i]); // else of a tool that is new
-    is_whole = is_whole && is_there;
-    if (is_there)
-      reader.in(names[i], [&] {
+    const auto found = find_group(reader, "results", names[i]); // none of a tool that is new
+    is_whole = is_whole && found.has_value();
+    if (found)
+      reader.in(group("results", *found), [&] {
         controls_[i].load(reader);
         probe_.results[i] = ErrorControl::load(reader, "probed");
       });
   }
-  if (!reader.has("comparison"))
-    return false;
+  if (!reader.has("comparison")) // a run that kept no account
+    return;
   allow_penetration();
   n_iterations_ = static_cast<unsigned int>(reader.read("iterations of measurements").at(0));
   const std::vector<double> comparison = reader.read("comparison");
@@ -288,7 +293,6 @@ bool ErrorWatch::load(StateReader &reader) {
   last_residual_ = comparison.at(2);
   probe_.newton.force = comparison.at(3);
   demand_accuracy(probe_length_ > 0.);
-  return is_whole;
 }
 
 } // namespace billet

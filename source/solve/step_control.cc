@@ -39,6 +39,11 @@ double StepControl::next_time() const {
   return time_ + (remaining < 1.5 * step_ ? 0.5 * remaining : step_);
 }
 
+bool StepControl::ends_at_stop() const {
+  const auto next = std::upper_bound(stops_.begin(), stops_.end(), time_);
+  return next != stops_.end() && next_time() >= *next;
+}
+
 double StepControl::end_on_grid() const { return grid_start_ + (n_on_grid_ + 1) * step_; }
 
 double StepControl::next_step() const { return next_time() - time_; }

@@ -15,7 +15,7 @@ SWEEPS = {
         "mesh=0.5,1", "steps=10,20,40,80", "largest step=0.25,0.5,1,2", "penalty=0.1,1,10", "augmentation=0,0.01,0.0001",
         "tangent=exact,consistent,symmetrised lower", "tolerance=0.01,0.0001,1e-6,1e-8",
         "predictor=extrapolation,tangent", "solver=MUMPS,GMRES"], [["mesh=0.5,1", "steps=10,20,40"]]),
-    "billet_given_mesh": ("billet_upsetting", "--mesh 2 --reference-mesh given --force die.force_z --outputs force --target 0.5% --repeat 1", [
+    "billet_given_mesh": ("billet_upsetting", "--mesh 2 --reference-mesh given --force die.force_z --outputs force --target 0.8% --repeat 1", [
         "steps=10,20,40,80", "largest step=0.25,0.5,1,2", "penalty=0.1,1,10", "augmentation=0,0.01,0.0001",
         "tangent=exact,consistent,symmetrised lower", "tolerance=0.01,0.0001,1e-6,1e-8",
         "predictor=extrapolation,tangent", "solver=MUMPS,GMRES"], []),
@@ -26,7 +26,7 @@ SWEEPS = {
         "mesh=0.5,1,2", "steps=1,2,5,10", "penalty=0.1,1,10", "augmentation=0,0.01,0.001,0.0001", "tolerance=0.01,0.0001,1e-6",
         "facets=overlap,planed,bilinear", "solver=MUMPS,MUMPS symmetric,CG"], []),
     "wagoner_punch": ("wagoner_punch", "--mesh 0.5 --until 0.75 --reference-mesh 0.5,1,2 --force punch.force_z --outputs force,strain "
-                      "--line|0, 0, 0.5 to 66, 0, 0.5|--target 15%", [
+                      "--line|0, 0, 0.5 to 66, 0, 0.5|--target 15% --repeat 1", [
         "mesh=0.5,1", "largest step=0.5,1,2,4", "penalty=0.1,1,10", "tangent=exact,consistent,continuum", "tolerance=0.01,0.0001,1e-6"], []),
     "taylor_bar": ("taylor_bar", "--mesh 0.5 --reference-mesh 1,2,4 --reference|Bodies/bar/Element=mean dilatation|--outputs shape "
                    "--target 5% --time-limit 3000", [

@@ -142,6 +142,24 @@ check 'a target error after a run without one: from then on', sub {
   return $text =~ /^Target error 1 %: believed error [\d.e-]+ % of the forces from time \Q$time\E on, since the run up to then/m
     && read_text('aimed_late/believed_error.csv') =~ /^since,\Q$time\E$/m ? '' : "says $text";
 };
+check 'which the next one goes on with', sub {
+  scene('aimed_late.prm', $block, "Output: Folder = aimed_late$extra{aimed}", 'set Every steps = 1\\nset Keep = 100');
+  my $text = runs(0, on(1, '--restart', 'block1.whole/checkpoint_00002.h5', 'aimed_late.prm'));
+  my ($told) = $text =~ /^(Target error 1 %: .*Newton iterations), /m;
+  my @checkpoints = sort glob 'aimed_late/checkpoint_*.h5';
+  my ($again) = runs(0, on(1, '--restart', $checkpoints[1], 'aimed_late.prm')) =~ /^(Target error 1 %: .*Newton iterations), /m;
+  return $told =~ /from time \S+ on/ ? is('told', $again, $told) : "says $told";
+};
+check 'a tool that a force drives, with an account of its travel', sub {
+  my $edits = "$extra{aimed} & Motion: Translation = 0 ; 0 ; 0 & Motion: Force = 40*t & Motion: Force direction = 0, 0, -1";
+  (my $named = $block) =~ s/subsection die$/subsection die\/left/m;
+  $named =~ s/= die$/= die\/left/m;
+  scene('driven.prm', $named, "Output: Folder = driven$edits", 'set Every steps = 1\\nset Keep = 100');
+  my ($told) = runs(0, on(1, 'driven.prm')) =~ /^(Target error 1 %: .*Newton iterations), /m;
+  my @checkpoints = sort glob 'driven/checkpoint_*.h5';
+  my ($again) = runs(0, on(1, '--restart', $checkpoints[2], 'driven.prm')) =~ /^(Target error 1 %: .*Newton iterations), /m;
+  return $told =~ /of the travel of 'die\/left'/ ? is('told', $again, $told) : "says $told";
+};
 check 'HDF5 pictures go on', sub {
   scene('hdf5.prm', $block, 'Output: Folder = hdf5 & Output: Format = hdf5', 'set Every steps = 2');
   runs(0, on(1, 'hdf5.prm'));

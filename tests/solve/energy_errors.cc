@@ -39,6 +39,19 @@ int main() {
   for (const double w : {1., 1e3})
     check("as much for who moves along",
           near(watch(w).steps(), at_rest.steps(), 1e-9) && watch(w).step_factor() == at_rest.step_factor());
+  const auto flies = [](const double left) {
+    EnergyLedger ledger;
+    ledger.initial = 1e6;
+    EnergyErrors errors(1e-3);
+    for (unsigned int i = 0; i <= 100; ++i) {
+      ledger.kinetic = 1e6 * (1. + 1e-14 * i);
+      errors.add(0.01 * i, ledger, 1e6 - left);
+    }
+    return errors;
+  };
+  check("of one that flies round-off is nothing",
+        !flies(1e-8).has_energies() && flies(1e-8).step_factor() == 1.);
+  check("of what is a millionth it is little", flies(1.).has_energies() && flies(1.).steps() < 1e-5);
   check("what is held is no common motion",
         carried_energy({{false, false, false}}, dealii::Tensor<1, 3>({1., 1., 1.}), 1.), 0.);
   return testing::exit_code();

@@ -131,8 +131,7 @@ class TestCommand(unittest.TestCase):
                     ("predictor", "tangent"): error(), ("tangent", "consistent"): error()}
         for key, value in expected.items():
             self.assertEqual(found[key]["status"], "ok", key)
-            # Of curves that differ by a part of F = 1 + t, what differs before the end of the first step is not known: 1e-4 of it.
-            self.assertAlmostEqual(float(found[key]["difference_force"]), value, delta=5e-6, msg=str(key))
+            self.assertAlmostEqual(float(found[key]["difference_force"]), value, delta=3e-6, msg=str(key))
             self.assertAlmostEqual(float(found[key]["difference_shape"]), value * SHAPE, delta=3e-6, msg=str(key))
             self.assertAlmostEqual(float(found[key]["error"]), max(0.5 * (1 + SHAPE) * value, uncertainty), delta=3e-6, msg=str(key))
         self.assertEqual(found["mesh", "2"]["work"], str(8 * 50))  # 8 elements, 10 steps, 3 + 2 iterations each

@@ -248,9 +248,9 @@ class Force(Output):
     """Forces of tools, or of contact pairs of bodies where there are no tools: ∫|F − F*| / ∫|F*| over time, at the ends of
     steps. Explicit histories, which ring, by running means.
 
-    Curves of implicit runs are compared at the ends of steps of the `finest` of them: what another one differs by from that
-    is known at its own ends of steps, and interpolated between them. Curves have corners, which a coarse one cannot tell;
-    differences have hardly any (Roache and Knupp 1993, completed extrapolation)."""
+    What the reference extrapolates are curves at the ends of the centre's steps. Between them it goes as the `finest` run
+    does, by whose difference from it, which has hardly any corners, it is carried over: curves have corners, which no
+    interpolation of long steps can tell (Roache and Knupp 1993, completed extrapolation)."""
     name, meaning = "force", "∫|F − F*| / ∫|F*| over time"
 
     def __init__(self, result, scene, columns, window, finest=None):
@@ -261,7 +261,7 @@ class Force(Output):
                 have = sorted(c for c in result.history if ".force_" in c)
                 raise TradeError(f"--force: the history has no column '{column}'; it has {', '.join(have) or 'no force at all'}")
         self.window = window * scene.end_time if scene.is_explicit else 0.0
-        self.times = numpy.linspace(0.0, scene.end_time, 201)[1:] if self.window else self._curve(self.finest)[0][1:]
+        self.times = numpy.linspace(0.0, scene.end_time, 201)[1:] if self.window else self._curve(result)[0][1:]
         self.weights = measure.trapezoids(self.times)
 
     @staticmethod
@@ -281,10 +281,7 @@ class Force(Output):
         times, forces = self._curve(result)
         if self.window:
             return measure.running_mean(times, forces, self.window, self.times)
-        base_times, base = self._curve(self.finest)
-        # Before the end of the first step, in which forces may jump, the difference is that at its end.
-        known, differences = times[1:], forces[1:] - measure.interpolate(base_times, base, times[1:])
-        return base[1:] + measure.interpolate(known, differences, self.times)
+        return measure.interpolate(times, forces, self.times)
 
     def norm(self, forces):
         return measure.mean_length(forces, self.weights)
@@ -297,7 +294,9 @@ class Force(Output):
         times, forces = self._curve(result)
         inside = times >= self.times[0] * (1 - 1e-9)
         times, forces = times[inside], forces[inside]
-        exact = measure.interpolate(self.times, reference_values, times)
+        finest_times, finest = (values[1:] for values in self._curve(self.finest))
+        differences = reference_values - measure.interpolate(finest_times, finest, self.times)
+        exact = measure.interpolate(finest_times, finest, times) + measure.interpolate(self.times, differences, times)
         weights = measure.trapezoids(times) if len(times) > 1 else numpy.ones(1)
         return measure.mean_length(forces - exact, weights) / measure.mean_length(exact, weights)
 

@@ -16,9 +16,9 @@ namespace billet {
 /// Value of an amplitude at time t.
 double evaluate_amplitude(const parameters::Amplitude &amplitude, double t);
 
-/// Times, ascending, at which it changes its course: where the straight lines between its points, and the
-/// rest before and after them, differ in their rates by more than a tenth of the greatest. A step that goes
-/// on past one cuts the corner.
+/// Times, ascending, at which it turns back, begins, comes to rest, or becomes more than twice as fast or
+/// slow: where the rates of the straight lines between two pairs of its points, or the rest before and after
+/// them, differ by more than half of the greater. A step that goes on past one cuts the corner.
 std::vector<double> corners(const parameters::Amplitude &amplitude);
 
 /// A muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the position x,

@@ -135,11 +135,12 @@ public:
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
   /// Times at which something begins or ends, so that a step has to end there.
-  /// Where steps are long, at corners() of amplitudes, too.
+  /// Where steps are long, at corners() of amplitudes that drive something, too, unless they are as good as
+  /// at another stop.
   std::vector<double> stops() const;
 
   /// Directions, x, y, z, in which nothing but the bodies themselves holds or drives them: no support, no
-  /// symmetry plane, no tool.
+  /// symmetry plane, no tool; none where there are loads.
   std::array<bool, 3> free_directions() const;
 
   /// Builds the meshes of all bodies in one; see merge_bodies(). Then checks what needs a mesh: boundary ids,

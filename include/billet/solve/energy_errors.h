@@ -24,6 +24,12 @@ public:
   /// `tolerance`: part of the energies.
   explicit EnergyErrors(const double tolerance) : tolerance_(tolerance) { memory_.set(sizeof(*this)); }
 
+  /// Begins at this time.
+  void begin(const double time) { start_ = time; }
+  double start() const { return start_; }
+  /// Whether there has been energy that errors can be parts of.
+  bool has_energies() const { return total_ > 0.; }
+
   /// The energies at a later time than the last ones; of them `carried`, see carried_energy().
   void add(double time, const EnergyLedger &energies, double carried = 0.);
   /// What the step's length should be multiplied by from now on, from 0.5 to 1.
@@ -38,7 +44,7 @@ public:
 private:
   double tolerance_;
   bool has_begun_ = false;
-  double time_ = 0., last_drift_ = 0., last_contact_ = 0., last_total_ = 0.;
+  double start_ = 0., time_ = 0., last_drift_ = 0., last_contact_ = 0., last_total_ = 0.;
   double drift_ = 0., penetration_ = 0., total_ = 0.; ///< integrals
   double step_factor_ = 1.;
   HeldMemory memory_{Capability::error_control};

@@ -39,6 +39,8 @@ public:
   /// Begins at this time.
   void begin(const double time) { time_ = start_ = time; }
 
+  double start() const { return start_; }
+
   /// Whether the next two steps should be compared with one of twice the length. Where nothing acts yet, or
   /// no more, that would tell nothing.
   bool wants_measurement() const { return until_measurement_ == 0 && last_force_ > 0.; }

@@ -35,6 +35,7 @@ public:
   struct Belief {
     ErrorControl::Estimate estimate;
     std::string of_what;
+    double since = 0.;              ///< time from which on they are known
     bool has_results = false;       ///< that errors can be parts of
     bool knows_penetration = false; ///< see ErrorControl
   };
@@ -51,8 +52,8 @@ public:
   unsigned int n_iterations() const { return n_iterations_; }
 
   void save(StateWriter &writer) const;
-  /// False where what came before is not known, or not all of it: then errors are those since then.
-  bool load(StateReader &reader);
+  /// Where the run up to there kept no account of some results, or none, that goes on from begin().
+  void load(StateReader &reader);
 
 private:
   void allow_penetration();

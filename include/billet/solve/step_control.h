@@ -30,6 +30,8 @@ public:
   /// of the step. 0: does not count.
   void accept(unsigned int n_iterations, double error = 0.);
 
+  /// Whether that step ends at a stop.
+  bool ends_at_stop() const;
   /// End of the step after that, if it is as long, and as far as stops and output times let it.
   double time_after_next() const;
   /// Automatic steps: the next is no longer than this, nor shorter than the smallest one.
