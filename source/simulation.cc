@@ -481,6 +481,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       });
   }
   const std::array<bool, 3> free_directions = scene.free_directions();
+  const double mass = errors ? problem.mass() : 0.;
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
   if (resumption != nullptr)
@@ -519,7 +520,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       if (errors) {
         const double factor = errors->step_factor();
         errors->add(control.time(), problem.state().energies,
-                    carried_energy(free_directions, problem.state().momentum, problem.mass()));
+                    carried_energy(free_directions, problem.state().momentum, mass));
         if (errors->step_factor() < factor)
           control.limit(errors->step_factor() * report.length);
       }

@@ -39,6 +39,11 @@ inline void check(const std::string &name, const bool holds) {
   n_failures() += holds ? 0 : 1;
 }
 
+/// Whether a is b but for this part of it.
+inline bool near(const double a, const double b, const double part) {
+  return std::abs(a - b) <= part * std::abs(b);
+}
+
 /// The largest of many errors; not a number as soon as one of them is.
 class WorstError {
 public:

@@ -178,22 +178,15 @@ void RigidContact::introduce(std::vector<RigidContact> &contacts) {
         contact.others_.push_back(&other);
 }
 
-bool RigidContact::goes_on(const Tensor<1, 3> &position, const Tensor<1, 3> &normal,
-                           const double near) const {
+bool RigidContact::is_near_another(const Tensor<1, 3> &position, const double near,
+                                   const std::optional<Tensor<1, 3>> &facing) const {
   constexpr double alike = 0.5; // cosine
   return std::any_of(others_.begin(), others_.end(), [&](const RigidContact *other) {
     if (other->is_removed_)
       return false;
     const auto projection = other->tool_.surface().project(other->placement_.to_tool(position));
     return projection.exists && std::abs(projection.gap) < near &&
-           normal * (other->placement_.rotation * projection.normal) > alike;
-  });
-}
-
-bool RigidContact::is_near_another(const Tensor<1, 3> &position, const double near) const {
-  return std::any_of(others_.begin(), others_.end(), [&](const RigidContact *other) {
-    const auto projection = other->tool_.surface().project(other->placement_.to_tool(position));
-    return !other->is_removed_ && projection.exists && std::abs(projection.gap) < near;
+           (!facing || *facing * (other->placement_.rotation * projection.normal) > alike);
   });
 }
 
@@ -248,7 +241,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   state.is_behind = misses(node, position, on_tool, projection);
   state.is_passed = state.is_behind && projection.exists;
   const bool fades = !state.is_behind && !projection.exists && projection.beyond < width &&
-                     !goes_on(position, placement_.rotation * projection.normal, node.size);
+                     !is_near_another(position, node.size, placement_.rotation * projection.normal);
   Fading fading{};
   if (fades) {
     RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch, width);
@@ -594,7 +587,7 @@ double RigidContact::stiffness_against_tool() const {
     if (pair_.has_friction())
       sum += area * nodes_[i].stiffness.tangential * (a * a - normal * normal);
   };
-  if (is_removed_ || (tool_.control() != Tool::Control::force && tool_.control() != Tool::Control::moment))
+  if (is_removed_ || !tool_.is_driven())
     return sum;
   for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
     add(facet.nodes[corner], largest_area(facet, corner, area));

@@ -536,11 +536,7 @@ void Scene::describe(std::ostream &stream) const {
   if (parameters_.target_error > 0.)
     stream << "Target error   " << 100. * parameters_.target_error << " % of the "
            << (parameters_.is_dynamic() ? "energies"
-               : std::any_of(tools_.begin(), tools_.end(),
-                             [](const Tool &tool) {
-                               return tool.control() == Tool::Control::force ||
-                                      tool.control() == Tool::Control::moment;
-                             })
+               : std::any_of(tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.is_driven(); })
                    ? "forces, or of the travel of tools that loads drive"
                    : "forces")
            << ", the mesh left out; controlled during the run, from\n";

@@ -8,24 +8,10 @@ namespace billet {
 
 namespace {
 
-double sum_of_norms(const ErrorControl::Forces &forces) {
-  double sum = 0.;
-  for (const auto &force : forces)
-    sum += force.norm();
-  return sum;
-}
-
 double product(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
   double sum = 0.;
   for (std::size_t i = 0; i < a.size(); ++i)
     sum += a[i] * b[i];
-  return sum;
-}
-
-double distance(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
-  double sum = 0.;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += (a[i] - b[i]).norm();
   return sum;
 }
 
@@ -46,6 +32,20 @@ double left_where_errors_fade(const double h) {
 
 } // namespace
 
+double ErrorControl::size(const Forces &forces) {
+  double sum = 0.;
+  for (const auto &force : forces)
+    sum += force.norm();
+  return sum;
+}
+
+double ErrorControl::distance(const Forces &a, const Forces &b) {
+  double sum = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += (a[i] - b[i]).norm();
+  return sum;
+}
+
 double ErrorControl::force_scale() const {
   // What it is, has been, or will be in the mean if it goes on like this.
   constexpr double most_growth = 10.;
@@ -63,7 +63,7 @@ void ErrorControl::add_step_errors(const double h) {
 
 void ErrorControl::accept(const double h, const Forces &forces, const double residual,
                           const double penetration) {
-  const double force = sum_of_norms(forces);
+  const double force = size(forces);
   work_ += 0.5 * (last_force_ + force) * h;
   time_ += h;
   if (n_measurements_ == 0 && !has_given_up() && tolerances_.steps > 0.) // what steps make is not known yet
@@ -75,7 +75,7 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
     add_step_errors(h);
   unmeasured_ += h * h;
   unmeasured_span_ += h;
-  const double error = sum_of_norms(errors_);
+  const double error = size(errors_);
   steps_ += 0.5 * (last_error_ + error) * h;
   last_error_ = error;
   penetration_ += penetration_slope_ * penetration * force * h;
@@ -117,7 +117,7 @@ double ErrorControl::allowed_stretch(const double h) const {
 void ErrorControl::measure_steps(const double h, const Forces &forces, const Forces &of_one_step,
                                  const double residuals) {
   const bool is_first = slopes_.size() != forces.size();
-  const double difference = distance(of_one_step, forces), noise = residuals * sum_of_norms(forces);
+  const double difference = distance(of_one_step, forces), noise = residuals * size(forces);
   // Between what the difference is with and without the noise: as it was last time, if that is in between.
   const double least_slope = std::max(0., difference - noise) / (2. * h * h),
                most_slope = (difference + noise) / (2. * h * h);
@@ -145,7 +145,7 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
                      ? left_where_errors_fade(h) * now[i]
                      : errors_[i] + growth_of_errors * (2. * h * h * now[i] + h_squared * between * now[i] -
                                                         unmeasured_ * slopes_[i]);
-  const double error = sum_of_norms(errors_);
+  const double error = size(errors_);
   steps_ += 0.5 * (error - last_error_) * unmeasured_span_;
   last_error_ = error;
   // From here on this, unless it is much more than last time, for the same reason. Errors that turn around do
@@ -156,11 +156,12 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   const bool has_turned = product(now, slopes_) < 0.;
   for (std::size_t i = 0; i < forces.size(); ++i)
     slopes_[i] = has_turned ? 0.5 * (slopes_[i] + sudden * now[i]) : sudden * now[i];
-  last_slope_ = sum_of_norms(slopes_);
+  last_slope_ = size(slopes_);
   unmeasured_ = unmeasured_span_ = 0.;
   const double last_step = measured_step_, last_part = part_;
   measured_step_ = h;
-  part_ = difference / (h * sum_of_norms(forces));
+  const double force = size(forces); // 0 of a tool that has not moved yet, while others have
+  part_ = force > 0. ? difference / (h * force) : 0.;
   ++n_measurements_;
   n_failed_ = 0;
   const bool is_steady = slope <= 2. * last_slope && slope >= 0.5 * last_slope && !is_first;
@@ -193,7 +194,7 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
 
 void ErrorControl::measure_penetration(const double penetration, const Forces &forces, const Forces &without,
                                        const double residuals) {
-  const double force = sum_of_norms(forces), noise = residuals * force,
+  const double force = size(forces), noise = residuals * force,
                error = std::max(0., distance(forces, without) - noise);
   if (!(force > 0. && penetration > 0.)) {
     miss_penetration(false);

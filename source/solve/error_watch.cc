@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace billet {
@@ -73,8 +74,7 @@ bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
 
 ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem)
     : problem_(problem),
-      controls_(problem.result_names().size(),
-                ErrorControl(tolerances_of(scene), scene.parameters().time_stepping.end_time)),
+      controls_(1, ErrorControl(tolerances_of(scene), scene.parameters().time_stepping.end_time)),
       // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
       // surface about the square root of their number times theirs.
       residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
@@ -86,8 +86,7 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
                                     ? std::min(1., residual_of_measurements(scene.parameters().target_error) /
                                                        scene.parameters().solver.force_tolerance)
                                     : 1.) {
-  for (std::size_t i = 1; i < controls_.size(); ++i)
-    controls_[i] = ErrorControl(tolerances_of_travels(scene), end_time_);
+  controls_.resize(problem.result_names().size(), ErrorControl(tolerances_of_travels(scene), end_time_));
   memory_.set(sizeof(*this) + controls_.size() * sizeof(ErrorControl));
   allow_penetration();
 }
@@ -97,11 +96,11 @@ void ErrorWatch::begin(const double time) {
     control.begin(time);
 }
 
-double ErrorWatch::longest_step() const {
-  double longest = controls_.front().longest_step();
+double ErrorWatch::least(double (ErrorControl::*bound)() const) const {
+  double least = std::numeric_limits<double>::infinity();
   for (const auto &control : controls_)
-    longest = std::min(longest, control.longest_step());
-  return longest;
+    least = std::min(least, (control.*bound)());
+  return least;
 }
 
 bool ErrorWatch::wants_measurement(const double length) const {
@@ -112,13 +111,6 @@ bool ErrorWatch::wants_measurement(const double length) const {
 bool ErrorWatch::wants_penetration() const {
   return std::any_of(controls_.begin(), controls_.end(),
                      [](const ErrorControl &control) { return control.wants_penetration(); });
-}
-
-double ErrorWatch::allowed_at_first() const {
-  double allowed = controls_.front().allowed_at_first();
-  for (const auto &control : controls_)
-    allowed = std::min(allowed, control.allowed_at_first());
-  return allowed;
 }
 
 void ErrorWatch::miss_measurement(const double length, const bool failed) {
@@ -141,12 +133,7 @@ ErrorWatch::Belief ErrorWatch::belief() const {
 
 void ErrorWatch::allow_penetration() {
   if (controls_penetration_)
-    problem_.set_penetration_allowed(std::min_element(controls_.begin(), controls_.end(),
-                                                      [](const ErrorControl &a, const ErrorControl &b) {
-                                                        return a.penetration_allowed() <
-                                                               b.penetration_allowed();
-                                                      })
-                                         ->penetration_allowed());
+    problem_.set_penetration_allowed(least(&ErrorControl::penetration_allowed));
 }
 
 void ErrorWatch::demand_accuracy(const bool is_measured) {
@@ -159,7 +146,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
   // Of steps that are compared not the first: all have to go equally deep.
   if (measures_penetration_ && wants_penetration() && (is_second || probe_length_ == 0.))
-    problem_.measure_penetration(allowed_at_first());
+    problem_.measure_penetration(least(&ErrorControl::allowed_at_first));
   return n_iterations;
 }
 
@@ -184,7 +171,7 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
   } else {
     demand_accuracy(false);
     miss_measurement(first, true);
-    control.limit(longest_step());
+    control.limit(least(&ErrorControl::longest_step));
   }
   return n_iterations;
 }
@@ -222,7 +209,7 @@ void ErrorWatch::after_step(StepControl &control, const double length, const New
   probe_length_ = 0.;
   demand_accuracy(false);
   last_residual_ = report.force;
-  control.limit(longest_step());
+  control.limit(least(&ErrorControl::longest_step));
 }
 
 void ErrorWatch::after_failure() {

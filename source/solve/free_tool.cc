@@ -16,7 +16,7 @@ void FreeTool::kick(const double t, const ContactLoad &load, const double step_b
                     const bool is_first) {
   if (tool_.control() == Tool::Control::stop)
     has_stopped_ = has_stopped_ || resistance(load) >= tool_.load(t);
-  if (!is_free() || is_removed_)
+  if (!tool_.is_driven() || is_removed_)
     return;
   load_ = tool_.load(t);
   const double acceleration = (load_ - resistance(load)) / inertia_;
@@ -29,7 +29,7 @@ void FreeTool::move(const double t, const double dt) {
   offset_before_ = offset_;
   if (has_stopped_ || is_removed_)
     return;
-  if (is_free())
+  if (tool_.is_driven())
     offset_ += dt * rate_;
   now_ = tool_.placement(t + dt, offset_);
 }
@@ -56,7 +56,7 @@ double FreeTool::motion_work(const ContactLoad &local) const {
   const double turn = now_.rotation_angle - before_.rotation_angle;
   double work =
       local.force * (now_.translation - before_.translation) + local.moment * tool_.rotation_axis() * turn;
-  if (is_free())
+  if (tool_.is_driven())
     work -= resistance(local) * (offset_ - offset_before_);
   return 0.5 * work;
 }

@@ -43,10 +43,9 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
                   [](const Body &body) { return !body.loads.empty(); }))
     loads_ = std::make_unique<ExternalLoads>(scene, nodes_, inertia_.nodal_masses(nodes_));
   for (std::size_t i = 0; i < scene.tools().size(); ++i) {
-    const auto control = scene.tools()[i].control();
     const auto &motion = scene.parameters().tools[i].motion;
     tools_.emplace_back();
-    if (control != Tool::Control::force && control != Tool::Control::moment)
+    if (!scene.tools()[i].is_driven())
       continue;
     tools_.back().inertia = motion.inertia;
     tools_.back().rate = motion.initial_rate;

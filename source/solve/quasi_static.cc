@@ -501,11 +501,9 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   tool_failure_.clear();
   offsets_ = offsets_n_;
   std::vector<std::size_t> pressing;
-  for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
-    const auto control = scene_.tools()[i].control();
-    if ((control == Tool::Control::force || control == Tool::Control::moment) && !fading_forces_[i])
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
+    if (scene_.tools()[i].is_driven() && !fading_forces_[i])
       pressing.push_back(i);
-  }
   choose_unknown_tools(pressing);
   const bool extrapolates =
       scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;

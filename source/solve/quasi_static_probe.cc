@@ -11,29 +11,15 @@ namespace billet {
 
 namespace {
 
-double size(const std::vector<dealii::Tensor<1, 3>> &values) {
-  double sum = 0.;
-  for (const auto &value : values)
-    sum += value.norm();
-  return sum;
-}
-
 /// The largest difference of a group, as part of it.
 double difference(const QuasiStatic::Results &a, const QuasiStatic::Results &b) {
   double largest = 0.;
   for (std::size_t group = 0; group < a.size(); ++group) {
-    std::vector<dealii::Tensor<1, 3>> change = a[group];
-    for (std::size_t i = 0; i < change.size(); ++i)
-      change[i] -= b[group][i];
-    const double scale = size(b[group]);
+    const double scale = ErrorControl::size(b[group]);
     if (scale > 0.)
-      largest = std::max(largest, size(change) / scale);
+      largest = std::max(largest, ErrorControl::distance(a[group], b[group]) / scale);
   }
   return largest;
-}
-
-bool is_driven(const Tool &tool) {
-  return tool.control() == Tool::Control::force || tool.control() == Tool::Control::moment;
 }
 
 } // namespace
@@ -71,14 +57,14 @@ QuasiStatic::Results QuasiStatic::trial_results() const {
 
 void QuasiStatic::add_travels(const std::vector<double> &offsets, Results &results) const {
   for (std::size_t i = 0; i < scene_.tools().size(); ++i)
-    if (is_driven(scene_.tools()[i]))
+    if (scene_.tools()[i].is_driven())
       results.push_back({dealii::Tensor<1, 3>({offsets[i], 0., 0.})});
 }
 
 std::vector<std::string> QuasiStatic::result_names() const {
   std::vector<std::string> names = {"forces"};
   for (const auto &tool : scene_.tools())
-    if (is_driven(tool))
+    if (tool.is_driven())
       names.push_back("travel of '" + tool.name() + "'");
   return names;
 }

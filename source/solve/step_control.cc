@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace billet {
 
@@ -18,9 +19,13 @@ StepControl::StepControl(const parameters::TimeStepping &parameters, const doubl
   std::sort(stops_.begin(), stops_.end());
 }
 
-double StepControl::target() const {
+double StepControl::next_stop() const {
   const auto next = std::upper_bound(stops_.begin(), stops_.end(), time_);
-  const double target = next == stops_.end() ? parameters_.end_time : std::min(parameters_.end_time, *next);
+  return next != stops_.end() ? *next : std::numeric_limits<double>::infinity();
+}
+
+double StepControl::target() const {
+  const double target = std::min(parameters_.end_time, next_stop());
   if (interval_ == 0.)
     return target;
   const double output = (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_;
@@ -39,10 +44,7 @@ double StepControl::next_time() const {
   return time_ + (remaining < 1.5 * step_ ? 0.5 * remaining : step_);
 }
 
-bool StepControl::ends_at_stop() const {
-  const auto next = std::upper_bound(stops_.begin(), stops_.end(), time_);
-  return next != stops_.end() && next_time() >= *next;
-}
+bool StepControl::ends_at_stop() const { return next_time() >= next_stop(); }
 
 double StepControl::end_on_grid() const { return grid_start_ + (n_on_grid_ + 1) * step_; }
 

@@ -10,28 +10,16 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::near;
 using billet::testing::SceneRun;
 
 namespace {
 
-bool near(const double a, const double b, const double part) { return std::abs(a - b) <= part * std::abs(b); }
-
-double size(const std::vector<dealii::Tensor<1, 3>> &values) {
-  double sum = 0.;
-  for (const auto &value : values)
-    sum += value.norm();
-  return sum;
-}
-
 /// The largest of a group, as part of it.
 double difference(const QuasiStatic::Results &a, const QuasiStatic::Results &b) {
   double largest = a.size() == b.size() ? 0. : 1.;
-  for (std::size_t group = 0; group < a.size() && largest < 1.; ++group) {
-    std::vector<dealii::Tensor<1, 3>> change = a[group];
-    for (std::size_t i = 0; i < change.size(); ++i)
-      change[i] -= b[group].at(i);
-    largest = std::max(largest, size(change) / size(b[group]));
-  }
+  for (std::size_t group = 0; group < a.size() && largest < 1.; ++group)
+    largest = std::max(largest, ErrorControl::distance(a[group], b[group]) / ErrorControl::size(b[group]));
   return largest;
 }
 

@@ -7,10 +7,9 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::near;
 
 namespace {
-
-bool near(const double a, const double b, const double part) { return std::abs(a - b) <= part * std::abs(b); }
 
 /// Of two equal masses m that meet with ±v in a frame that goes by at w: a hundredth of what is at stake is
 /// missing from half of the time on.

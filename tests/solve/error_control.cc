@@ -10,6 +10,7 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::near;
 using Forces = ErrorControl::Forces;
 
 namespace {
@@ -61,8 +62,6 @@ Result run(const ErrorControl::Tolerances &tolerances, const double slope, const
   }
   return {control.estimate(), error_integral / work, n, control.n_measurements()};
 }
-
-bool near(const double a, const double b, const double part) { return std::abs(a - b) <= part * std::abs(b); }
 
 } // namespace
 

@@ -143,9 +143,8 @@ def pilot(scene, options):
     if options.until:
         end = knobs.shown(options.until * scene.end_time)
         stops = [s.strip() for s in scene.get("Time stepping/Stops").split(",") if s.strip()]
-        scene = scene.changed({"Time stepping/End time": end})
-        if stops:
-            scene = scene.changed({"Time stepping/Stops": ", ".join(s for s in stops if float(s) <= float(end)) or None})
+        left = {"Time stepping/Stops": ", ".join(s for s in stops if float(s) <= float(end)) or None} if stops else {}
+        scene = scene.changed({"Time stepping/End time": end, **left})
     return scene.changed(results.output_settings(scene))
 
 

@@ -15,6 +15,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -295,11 +296,10 @@ private:
                                    double area) const;
   /// What its springs stand on at most.
   double largest_area(const Facet &facet, unsigned int corner, double area) const;
-  /// Whether another tool has a surface there that faces like this (in space), nearer than `near`: one that
-  /// presses the other side of a sheet has not.
-  bool goes_on(const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &normal, double near) const;
-  /// Whether another tool has a surface there, nearer than `near`, whatever way it faces.
-  bool is_near_another(const dealii::Tensor<1, 3> &position, double near) const;
+  /// Whether another tool has a surface there, nearer than `near`; one that is `facing` like this (in space),
+  /// if that is given: one that presses the other side of a sheet does not.
+  bool is_near_another(const dealii::Tensor<1, 3> &position, double near,
+                       const std::optional<dealii::Tensor<1, 3>> &facing = {}) const;
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
   Springs springs_of(std::size_t i, double energy) const;

@@ -134,9 +134,8 @@ public:
   /// The scene's choice, `automatic` resolved.
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
-  /// Times at which something begins or ends, so that a step has to end there.
-  /// Where steps are long, at corners() of amplitudes that drive something, too, unless they are as good as
-  /// at another stop.
+  /// Times at which something begins or ends, so that a step has to end there. Where steps are long,
+  /// corners() of amplitudes that drive something, too, unless they are as good as at another stop.
   std::vector<double> stops() const;
 
   /// Directions, x, y, z, in which nothing but the bodies themselves holds or drives them: no support, no

@@ -26,6 +26,8 @@ public:
   Placement placement(double t, double offset = 0.) const;
   using Control = parameters::Motion::Control;
   Control control() const { return control_; }
+  /// Whether its travel follows from a force or a moment.
+  bool is_driven() const { return control_ == Control::force || control_ == Control::moment; }
   /// Of a tool with a force or a stop force; unit.
   const dealii::Tensor<1, 3> &force_direction() const { return force_direction_; }
   /// The force or moment with which it presses, or stops. Throws SolutionFailure where a force is negative.

@@ -31,7 +31,7 @@ public:
   bool has_energies() const { return total_ > 0.; }
 
   /// The energies at a later time than the last ones; of them `carried`, see carried_energy().
-  void add(double time, const EnergyLedger &energies, double carried = 0.);
+  void add(double time, const EnergyLedger &energies, double carried);
   /// What the step's length should be multiplied by from now on, from 0.5 to 1.
   double step_factor() const { return step_factor_; }
 

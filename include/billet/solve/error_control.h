@@ -24,6 +24,9 @@ class ErrorControl {
 public:
   using Force = dealii::Tensor<1, 3>;
   using Forces = std::vector<Force>;
+  /// Σ|F|, and Σ|F − F'|, of as many.
+  static double size(const Forces &forces);
+  static double distance(const Forces &a, const Forces &b);
 
   struct Tolerances {
     double steps = 0.;       ///< part of the forces; 0: steps are left alone

@@ -58,11 +58,10 @@ public:
 private:
   void allow_penetration();
   void demand_accuracy(bool is_measured);
-  /// Of the strictest.
-  double longest_step() const;
+  /// Such as the longest step, of the strictest.
+  double least(double (ErrorControl::*bound)() const) const;
   bool wants_measurement(double length) const;
   bool wants_penetration() const;
-  double allowed_at_first() const;
   void miss_measurement(double length, bool failed);
   /// Where a measurement of steps is due. Iterations that it took.
   unsigned int probe(StepControl &control, double previous_step);

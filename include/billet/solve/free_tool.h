@@ -28,7 +28,7 @@ public:
            start.rotation_angle != then.rotation_angle;
   }
   /// 1/m; 0 of a tool that moves as told, or is gone.
-  double inverse_inertia() const { return is_free() && !is_removed_ ? 1. / inertia_ : 0.; }
+  double inverse_inertia() const { return tool_.is_driven() && !is_removed_ ? 1. / inertia_ : 0.; }
 
   /// The offset's rate after the kick at time t, which lasts from half a step before to half a step after it.
   /// In the first kick of a run, from rest to half a step. `load` is what the tool does to the bodies. A tool
@@ -59,9 +59,6 @@ public:
   void begin(const double t) { before_ = now_ = tool_.placement(t); }
 
 private:
-  bool is_free() const {
-    return tool_.control() == Tool::Control::force || tool_.control() == Tool::Control::moment;
-  }
   /// Of the bodies against the offset.
   double resistance(const ContactLoad &load) const;
 

@@ -5,6 +5,7 @@
 #include "billet/contact/body_contact.h"
 #include "billet/contact/rigid_contact.h"
 #include "billet/forces/internal_forces.h"
+#include "billet/solve/error_control.h"
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
 #include "billet/solve/penalty_watch.h"
@@ -41,7 +42,7 @@ public:
   /// without either or with pairs of a body with itself only, whose forces cancel out, the norm of the forces
   /// of supports; then, of each tool that a force or a moment drives, which leave its own force no error, how
   /// far that has taken it.
-  using Results = std::vector<std::vector<dealii::Tensor<1, 3>>>;
+  using Results = std::vector<ErrorControl::Forces>;
   /// At the last accepted step. Their number is that of result_names().
   Results results() const;
   /// "forces", "travel of 'die'": of each group.

@@ -53,6 +53,7 @@ public:
   void begin(double time, unsigned int n_steps);
 
 private:
+  double next_stop() const; ///< infinite after the last
   double target() const;
   double end_on_grid() const;
   /// What the lengths of steps depend on.
