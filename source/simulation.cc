@@ -271,6 +271,11 @@ struct Outputs {
         writer(scene, discretization, scene.parameters().output.folder.value),
         snapshots(scene.parameters(), writer),
         progress(scene, is_first ? std::cout : silence, is_first && console_is_terminal()),
+        diagnostics(is_first ? std::function<void(Severity, const std::string &)>(
+                                   [this](const Severity severity, const std::string &text) {
+                                     progress.show_diagnostic(severity, text);
+                                   })
+                             : nullptr),
         checkpoints(scene.parameters().output, discretization.communicator()),
         signals(discretization.communicator()), scene_(scene), discretization_(discretization) {
     const std::string &folder = scene.parameters().output.folder.value;
@@ -355,6 +360,7 @@ struct Outputs {
   Snapshots snapshots;
   std::ostringstream silence;
   Progress progress;
+  Diagnostics diagnostics;
   Checkpoints checkpoints;
   Signals signals;
 
@@ -511,6 +517,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       throw;
     }
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
+    outputs.diagnostics.report(report.newton.diagnostics);
     if (report.newton.converged) {
       control.accept(static_cast<unsigned int>(report.newton.hardest), problem.time_error());
       if (watch) {

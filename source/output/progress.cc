@@ -84,6 +84,13 @@ void Progress::note(const std::string &text) {
   stream_ << text << std::endl;
 }
 
+void Progress::show_diagnostic(const Severity severity, const std::string &text) {
+  if (verbosity_ == Verbosity::quiet && severity == Severity::note)
+    return;
+  erase_bar();
+  stream_ << text << std::endl;
+}
+
 void Progress::accept(const StepReport &report, const SolutionState &state) {
   if (verbosity_ == Verbosity::quiet)
     return;

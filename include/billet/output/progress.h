@@ -2,6 +2,7 @@
 #ifndef BILLET_OUTPUT_PROGRESS_H
 #define BILLET_OUTPUT_PROGRESS_H
 
+#include "billet/diagnostics.h"
 #include "billet/output/history_file.h"
 
 #include <chrono>
@@ -29,6 +30,8 @@ public:
     if (!text.empty())
       note(text);
   }
+  /// A warning or an error, whatever the verbosity; a note only where there is a console at all.
+  void show_diagnostic(Severity severity, const std::string &text);
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
   /// Of an explicit scene, at its end: how long its steps took without output, by the clock and of the
