@@ -149,6 +149,30 @@ std::string Diagnostic::json() const {
   return dump(object);
 }
 
+std::string describe_diagnostic_kinds_as_json() {
+  Json kinds = Json::array();
+  for (const DiagnosticKind *kind : all_diagnostic_kinds())
+    kinds.push_back({{"key", kind->key},
+                     {"severity", to_string(kind->severity)},
+                     {"meaning", kind->meaning},
+                     {"remedy", kind->remedy}});
+  return kinds.dump(1);
+}
+
+std::string describe_refusal_as_json(const std::string &file, const Diagnostic &why) {
+  Json object;
+  object["file"] = file;
+  object["valid"] = false;
+  object["diagnostics"] = Json::array({Json::parse(why.json())});
+  return dump(object);
+}
+
+const Diagnostic *find(const DiagnosticList &list, const DiagnosticKind &kind) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const Diagnostic &diagnostic) { return &diagnostic.kind() == &kind; });
+  return found == list.end() ? nullptr : &*found;
+}
+
 void append(DiagnosticList &list, DiagnosticList more) {
   list.insert(list.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -164,6 +188,8 @@ void Diagnostics::open(const std::string &file_name, const bool continues) {
 }
 
 void Diagnostics::write_line(const std::string &line) {
+  if (!is_first_)
+    return;
   if (file_.is_open())
     file_ << line << std::endl; // at once: a run may end at any time
   else
@@ -174,10 +200,9 @@ void Diagnostics::report(const Diagnostic &diagnostic) {
   const auto [place, is_new] = index_.emplace(diagnostic.identity(), entries_.size());
   if (is_new) {
     entries_.push_back({diagnostic, 1, diagnostic.measure(), diagnostic.time()});
-    if (print_) {
+    write_line(diagnostic.json());
+    if (is_first_ && print_ && diagnostic.kind().severity != Severity::error) // main() prints those
       print_(diagnostic.kind().severity, diagnostic.text());
-      write_line(diagnostic.json());
-    }
     return;
   }
   Entry &entry = entries_[place->second];
@@ -242,7 +267,7 @@ std::vector<std::string> Diagnostics::repetitions() const {
   return lines;
 }
 
-void Diagnostics::write_summary(const int exit_code) {
+bool Diagnostics::write_summary(const int exit_code) {
   Json summary;
   summary["exit code"] = exit_code;
   for (const Severity severity : {Severity::error, Severity::warning, Severity::note})
@@ -264,8 +289,7 @@ void Diagnostics::write_summary(const int exit_code) {
   Json line;
   line["summary"] = summary;
   write_line(dump(line));
-  if (file_.is_open() && !file_.flush())
-    throw SolutionFailure(file_name_ + " cannot be written: is the disk full?");
+  return !file_.is_open() || file_.flush();
 }
 
 std::string Diagnostics::save() const {

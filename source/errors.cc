@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/errors.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include <deal.II/base/mpi.h>
 
 namespace billet {
@@ -11,16 +13,23 @@ enum class Failure { none = 0, input, solution, other };
 
 } // namespace
 
+InputError::InputError(const std::string &message) : InputError(diagnostic::bad_input, message) {}
+
+SolutionFailure::SolutionFailure(const std::string &message)
+    : SolutionFailure(diagnostic::solution_failed, message) {}
+
 void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
   Failure failure = Failure::none;
-  std::string message;
+  std::string message, key;
   try {
     action();
   } catch (const InputError &error) {
     failure = Failure::input;
+    key = error.diagnostic().kind().key;
     message = error.what();
   } catch (const SolutionFailure &error) {
     failure = Failure::solution;
+    key = error.diagnostic().kind().key;
     message = error.what();
   } catch (const std::exception &error) {
     failure = Failure::other;
@@ -36,11 +45,12 @@ void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
     return;
   const int kind = dealii::Utilities::MPI::broadcast(communicator, static_cast<int>(failure), speaker);
   message = dealii::Utilities::MPI::broadcast(communicator, message, speaker);
+  key = dealii::Utilities::MPI::broadcast(communicator, key, speaker);
   switch (static_cast<Failure>(kind)) {
   case Failure::input:
-    throw InputError(message);
+    throw InputError(diagnostic_kind(key), message);
   case Failure::solution:
-    throw SolutionFailure(message);
+    throw SolutionFailure(diagnostic_kind(key), message);
   default:
     throw std::runtime_error(message);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/output/checkpoint.h"
 #include "billet/scene/scene.h"
@@ -17,21 +18,28 @@ using billet::ExitCode;
 
 const char help[] =
     R"(Usage: mpirun -n N billet SCENE.prm      run a scene on N processes
-       billet --restart FILE SCENE.prm  go on from a checkpoint
+       billet --restart FILE SCENE.prm  resume from a checkpoint
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
        billet --print-parameters        every parameter with default, range, unit and meaning
+       billet --print-diagnostics       every message by its key, with meaning and remedy
        billet --version | --help
 
+With --json, --check prints one JSON object per scene and line, --print-parameters a JSON Schema of
+scenes, --print-diagnostics a JSON array.
+
 Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
-in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint.
+in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint;
+6 completed with warnings, and the scene says 'Warnings = errors'; 7 completed, and the estimated error
+exceeds the 'Target error'.
 )";
 
-enum class Task { run, check, print_parameters, version, help };
+enum class Task { run, check, print_parameters, print_diagnostics, version, help };
 
 struct CommandLine {
   Task task = Task::help;
   std::vector<std::string> scenes;
   std::string restart_file;
+  bool json = false;
 };
 
 [[noreturn]] void refuse(const std::string &argument) {
@@ -46,9 +54,13 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
       return {Task::help, {}, {}};
     if (argument == "--version")
       return {Task::version, {}, {}};
-    if (argument == "--print-parameters")
-      return {Task::print_parameters, {}, {}};
-    if (argument == "--check")
+    if (argument == "--json")
+      command.json = true;
+    else if (argument == "--print-parameters")
+      command.task = Task::print_parameters;
+    else if (argument == "--print-diagnostics")
+      command.task = Task::print_diagnostics;
+    else if (argument == "--check")
       command.task = Task::check;
     else if (argument == "--restart") {
       if (++next == arguments.end() || next->empty())
@@ -59,10 +71,14 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     else
       command.scenes.push_back(argument);
   }
+  if (command.task == Task::print_parameters || command.task == Task::print_diagnostics)
+    return command;
   if (command.scenes.empty())
     throw billet::InputError(std::string("command line: no scene file is named.\n") + help);
   if (command.task != Task::check) {
     command.task = Task::run;
+    if (command.json)
+      refuse("--json");
     if (command.scenes.size() > 1)
       refuse(command.scenes[1]);
   }
@@ -76,8 +92,8 @@ billet::parameters::Scene read_scene(const std::string &file, const std::string 
   return parameters;
 }
 
-void check(const std::string &file, const std::string &restart_file, const bool is_first) {
-  const auto parameters = read_scene(file, restart_file);
+void check(const std::string &file, const CommandLine &command, const bool is_first) {
+  const auto parameters = read_scene(file, command.restart_file);
   if (parameters.restart.is_wanted())
     const billet::CheckpointReader sound(MPI_COMM_WORLD, parameters.restart.file.value,
                                          parameters.restart.file.origin);
@@ -86,14 +102,33 @@ void check(const std::string &file, const std::string &restart_file, const bool 
     const billet::Scene scene(parameters);
     dealii::Triangulation<3> outline;
     scene.build_mesh(billet::MeshDetail::outline, outline);
-    if (is_first)
+    if (is_first && command.json)
+      std::cout << scene.describe_as_json() << "\n";
+    else if (is_first)
       scene.describe(std::cout);
   });
 }
 
-void say(const std::exception &error, const bool is_first) {
+template <class Error> void print_error(const Error &error, const bool is_first) {
   if (is_first)
-    std::cerr << "billet: " << error.what() << std::endl;
+    std::cerr << error.diagnostic().text() << std::endl;
+}
+
+/// As `--check --json` answers of a scene that is refused.
+void print_refusal(const std::string &file, const billet::InputError &error, const bool is_first) {
+  if (is_first)
+    std::cout << billet::describe_refusal_as_json(file, error.diagnostic()) << "\n";
+}
+
+void print_diagnostic_kinds(std::ostream &stream) {
+  stream
+      << "# Messages\n\n"
+         "Each message of a run has a key. `billet --print-diagnostics` prints this page; the messages of a "
+         "run stand in\n`diagnostics.jsonl` in its output folder.\n\n"
+         "| key | severity | meaning | remedy |\n|---|---|---|---|\n";
+  for (const billet::DiagnosticKind *kind : billet::all_diagnostic_kinds())
+    stream << "| `" << kind->key << "` | " << billet::to_string(kind->severity) << " | " << kind->meaning
+           << " | " << kind->remedy << " |\n";
 }
 
 ExitCode perform(const CommandLine &command, const bool is_first) {
@@ -109,15 +144,26 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
                 << billet::dealii_version << "\n";
     break;
   case Task::print_parameters:
-    if (is_first)
+    if (is_first && command.json)
+      billet::parameters::print_schema(std::cout);
+    else if (is_first)
       billet::parameters::print_all_parameters(std::cout);
+    break;
+  case Task::print_diagnostics:
+    if (is_first && command.json)
+      std::cout << billet::describe_diagnostic_kinds_as_json() << "\n";
+    else if (is_first)
+      print_diagnostic_kinds(std::cout);
     break;
   case Task::check:
     for (const auto &file : command.scenes)
       try {
-        check(file, command.restart_file, is_first);
+        check(file, command, is_first);
       } catch (const billet::InputError &error) { // of one scene; the others are checked all the same
-        say(error, is_first);
+        if (command.json)
+          print_refusal(file, error, is_first);
+        else
+          print_error(error, is_first);
         code = ExitCode::bad_input;
       }
     break;
@@ -140,14 +186,14 @@ int main(int argc, char *argv[]) {
   try {
     code = perform(read_command_line(std::vector<std::string>(argv + 1, argv + argc)), is_first);
   } catch (const billet::InputError &error) { // the same on all ranks, as is the next
-    say(error, is_first);
+    print_error(error, is_first);
     code = ExitCode::bad_input;
   } catch (const billet::SolutionFailure &error) {
-    say(error, is_first);
+    print_error(error, is_first);
     code = ExitCode::failed_solution;
   } catch (const std::exception &error) {
     // Other ranks may be waiting for this one: end them all.
-    std::cerr << "billet: internal error: " << error.what() << std::endl;
+    std::cerr << billet::Diagnostic(billet::diagnostic::internal_error, error.what()).text() << std::endl;
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
   }
   return static_cast<int>(code);

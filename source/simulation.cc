@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/simulation.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/output/capabilities_file.h"
 #include "billet/output/checkpoint.h"
@@ -26,6 +27,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <sstream>
 
@@ -266,17 +268,13 @@ struct Resumption {
 /// What a run writes: the copy of the scene, the history, the fields, the console, checkpoints.
 struct Outputs {
   /// `resumption`: none if the run begins at time 0.
-  Outputs(const Scene &scene, const Discretization &discretization, Resumption *resumption)
+  Outputs(const Scene &scene, const Discretization &discretization, Diagnostics &diagnostics,
+          Resumption *resumption)
       : is_first(dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0),
         writer(scene, discretization, scene.parameters().output.folder.value),
         snapshots(scene.parameters(), writer),
         progress(scene, is_first ? std::cout : silence, is_first && console_is_terminal()),
-        diagnostics(is_first ? std::function<void(Severity, const std::string &)>(
-                                   [this](const Severity severity, const std::string &text) {
-                                     progress.show_diagnostic(severity, text);
-                                   })
-                             : nullptr),
-        checkpoints(scene.parameters().output, discretization.communicator()),
+        diagnostics(diagnostics), checkpoints(scene.parameters().output, discretization.communicator()),
         signals(discretization.communicator()), scene_(scene), discretization_(discretization) {
     const std::string &folder = scene.parameters().output.folder.value;
     const bool goes_on = resumption != nullptr && resumption->is_from(folder);
@@ -288,29 +286,50 @@ struct Outputs {
         snapshots.load(resumption->reader);
         if (goes_on && resumption->reader.read_text("format") == format())
           writer.load(resumption->reader);
+        if (goes_on && resumption->reader.has("diagnostics"))
+          diagnostics.load(resumption->reader.read_text("diagnostics"));
       });
+    diagnostics.set_print([this](const Severity severity, const std::string &text) {
+      progress.show_diagnostic(severity, text);
+    });
     fail_together(discretization.communicator(), [&] {
       if (is_first) {
         prepare_folder(scene.parameters());
+        diagnostics.open(folder + "/diagnostics.jsonl", goes_on);
         history = goes_on ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report.time)
                           : std::make_unique<HistoryFile>(scene, folder);
       }
     });
   }
 
-  /// Says where the run goes on, and with what.
+  ~Outputs() { diagnostics.set_print({}); }
+  Outputs(const Outputs &) = delete;
+  Outputs &operator=(const Outputs &) = delete;
+
+  /// Reports where the run resumes, and with what.
   void announce(const Resumption &resumption, const double force_tolerance) {
     const RestartReport &report = resumption.report;
     std::ostringstream text;
-    text << "Goes on from " << resumption.reader.file_name() << " at time " << report.time;
+    text << "Resumed from " << resumption.reader.file_name() << " at time " << report.time;
     for (const auto &part : report.gone)
       text << ", without " << part;
     if (report.kinetic_energy > 0.)
-      text << "\nThe kinetic energy there, " << report.kinetic_energy << ", is left behind";
+      text << ". The kinetic energy there, " << report.kinetic_energy << ", is dropped";
     if (report.imbalance > force_tolerance * report.force_scale)
-      text << "\nForces out of balance, " << 100. * report.imbalance / report.force_scale
+      text << ". Forces out of balance, " << 100. * report.imbalance / report.force_scale
            << " % of those in the scene, fade until time " << report.release_end;
-    progress.note(text.str());
+    diagnostics.report(Diagnostic(diagnostic::resumed, text.str()));
+  }
+
+  /// Ends a run that has come to its end time. Collective.
+  ExitCode finish() {
+    ExitCode code = ExitCode::success;
+    if (scene_.parameters().warnings_are_errors && diagnostics.count(Severity::warning) > 0)
+      code = ExitCode::warnings;
+    else if (diagnostics.has(diagnostic::target_error_missed))
+      code = ExitCode::target_missed;
+    progress.finish(diagnostics.repetitions(), diagnostics.count_in_words(), writer.file_to_open());
+    return code;
   }
 
   /// Writes a checkpoint of what `save` saves. A full disk does not end the run.
@@ -323,15 +342,19 @@ struct Outputs {
         state.write_text("columns", mark.columns);
         state.write("bytes", {mark.n_bytes});
         state.write_text("format", format());
+        state.write_text("diagnostics", diagnostics.save());
         checkpoints.save(state);
         snapshots.save(state);
         writer.save(state);
       });
     });
-    if (!failure.empty() && is_first)
-      std::cerr << "billet: no checkpoint at time " << time << ": " << failure
-                << (checkpoints.last().empty() ? "" : " The last one, " + checkpoints.last() + ", stays.")
-                << std::endl;
+    if (!failure.empty())
+      diagnostics.report(
+          Diagnostic(
+              diagnostic::checkpoint_failed,
+              "No checkpoint was written: " + failure +
+                  (checkpoints.last().empty() ? "" : " The last one, " + checkpoints.last() + ", stays"))
+              .time(time));
     return failure.empty();
   }
 
@@ -342,14 +365,14 @@ struct Outputs {
             << " after " << n_steps << " steps";
     return message.str();
   }
-  /// Ends the run at the wish of a signal.
+  /// Ends the run as a signal demands.
   ExitCode stop(const unsigned int n_steps, const double time, const bool has_checkpoint) {
     const std::string what = explain_stop(n_steps, time);
     if (!has_checkpoint)
       throw SolutionFailure(what + ", and no checkpoint could be written" +
                             (checkpoints.last().empty() ? "" : "; the last one is " + checkpoints.last()));
     if (is_first)
-      std::cerr << "billet: " << what << ". To go on: billet --restart " << checkpoints.last() << " "
+      std::cerr << "billet: " << what << ". To resume: billet --restart " << checkpoints.last() << " "
                 << scene_.parameters().file_name << std::endl;
     return ExitCode::stopped;
   }
@@ -360,7 +383,7 @@ struct Outputs {
   Snapshots snapshots;
   std::ostringstream silence;
   Progress progress;
-  Diagnostics diagnostics;
+  Diagnostics &diagnostics;
   Checkpoints checkpoints;
   Signals signals;
 
@@ -388,14 +411,14 @@ double processor_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Tells the user, and believed_error.csv. Collective.
-void tell_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
-                 const parameters::Scene &parameters, Outputs &outputs) {
+/// Reports the estimate, and writes error_estimate.csv. Collective.
+void report_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
+                   const parameters::Scene &parameters, Outputs &outputs) {
   report.target = parameters.target_error;
   report.stress_jumps = stress_jumps(solution, discretization);
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
-  outputs.progress.note(report.describe());
+  outputs.diagnostics.report(report.diagnostics());
   fail_together(discretization.communicator(), [&] {
     if (outputs.is_first)
       report.write(parameters.output.folder.value);
@@ -411,18 +434,17 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
   result.is_known = belief.has_results;
   result.sources = {
       {"steps", estimate.steps,
-       "try a smaller 'Largest step' or 'Initial step': no step is taken back for its error, and "
-       "where contacts come and go their estimate is on the safe side",
+       "Reduce 'Largest step' or 'Initial step': no step is rejected for its error, and where contacts open "
+       "and "
+       "close the estimate is on the safe side",
        !watch.measures_steps() || watch.n_measurements() > 0},
       {"penetrations", estimate.penetration,
        watch.controls_penetration()
-           ? "what they are at the start, and where much begins to touch at once, is known afterwards only: "
-             "try "
-             "a smaller 'Initial step', or a 'Penetration tolerance' of your own in every pair"
-           : "try a larger 'Normal penalty', or leave 'Penetration tolerance' to the target error in all "
-             "pairs",
+           ? "Reduce 'Initial step', or set a 'Penetration tolerance' in every pair: penetration at first "
+             "contact is measured after the step"
+           : "Increase 'Normal penalty', or leave 'Penetration tolerance' to the target error in all pairs",
        !watch.measures_penetration() || belief.knows_penetration},
-      {"iterations", estimate.iterations, "try a smaller 'Force tolerance'"}};
+      {"iterations", estimate.iterations, "Reduce 'Force tolerance'"}};
   result.costs = {{"steps taken", report.step},
                   {"Newton iterations", report.total_iterations},
                   {"of them for estimates", watch.n_iterations()}};
@@ -436,11 +458,12 @@ ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_s
   result.since = errors.start();
   result.is_known = errors.has_energies();
   result.sources = {{"steps", errors.steps(), shorter_steps},
-                    {"penetrations", errors.penetration(), "try a larger 'Normal penalty'"}};
+                    {"penetrations", errors.penetration(), "Increase 'Normal penalty'"}};
   return result;
 }
 
-ExitCode run_quasi_static(const Scene &scene, const Discretization &discretization, Resumption *resumption) {
+ExitCode run_quasi_static(const Scene &scene, const Discretization &discretization, Diagnostics &diagnostics,
+                          Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
   QuasiStatic problem(scene, discretization);
   std::vector<double> stops = scene.stops();
@@ -488,8 +511,9 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   }
   const std::array<bool, 3> free_directions = scene.free_directions();
   const double mass = errors ? problem.mass() : 0.;
-  Outputs outputs(scene, discretization, resumption);
+  Outputs outputs(scene, discretization, diagnostics, resumption);
   outputs.progress.start(discretization, problem);
+  diagnostics.report(problem.initial_diagnostics());
   if (resumption != nullptr)
     outputs.announce(*resumption, parameters.solver.force_tolerance);
   if (resumption == nullptr || !resumption->report.is_exact)
@@ -517,12 +541,12 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       throw;
     }
     report.total_iterations += static_cast<unsigned int>(report.newton.iterations.size());
-    outputs.diagnostics.report(report.newton.diagnostics);
+    diagnostics.report(report.newton.diagnostics);
     if (report.newton.converged) {
       control.accept(static_cast<unsigned int>(report.newton.hardest), problem.time_error());
       if (watch) {
         watch->after_step(control, report.length, report.newton);
-        outputs.progress.warn(watch->take_note(control));
+        diagnostics.report(watch->check(control));
       }
       if (errors) {
         const double factor = errors->step_factor();
@@ -538,8 +562,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
-      outputs.progress.warn(stability.look(problem.state().displacements));
-      outputs.progress.warn(energies.look(control.time(), problem.state().energies, [&] {
+      diagnostics.report(stability.check(control.time(), problem.state().displacements));
+      diagnostics.report(energies.check(control.time(), problem.state().energies, [&] {
         return stability.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
                : problem.has_soft_penalties()  ? EnergyWatch::Cause::soft_penalties
                : has_inexact_dissipation(scene, discretization, problem)
@@ -553,7 +577,9 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         message << parameters.file_name << ": at time " << control.time() << " after " << control.n_steps()
                 << " steps " << energies.imbalance() << ". " << describe_limit_load(parameters)
                 << "What was computed until then is in '" << parameters.output.folder.value << "'.";
-        throw SolutionFailure(message.str());
+        throw SolutionFailure(Diagnostic(diagnostic::energy_drift, message.str())
+                                  .value("steps", control.n_steps())
+                                  .value("Newton iterations", report.total_iterations));
       }
       outputs.snapshots.after_step(control.n_steps(), problem);
       const Signals::Wish wish = outputs.signals.look();
@@ -572,25 +598,32 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     bool may_go_on = control.reject() && !report.newton.is_lost_in_round_off;
     report.total_cuts = control.n_cuts();
     if (!may_go_on && !report.newton.is_lost_in_round_off && !report.newton.is_explained) {
-      const std::string note = problem.take_exact_tangent();
-      outputs.progress.warn(note);
-      may_go_on = !note.empty();
+      may_go_on = problem.take_exact_tangent();
+      if (may_go_on)
+        diagnostics.report(
+            Diagnostic(diagnostic::exact_tangent,
+                       "Newton's method failed with this 'Contact tangent'; from here on it is "
+                       "the exact one, with an unsymmetric matrix")
+                .time(from));
     }
     if (!may_go_on) {
       outputs.snapshots.write(problem);
-      throw SolutionFailure(explain_failure(parameters, report, from, to, stability.has_unstable_bodies()));
+      throw SolutionFailure(
+          Diagnostic(diagnostic::solution_failed,
+                     explain_failure(parameters, report, from, to, stability.has_unstable_bodies()))
+              .value("steps", report.step)
+              .value("Newton iterations", report.total_iterations));
     }
   }
   if (watch)
-    tell_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
+    report_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
   if (errors) {
-    ErrorReport believed = make_report(*errors, "try a smaller 'Largest step'");
-    believed.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
-    tell_errors(std::move(believed), problem, discretization, parameters, outputs);
+    ErrorReport estimate = make_report(*errors, "Reduce 'Largest step'");
+    estimate.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
+    report_errors(std::move(estimate), problem, discretization, parameters, outputs);
   }
-  outputs.progress.warn(find_checkerboard(problem, discretization).describe());
-  outputs.progress.finish(outputs.writer.file_to_open());
-  return ExitCode::success;
+  diagnostics.report(find_checkerboard(problem, discretization).check());
+  return outputs.finish();
 }
 
 /// Where steps of an explicit scene have to end: where the scene itself stops, not where something is
@@ -644,7 +677,8 @@ private:
   double end_, interval_, last_ = -1.;
 };
 
-ExitCode run_explicit(const Scene &scene, const Discretization &discretization, Resumption *resumption) {
+ExitCode run_explicit(const Scene &scene, const Discretization &discretization, Diagnostics &diagnostics,
+                      Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
   ExplicitDynamics problem(scene, discretization);
   const Events events(scene);
@@ -671,8 +705,9 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       });
   }
   const std::array<bool, 3> free_directions = scene.free_directions();
-  Outputs outputs(scene, discretization, resumption);
+  Outputs outputs(scene, discretization, diagnostics, resumption);
   outputs.progress.start(discretization, problem);
+  diagnostics.report(problem.initial_diagnostics());
   if (resumption != nullptr)
     outputs.announce(*resumption, 0.);
   const auto save = [&](StateWriter &writer) {
@@ -685,8 +720,14 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         errors->save(writer);
     });
   };
-  if (parameters.explicit_dynamics.scaled_step > 0.)
-    outputs.progress.show_mass_scaling(problem.added_mass(), problem.mass());
+  if (parameters.explicit_dynamics.scaled_step > 0.) {
+    std::ostringstream text;
+    text << "Mass scaling adds " << problem.added_mass() << " to the bodies' " << problem.mass() << " ("
+         << std::setprecision(3) << 100. * problem.added_mass() / problem.mass() << " %)";
+    diagnostics.report(Diagnostic(diagnostic::mass_scaling, text.str())
+                           .value("mass", problem.mass())
+                           .value("added mass", problem.added_mass()));
+  }
 
   EnergyWatch energies(EnergyWatch::Balance::is_left); // where they fail to balance the run ends
   StabilityWatch stability(scene, discretization);
@@ -699,19 +740,19 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         outputs.history->write(problem.n_steps(), problem.step_length(), problem.state());
     });
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
-    outputs.progress.warn(problem.watch_penalties());
-    outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
+    diagnostics.report(problem.check_penalties());
+    diagnostics.report(energies.check(problem.time(), problem.state().energies));
   };
   const auto look_at_stability = [&] {
     if (problem.time() < next_look || !std::isfinite(problem.relative_drift()))
       return;
     problem.update_state();
-    outputs.progress.warn(stability.look(problem.state().displacements));
+    diagnostics.report(stability.check(problem.time(), problem.state().displacements));
     next_look = problem.time() + events.end() / n_looks;
   };
   constexpr unsigned int steps_between_looks = ExplicitDynamics::steps_between_looks;
   const auto advise_on_law = [&]() -> std::string {
-    outputs.progress.warn(stability.look(problem.state().displacements));
+    diagnostics.report(stability.check(problem.time(), problem.state().displacements));
     return stability.has_unstable_bodies() ? EnergyWatch::advise(EnergyWatch::Cause::unstable_law)
            : !problem.has_soft_penalties() && has_inexact_dissipation(scene, discretization, problem)
                ? EnergyWatch::advise(EnergyWatch::Cause::inexact_dissipation)
@@ -747,7 +788,9 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       message << "are not finite; a velocity, a load or a penalty may be too large for its units";
     message << ". " << describe_limit_load(parameters) << "What was computed until then is in '"
             << parameters.output.folder.value << "'.";
-    throw SolutionFailure(message.str());
+    throw SolutionFailure(
+        Diagnostic(is_finite ? diagnostic::energy_drift : diagnostic::solution_failed, message.str())
+            .value("steps", problem.n_steps()));
   };
 
   double seconds = 0., processor_seconds = 0.; // of the steps, without output
@@ -765,13 +808,16 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       problem.update_state();
       outputs.snapshots.write(problem);
       if (std::isfinite(problem.relative_drift()))
-        outputs.progress.warn(stability.look(problem.state().displacements));
-      throw SolutionFailure(std::string(failure.what()) + ". " +
-                            (stability.has_unstable_bodies()
-                                 ? "Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) + ". "
-                                 : "") +
-                            describe_limit_load(parameters) + "What was computed until then is in '" +
-                            parameters.output.folder.value + "'.");
+        diagnostics.report(stability.check(problem.time(), problem.state().displacements));
+      throw SolutionFailure(
+          Diagnostic(failure.diagnostic().kind(),
+                     std::string(failure.what()) + ". " +
+                         (stability.has_unstable_bodies()
+                              ? "Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) + ". "
+                              : "") +
+                         describe_limit_load(parameters) + "What was computed until then is in '" +
+                         parameters.output.folder.value + "'.")
+              .value("steps", problem.n_steps()));
     }
   };
   for (bool is_finished = false; !is_finished;) {
@@ -781,14 +827,21 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       const double event = is_finished ? events.end() + problem.step_length() : events.next(problem.time());
       problem.prepare_step(event);
     });
-    if (problem.n_steps() == 0)
-      outputs.progress.show_number_of_steps(events.end() / problem.usual_step(), problem.usual_step());
+    if (problem.n_steps() == 0) {
+      const double n_steps = events.end() / problem.usual_step();
+      outputs.progress.show_number_of_steps(n_steps, problem.usual_step());
+      constexpr double too_many = 1e8;
+      if (n_steps > too_many)
+        diagnostics.report(
+            Diagnostic(diagnostic::many_steps, "The run takes " + std::to_string(n_steps) + " steps")
+                .value("steps", n_steps));
+    }
     if (is_due)
       put_out();
     else if (problem.n_steps() % steps_between_looks == 0)
       problem.update_ledger();
     if (is_due || problem.n_steps() % steps_between_looks == 0) {
-      outputs.progress.warn(problem.watch_steps());
+      diagnostics.report(problem.check_steps());
       look_at_stability();
       stop_on_drift(is_finished);
       if (errors) {
@@ -817,19 +870,18 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);
   }
   if (errors) {
-    ErrorReport report = make_report(*errors, "try a smaller 'Safety factor'");
+    ErrorReport report = make_report(*errors, "Reduce 'Safety factor'");
     report.costs = {{"steps taken", problem.n_steps()},
                     {"element updates", static_cast<double>(problem.n_steps()) *
                                             static_cast<double>(discretization.n_global_elements())}};
     problem.update_state();
-    tell_errors(report, problem, discretization, parameters, outputs);
+    report_errors(report, problem, discretization, parameters, outputs);
   }
   outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
                              processor_seconds);
   problem.update_state();
-  outputs.progress.warn(find_checkerboard(problem, discretization).describe());
-  outputs.progress.finish(outputs.writer.file_to_open());
-  return ExitCode::success;
+  diagnostics.report(find_checkerboard(problem, discretization).check());
+  return outputs.finish();
 }
 
 } // namespace
@@ -842,8 +894,20 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
     resumption = std::make_unique<Resumption>(parameters, communicator);
   const Scene scene(parameters);
   const Discretization discretization(scene, communicator);
-  const ExitCode code = parameters.is_explicit() ? run_explicit(scene, discretization, resumption.get())
-                                                 : run_quasi_static(scene, discretization, resumption.get());
+  Diagnostics diagnostics(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
+  ExitCode code = ExitCode::success;
+  try {
+    code = parameters.is_explicit() ? run_explicit(scene, discretization, diagnostics, resumption.get())
+                                    : run_quasi_static(scene, discretization, diagnostics, resumption.get());
+  } catch (const SolutionFailure &failure) { // on all ranks
+    diagnostics.report(failure.diagnostic());
+    diagnostics.write_summary(static_cast<int>(ExitCode::failed_solution));
+    throw;
+  }
+  fail_together(communicator, [&] {
+    if (!diagnostics.write_summary(static_cast<int>(code)))
+      throw SolutionFailure("'" + diagnostics.file_name() + "' cannot be written: is the disk full?");
+  });
   write_capabilities(parameters.output.folder.value, communicator);
   return code;
 }

@@ -106,9 +106,14 @@ inline const DiagnosticKind
     target_error_unknown("target-error-unknown", Severity::warning,
                          "Too little was measured to tell whether the 'Target error' is met.", "");
 
+inline const DiagnosticKind mesh_may_exceed_target(
+    "mesh-may-exceed-target", Severity::note,
+    "Stresses jump between elements by more than the 'Target error', which does not control the mesh.",
+    "Run a finer mesh, too, to see what it changes");
+
 inline const DiagnosticKind target_error_expensive("target-error-expensive", Severity::warning,
-                                                   "The 'Target error' needs very many steps.",
-                                                   "Choose a larger 'Target error'");
+                                                   "The error that is allowed needs very many steps.",
+                                                   "Choose a larger 'Target error' or 'Error tolerance'");
 
 // --- solution --------------------------------------------------------------------------------------------
 
@@ -121,8 +126,32 @@ inline const DiagnosticKind
                   "The iterative linear solver failed; a direct solver replaces it whenever that happens.",
                   "");
 
+inline const DiagnosticKind solver_memory("solver-memory", Severity::note,
+                                          "Memory that the iterative linear solver takes.", "");
+
+inline const DiagnosticKind comparison_failed(
+    "comparison-failed", Severity::warning,
+    "Steps of twice the length do not converge, so the error of the steps can no longer be estimated.",
+    "Choose another 'Contact tangent' or a lower penalty");
+
+inline const DiagnosticKind resumed("resumed", Severity::note, "The run continues from a checkpoint.", "");
+
+inline const DiagnosticKind mass_scaling("mass-scaling", Severity::note,
+                                         "How much mass 'Mass scaling step' adds to the bodies.", "");
+
+inline const DiagnosticKind checkpoint_failed("checkpoint-failed", Severity::warning,
+                                              "A checkpoint could not be written; the run continues.",
+                                              "Free disk space, or choose another folder");
+
+inline const DiagnosticKind stopped("stopped", Severity::note,
+                                    "A signal ended the run. The checkpoint tells how to resume.", "");
+
 inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
                                             "The computation cannot continue.", "");
+
+inline const DiagnosticKind energy_drift("energy-drift", Severity::error,
+                                         "The energies fail to balance by more than 'Largest drift' allows.",
+                                         "");
 
 inline const DiagnosticKind internal_error("internal-error", Severity::error,
                                            "A defect of the program or of the machine.",

@@ -36,6 +36,9 @@ std::vector<const DiagnosticKind *> all_diagnostic_kinds();
 /// The kind of this key; throws std::out_of_range.
 const DiagnosticKind &diagnostic_kind(const std::string &key);
 
+/// The same as a JSON array of objects.
+std::string describe_diagnostic_kinds_as_json();
+
 /// One message about a run: its kind, what happened, where, and what to do. The setters return the object
 /// itself, so that a message is written as one expression.
 class Diagnostic {
@@ -102,17 +105,26 @@ private:
 
 using DiagnosticList = std::vector<Diagnostic>;
 
+/// {"file": ..., "valid": false, "diagnostics": [...]}, as a refused scene is described.
+std::string describe_refusal_as_json(const std::string &file, const Diagnostic &why);
+
+/// The first message of this kind in the list, or null.
+const Diagnostic *find(const DiagnosticList &list, const DiagnosticKind &kind);
+
 /// Appends `more` to `list`.
 void append(DiagnosticList &list, DiagnosticList more);
 
 /// Collects the messages of a run. Each is printed, and written to a file of JSON lines, the first time that
-/// its kind is reported with these names; later ones are counted. All ranks report the same; only the first
-/// one prints.
+/// its kind is reported with these names; later ones are counted. All ranks report the same.
 class Diagnostics {
 public:
-  /// `print`: called with a text of one or more lines, without the last line end; none: nothing is printed.
-  explicit Diagnostics(std::function<void(const Severity, const std::string &)> print = {})
-      : print_(std::move(print)) {}
+  using Print = std::function<void(Severity, const std::string &)>;
+
+  /// `is_first`: this is the first rank, the only one that prints and writes.
+  explicit Diagnostics(const bool is_first) : is_first_(is_first) {}
+
+  /// From here on texts are printed by this, without a last line end; none: nothing is printed.
+  void set_print(Print print) { print_ = std::move(print); }
 
   /// From here on, and for what was reported before, writes JSON lines to `file_name`; at its end if
   /// `continues`. Throws InputError. First rank only.
@@ -129,9 +141,10 @@ public:
   std::string count_in_words() const;
   /// One line for each message that was reported more than once, or got worse after it was printed.
   std::vector<std::string> repetitions() const;
-  /// Writes the last JSON line, {"summary": ...}, with how often each message was reported. Throws
-  /// SolutionFailure if the file could not be written. First rank only.
-  void write_summary(int exit_code);
+  /// Writes the last JSON line, {"summary": ...}, with how often each message was reported. False if the file
+  /// could not be written.
+  bool write_summary(int exit_code);
+  const std::string &file_name() const { return file_name_; }
 
   /// For checkpoints: what has been reported so far, and back.
   std::string save() const;
@@ -145,7 +158,8 @@ private:
   };
   void write_line(const std::string &line);
 
-  std::function<void(const Severity, const std::string &)> print_;
+  bool is_first_;
+  Print print_;
   std::vector<Entry> entries_; ///< in the order in which they came
   std::map<std::string, std::size_t> index_;
   std::vector<std::string> unwritten_; ///< while there is no file

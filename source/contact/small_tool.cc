@@ -2,6 +2,8 @@
 // Tools that are small beside the facets that they meet: what nodes alone do not feel, or go through.
 #include "billet/contact/rigid_contact.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -75,37 +77,39 @@ std::string RigidContact::describe_thin_tool() const {
   return text.str();
 }
 
-std::string RigidContact::tell_nodes_behind() {
-  if (!has_inertia_ || has_told_nodes_behind_ ||
-      dealii::Utilities::MPI::max(has_nodes_behind_ ? 1 : 0, communicator_) == 0)
-    return "";
-  has_told_nodes_behind_ = true;
-  return "Nodes of contact pair '" + pair_.name + "' have gone round the border of tool '" + tool_.name() +
-         "', whose surface has no back: what is behind it is free. Give the tool sides, a larger surface, or "
-         "a "
-         "radius where it ends";
+DiagnosticList RigidContact::check_nodes_behind() const {
+  if (!has_inertia_ || dealii::Utilities::MPI::max(has_nodes_behind_ ? 1 : 0, communicator_) == 0)
+    return {};
+  return {
+      Diagnostic(diagnostic::nodes_behind_tool,
+                 "Nodes have moved around the edge of a tool whose surface has no back; they are free there")
+          .pair(pair_.name)
+          .tool(tool_.name())};
 }
 
-std::string RigidContact::describe_small_tool() const {
+DiagnosticList RigidContact::check_small_tool() const {
   double smallest = std::numeric_limits<double>::infinity();
   for (const auto &node : nodes_)
     smallest = std::min(smallest, node.size);
   smallest = dealii::Utilities::MPI::min(smallest, communicator_);
   if (!(tool_width_ < smallest))
-    return "";
+    return {};
   std::ostringstream text;
   text.precision(3);
-  text << "Tool '" << tool_.name() << "' is smaller, " << tool_width_ << ", than the facets of contact pair '"
-       << pair_.name << "', " << smallest
-       << ": between their nodes, which alone touch tools, it goes in unseen. Try a finer mesh there\n";
-  return text.str();
+  text << "The tool, " << tool_width_ << " wide, is smaller than the facets that it meets, " << smallest
+       << ": only their nodes touch tools";
+  return {Diagnostic(diagnostic::tool_smaller_than_facets, text.str())
+              .pair(pair_.name)
+              .tool(tool_.name())
+              .value("width of the tool", tool_width_)
+              .value("facet size", smallest)};
 }
 
-std::string RigidContact::describe_small_tools(const std::vector<RigidContact> &contacts) {
-  std::string lines;
+DiagnosticList RigidContact::check_small_tools(const std::vector<RigidContact> &contacts) {
+  DiagnosticList list;
   for (const auto &contact : contacts)
-    lines += contact.describe_small_tool();
-  return lines;
+    append(list, contact.check_small_tool());
+  return list;
 }
 
 } // namespace billet

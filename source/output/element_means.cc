@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/element_means.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -111,17 +113,17 @@ Checkerboard find_checkerboard(const Solution &solution, const Discretization &d
                     of_rough)};
 }
 
-std::string Checkerboard::describe() const {
+DiagnosticList Checkerboard::check() const {
   constexpr double much = 0.3, alternates = 0.9;
   if (!(size > much && alternating > alternates))
-    return "";
+    return {};
   std::ostringstream text;
   text.precision(2);
   text << "Pressures alternate from element to element by " << 100. * size
-       << " % of their size, a checkerboard: forces and displacements bear it, pressures do only as means "
+       << " % of their size. Forces and displacements are not affected; pressures are right only as means "
           "over "
-          "neighbours. Try a mesh that is less regular or finer, or a Poisson ratio farther from 0.5";
-  return text.str();
+          "neighbours";
+  return {Diagnostic(diagnostic::pressure_checkerboard, text.str()).measure("part of the pressures", size)};
 }
 
 } // namespace billet

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/energy_watch.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -10,56 +13,67 @@ namespace billet {
 std::string EnergyWatch::advise(const Cause cause) {
   switch (cause) {
   case Cause::soft_penalties:
-    return "contact pairs are soft, and penalties on areas that grow while nodes are deep make energy. Try a "
-           "larger 'Normal penalty'";
+    return "penalties are too low: on areas that change while penetration is large they create energy. "
+           "Increase "
+           "'Normal penalty'";
   case Cause::sticking_overlaps:
-    return "what bodies with friction overlap by changes while they stick. Try 'Facets = bilinear' for their "
+    return "the areas of overlapping facets change while friction sticks. Choose 'Facets = bilinear' for "
+           "these "
            "contact pairs";
   case Cause::unstable_law:
-    return "an elastic body is strained farther than its law is stable, and waves grow in it. Try smaller "
-           "strains, or the 'Kinematics' that the log names, if it does";
+    return "the law of an elastic body has lost its ellipticity. Reduce the strains, or choose the "
+           "'Kinematics' "
+           "that the warning names";
   case Cause::inexact_dissipation:
-    return "a body that yields has large elastic strains, and its law, which is not Hencky's, knows what it "
-           "dissipates to their order only. Try 'Kinematics = Hencky', or a larger 'Largest drift'";
+    return "a body that yields has large elastic strains, and its law, which is not Hencky's, knows its "
+           "dissipation only to their order. Choose 'Kinematics = Hencky', or increase 'Largest drift'";
   case Cause::steps:
     break;
   }
-  return "steps do not resolve how contacts open and close. Try a smaller 'Error tolerance' or 'Largest "
-         "step', a softer penalty, or a smaller 'Spectral radius'";
+  return "the steps do not resolve how contacts open and close. Reduce 'Error tolerance', 'Largest step', "
+         "the "
+         "penalty or 'Spectral radius'";
 }
 
-std::string EnergyWatch::look(const double time, const EnergyLedger &energies,
-                              const std::function<Cause()> &find_cause) {
+DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energies,
+                                  const std::function<Cause()> &find_cause) {
   constexpr double doubtful_hourglass = 0.1;
   constexpr double counts = 0.01; // less than that of the largest energy is no matter
   // What is there counts half only, as in explicit dynamics: energy from nowhere must not hide itself.
   largest_ =
       std::max({largest_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
-  std::ostringstream text;
-  text.precision(3);
+  DiagnosticList messages;
   const double drift = std::abs(energies.drift());
-  if (balance_ != Balance::is_left && !told_balance_ && drift > allowed_drift_ * largest_) {
-    told_balance_ = true;
+  if (balance_ != Balance::is_left && drift > allowed_drift_ * largest_) {
+    if (!cause_)
+      cause_ = find_cause();
     std::ostringstream what;
     what.precision(3);
     what << "the energies fail to balance by " << 100. * drift / largest_ << " % of the largest so far";
     if (balance_ == Balance::is_kept) {
-      what << ", allowed are " << 100. * allowed_drift_ << " % ('Largest drift'): " << advise(find_cause());
+      what << ", allowed are " << 100. * allowed_drift_ << " % ('Largest drift'): " << advise(*cause_);
       imbalance_ = what.str();
-    } else
-      text << "At time " << time << " " << what.str() << ": " << advise(find_cause());
+    } else {
+      std::string text = what.str(), advice = advise(*cause_);
+      text.front() = 'T';
+      advice.front() = static_cast<char>(std::toupper(advice.front()));
+      messages.push_back(Diagnostic(diagnostic::energy_imbalance, text)
+                             .time(time)
+                             .measure("part of the largest energy", drift / largest_)
+                             .advice(advice));
+    }
   }
   const double taken_up = energies.elastic + energies.plastic + energies.hourglass;
-  if (!told_hourglass_ && energies.hourglass > doubtful_hourglass * taken_up &&
-      energies.hourglass > counts * largest_) {
-    told_hourglass_ = true;
-    text << (text.str().empty() ? "" : "\n") << "At time " << time << " hourglass control has "
-         << 100. * energies.hourglass / taken_up
-         << " % of the energy that deforms the bodies: one-point elements are coarse for this. Try a finer "
-            "mesh, "
-            "another 'Hourglass stiffness', or 'Element = mean dilatation'";
+  if (energies.hourglass > doubtful_hourglass * taken_up && energies.hourglass > counts * largest_) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "The stabilisation of one-point elements holds " << 100. * energies.hourglass / taken_up
+         << " % of the energy of deformation";
+    messages.push_back(Diagnostic(diagnostic::hourglass_energy, text.str())
+                           .time(time)
+                           .measure("part of the energy of deformation", energies.hourglass / taken_up));
   }
-  return text.str();
+  return messages;
 }
 
 } // namespace billet

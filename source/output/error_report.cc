@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/error_report.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include "billet/errors.h"
 
 #include <algorithm>
@@ -17,72 +19,111 @@ double ErrorReport::total() const {
   return sum;
 }
 
-std::string ErrorReport::describe() const {
+namespace {
+
+double percent(const double part) { return 100. * part; }
+
+std::string mesh_is_not_part(const double stress_jumps) {
   std::ostringstream text;
   text.precision(2);
-  const auto percent = [](const double part) { return 100. * part; };
-  if (target > 0.)
-    text << "Target error " << percent(target) << " %: ";
+  text << "The mesh is not part of the estimate: stresses jump between elements by " << percent(stress_jumps)
+       << " % in the mean";
+  return text.str();
+}
+
+} // namespace
+
+Diagnostic ErrorReport::estimate() const {
+  std::ostringstream text;
+  text.precision(2);
   if (!is_known) {
-    text << "nothing is believed, since there were no " << of_what << " that errors could be parts of"
-         << (of_what == "energies" ? " besides that of a motion that all bodies share"
-                                   : ": of a tool, between two bodies or, without these, of supports");
-    return text.str();
+    text << "No error estimate: there are no " << of_what << " to normalise by"
+         << (of_what == "energies" ? ", besides those of a motion that all bodies share"
+                                   : ", neither of a tool, nor between bodies, nor of supports");
+    return Diagnostic(diagnostic::error_estimate, text.str());
   }
-  const auto unknown =
-      std::find_if(sources.begin(), sources.end(), [](const Source &source) { return !source.is_known; });
-  text << "believed error " << (unknown == sources.end() ? "" : "at least ") << percent(total())
-       << " % of the " << of_what;
+  const bool has_unknown =
+      std::any_of(sources.begin(), sources.end(), [](const Source &source) { return !source.is_known; });
+  text << "Estimated error " << (has_unknown ? "at least " : "") << percent(total()) << " % of the "
+       << of_what;
+  if (target > 0.)
+    text << ", target " << percent(target) << " %";
   if (since > 0.) {
     text.precision(6);
-    text << " from time " << since << " on, since the run up to then kept no account of them";
+    text << ", from time " << since << " on";
     text.precision(2);
   }
-  text << " (";
+  text << ":";
   for (const auto &source : sources) {
-    text << (&source == sources.data() ? "" : ", ") << source.name << " ";
+    text << (&source == sources.data() ? " " : ", ") << source.name << " ";
     if (source.is_known)
       text << percent(source.error) << " %";
     else
       text << "unknown";
   }
-  text << ")";
   text.precision(7);
   for (const auto &[name, value] : costs)
     text << (&name == &costs.front().first ? "; cost: " : ", ") << value << " " << name;
+  text << ". " << mesh_is_not_part(stress_jumps);
+  Diagnostic result(diagnostic::error_estimate, text.str());
+  result.value("error", total()).value("target", target).value("stress jumps", stress_jumps);
+  for (const auto &source : sources)
+    result.value(source.name, source.is_known ? source.error : std::nan(""));
+  return result;
+}
+
+DiagnosticList ErrorReport::diagnostics() const {
+  DiagnosticList messages{estimate()};
+  if (!(target > 0.))
+    return messages;
+  const auto unknown =
+      std::find_if(sources.begin(), sources.end(), [](const Source &source) { return !source.is_known; });
+  std::ostringstream text;
   text.precision(2);
-  if (target > 0. && total() > target) {
+  if (is_known && total() > target) {
     const auto worst = std::max_element(sources.begin(), sources.end(),
                                         [](const Source &a, const Source &b) { return a.error < b.error; });
-    text << "\nThe target was not reached: " << worst->name << " make most of the error; " << worst->remedy;
-  } else if (target > 0. && unknown != sources.end())
-    text
-        << "\nWhether the target was reached is not known: there were too few steps, or none that succeeded, "
-           "to measure what "
-        << unknown->name << " make; " << unknown->remedy;
-  text << "\nThe mesh is not part of this. Stresses jump between elements by " << percent(stress_jumps)
-       << " % in the mean: what a finer mesh would smooth";
-  if (target > 0. && stress_jumps > target)
-    text << ". That is more than the target: run a finer mesh, too, to see what it changes";
-  return text.str();
+    text << "The estimated error, " << percent(total()) << " %, exceeds the target, " << percent(target)
+         << " %; most of it is due to " << worst->name;
+    messages.push_back(Diagnostic(diagnostic::target_error_missed, text.str())
+                           .value("error", total())
+                           .value("target", target)
+                           .advice(worst->remedy));
+  } else if (!is_known) {
+    messages.push_back(Diagnostic(diagnostic::target_error_unknown,
+                                  "Whether the target is met is unknown, since there is no error estimate")
+                           .value("target", target));
+  } else if (unknown != sources.end()) {
+    text << "Whether the target is met is unknown: too few steps succeeded to measure the error due to "
+         << unknown->name;
+    messages.push_back(Diagnostic(diagnostic::target_error_unknown, text.str())
+                           .value("target", target)
+                           .advice(unknown->remedy));
+  } else if (stress_jumps > target) {
+    messages.push_back(Diagnostic(diagnostic::mesh_may_exceed_target,
+                                  mesh_is_not_part(stress_jumps) + ", more than the target")
+                           .value("stress jumps", stress_jumps)
+                           .value("target", target));
+  }
+  return messages;
 }
 
 void ErrorReport::write(const std::string &folder) const {
-  const std::string name = folder + "/believed_error.csv";
+  const std::string name = folder + "/error_estimate.csv";
   std::ofstream file(name);
   file << "quantity,value\n";
   if (target > 0.)
     file << "target," << target << "\n";
-  const auto believed = [this](const double error, const bool source_is_known) {
+  const auto estimated = [this](const double error, const bool source_is_known) {
     return is_known && source_is_known ? error : std::nan("");
   };
   const bool all_known =
       std::all_of(sources.begin(), sources.end(), [](const Source &source) { return source.is_known; });
   if (since > 0.)
     file << "since," << since << "\n";
-  file << "error," << believed(total(), all_known) << "\n";
+  file << "error," << estimated(total(), all_known) << "\n";
   for (const auto &source : sources)
-    file << source.name << "," << believed(source.error, source.is_known) << "\n";
+    file << source.name << "," << estimated(source.error, source.is_known) << "\n";
   file << "stress jumps," << stress_jumps << "\n";
   file.precision(12);
   for (const auto &[what, value] : costs)

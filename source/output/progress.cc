@@ -53,35 +53,14 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   stream_ << discretization.n_global_elements() << " elements, " << discretization.dof_handler().n_dofs()
           << " dofs, " << dealii::Utilities::MPI::n_mpi_processes(discretization.communicator()) << " ranks, "
           << solution.method() << ", history " << histories[0] << " + " << histories[1]
-          << " doubles (elements + contact)\n"
-          << solution.warnings();
-}
-
-void Progress::show_mass_scaling(const double added, const double mass) {
-  if (verbosity_ == Verbosity::quiet)
-    return;
-  stream_ << "Mass scaling adds " << std::setprecision(6) << added << " to the bodies' " << mass << " ("
-          << std::setprecision(3) << 100. * added / mass << " %)\n"
-          << std::setprecision(6);
+          << " doubles (elements + contact)\n";
 }
 
 void Progress::show_number_of_steps(const double n_steps, const double step) {
   if (verbosity_ == Verbosity::quiet)
     return;
-  constexpr double suspicious = 1e8;
   stream_ << "About " << std::llround(n_steps) << " steps of " << std::setprecision(4) << step
-          << std::setprecision(6)
-          << (n_steps > suspicious
-                  ? ": is the end time, a density or a unit what it should be, and no element "
-                    "nearly flat? 'Mass scaling step' makes steps longer\n"
-                  : "\n");
-}
-
-void Progress::note(const std::string &text) {
-  if (verbosity_ == Verbosity::quiet)
-    return;
-  erase_bar();
-  stream_ << text << std::endl;
+          << std::setprecision(6) << "\n";
 }
 
 void Progress::show_diagnostic(const Severity severity, const std::string &text) {
@@ -97,7 +76,6 @@ void Progress::accept(const StepReport &report, const SolutionState &state) {
   erase_bar();
   if (verbosity_ == Verbosity::iterations)
     show_iterations(report.newton);
-  stream_ << report.newton.note;
   if (n_lines_++ % 40 == 0) {
     stream_ << "  step        time        step iter" << (shows_linear_iterations_ ? " linear" : "")
             << "   residual";
@@ -151,7 +129,6 @@ void Progress::reject(const StepReport &report, const double from, const double 
   erase_bar();
   if (verbosity_ == Verbosity::iterations)
     show_iterations(report.newton);
-  stream_ << report.newton.note;
   stream_ << "       step from " << std::setprecision(6) << from << " to " << to << " failed ("
           << report.newton.failure << ", residual " << std::setprecision(2) << report.newton.force << ")"
           << std::endl;
@@ -197,11 +174,15 @@ void Progress::show_pace(const unsigned int n_steps, const std::size_t n_element
           << std::setprecision(6);
 }
 
-void Progress::finish(const std::string &file_to_open) {
-  if (verbosity_ == Verbosity::quiet)
+void Progress::finish(const std::vector<std::string> &repetitions, const std::string &warnings,
+                      const std::string &file_to_open) {
+  if (verbosity_ == Verbosity::quiet && warnings.empty())
     return;
   erase_bar();
-  stream_ << "Done in " << format_duration(elapsed()) << ".";
+  for (const auto &line : repetitions)
+    stream_ << line << "\n";
+  stream_ << "Completed in " << format_duration(elapsed())
+          << (warnings.empty() ? " without warnings." : " with " + warnings + ".");
   if (!file_to_open.empty())
     stream_ << " Open in ParaView: " << file_to_open;
   stream_ << std::endl;

@@ -2,6 +2,7 @@
 #include "billet/parameters/scene.h"
 
 #include "billet/errors.h"
+#include "billet/parameters/declaration.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -42,6 +43,10 @@ struct Outline {
 void declare_all(ParameterHandler &prm, const Outline &outline) {
   const auto &names_below = outline.names_below;
   prm.declare_entry("Title", "", dealii::Patterns::Anything(), "Shown in the console and in --check.");
+  prm.declare_entry(
+      "Warnings", "report", dealii::Patterns::Selection("report|errors"),
+      "With 'errors' a run that ends with warnings exits with code 6; it is computed to its end "
+      "all the same.");
   declare_presets(prm);
   declare_named(prm, "Amplitudes", names_below({"Amplitudes"}),
                 [&](const std::string &) { Amplitude::declare(prm); });
@@ -278,6 +283,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   Reader reader(prm, file);
   scene.profile = reader.text("Profile");
   scene.title = reader.text("Title");
+  scene.warnings_are_errors = reader.text("Warnings") == "errors";
   scene.file_name = file_name;
   scene.text = file.text();
   scene.amplitudes = parse_named<Amplitude>(reader, "Amplitudes");
@@ -319,9 +325,8 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   return scene;
 }
 
-void print_all_parameters(std::ostream &stream) {
-  ParameterHandler prm;
-  const std::string prefix = "(name of a surface of shape ";
+void declare_every_parameter(ParameterHandler &prm) {
+  const std::string prefix = name_of_surface;
   const auto names_below = [&prefix](const SceneFile::Path &path) -> std::vector<std::string> {
     if (path.back() == "Surfaces") {
       std::vector<std::string> names;
@@ -339,6 +344,11 @@ void print_all_parameters(std::ostream &stream) {
   declare_all(prm, {names_below, [&prefix](const SceneFile::Path &path) {
                       return path.back().substr(prefix.size(), path.back().size() - prefix.size() - 1);
                     }});
+}
+
+void print_all_parameters(std::ostream &stream) {
+  ParameterHandler prm;
+  declare_every_parameter(prm);
   prm.print_parameters(stream, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
 }
 

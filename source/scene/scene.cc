@@ -4,6 +4,8 @@
 #include "billet/errors.h"
 #include "billet/parameters/reader.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -463,13 +465,10 @@ std::array<bool, 3> Scene::free_directions() const {
   return are_free;
 }
 
-void Scene::describe_capabilities(std::ostream &stream) const {
-  const auto tell = [&stream](const std::string &name, const bool is_used, const std::string &how) {
-    stream << name << std::string(15 - name.size(), ' ') << (is_used ? "yes" : "no")
-           << (!is_used      ? " (neither allocated nor run)"
-               : how.empty() ? ""
-                             : ": ")
-           << (is_used ? how : "") << "\n";
+std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
+  std::vector<CapabilityUse> uses;
+  const auto add = [&uses](const std::string &name, const bool is_used, const std::string &how) {
+    uses.push_back({name, is_used, is_used ? how : ""});
   };
   const auto part = [](const std::ptrdiff_t n, const std::size_t all, const std::string &what) {
     return std::to_string(n) + " of " + std::to_string(all) + " " + what;
@@ -480,53 +479,54 @@ void Scene::describe_capabilities(std::ostream &stream) const {
   };
   const std::size_t n_all_pairs = pairs_.size() + body_pairs_.size();
   const bool is_explicit = parameters_.is_explicit();
-  tell("Plasticity", capabilities_.plasticity,
-       "history of " +
-           part(std::count_if(bodies_.begin(), bodies_.end(),
-                              [](const Body &body) {
-                                return !std::holds_alternative<std::monostate>(body.material.hardening);
-                              }),
-                bodies_.size(), "bodies"));
-  tell("Stabilisation", capabilities_.stabilisation,
-       "hourglass modes of " + part(std::count_if(bodies_.begin(), bodies_.end(),
-                                                  [](const Body &body) {
-                                                    return body.formulation.element ==
-                                                           ElementFormulation::Element::one_point;
-                                                  }),
-                                    bodies_.size(), "bodies"));
-  tell("Contact", capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
-  tell("Friction", capabilities_.friction,
-       "history of " +
-           part(n_pairs([](const auto &pair) { return pair.has_friction(); }), n_all_pairs, "pairs"));
-  tell("Body contact", capabilities_.body_contact,
-       "facet search of " + part(static_cast<std::ptrdiff_t>(body_pairs_.size()), n_all_pairs, "pairs"));
+  add("Plasticity", capabilities_.plasticity,
+      "history of " +
+          part(std::count_if(bodies_.begin(), bodies_.end(),
+                             [](const Body &body) {
+                               return !std::holds_alternative<std::monostate>(body.material.hardening);
+                             }),
+               bodies_.size(), "bodies"));
+  add("Stabilisation", capabilities_.stabilisation,
+      "hourglass modes of " + part(std::count_if(bodies_.begin(), bodies_.end(),
+                                                 [](const Body &body) {
+                                                   return body.formulation.element ==
+                                                          ElementFormulation::Element::one_point;
+                                                 }),
+                                   bodies_.size(), "bodies"));
+  add("Contact", capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
+  add("Friction", capabilities_.friction,
+      "history of " +
+          part(n_pairs([](const auto &pair) { return pair.has_friction(); }), n_all_pairs, "pairs"));
+  add("Body contact", capabilities_.body_contact,
+      "facet search of " + part(static_cast<std::ptrdiff_t>(body_pairs_.size()), n_all_pairs, "pairs"));
   const auto n_self = std::count_if(body_pairs_.begin(), body_pairs_.end(),
                                     [](const BodyPair &pair) { return pair.is_self_contact; });
-  tell("Self-contact", n_self > 0, part(n_self, n_all_pairs, "pairs"));
+  add("Self-contact", n_self > 0, part(n_self, n_all_pairs, "pairs"));
   const auto n_edges =
       std::count_if(body_pairs_.begin(), body_pairs_.end(), [](const BodyPair &pair) { return pair.edges; });
-  tell("Edges", n_edges > 0, part(n_edges, n_all_pairs, "pairs"));
+  add("Edges", n_edges > 0, part(n_edges, n_all_pairs, "pairs"));
   const auto n_augmented = n_pairs([](const auto &pair) { return pair.penetration_tolerance > 0.; });
-  tell("Augmentation", n_augmented > 0, part(n_augmented, n_all_pairs, "pairs"));
-  tell("Moving support", capabilities_.moving_supports, "");
+  add("Augmentation", n_augmented > 0, part(n_augmented, n_all_pairs, "pairs"));
+  add("Moving support", capabilities_.moving_supports, "");
   const auto n_driven = std::count_if(
       tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.control() != Tool::Control::motion; });
-  tell("Driven tools", n_driven > 0,
-       "travel of " + part(n_driven, tools_.size(), "tools follows from a force or moment"));
+  add("Driven tools", n_driven > 0,
+      "travel of " + part(n_driven, tools_.size(), "tools follows from a force or moment"));
   const auto n_loaded =
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body &body) { return !body.loads.empty(); });
-  tell("Loads", n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
-  tell("Inertia", parameters_.is_dynamic(), is_explicit ? "lumped" : "");
+  add("Loads", n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
+  add("Inertia", parameters_.is_dynamic(), is_explicit ? "lumped" : "");
   const bool has_inertia = parameters_.is_dynamic() && !is_explicit;
-  tell("Error control",
-       parameters_.target_error > 0. || parameters_.time_stepping.error_tolerance > 0. ||
-           (has_inertia && parameters_.implicit_dynamics.error_tolerance > 0.),
-       "");
+  add("Error control",
+      parameters_.target_error > 0. || parameters_.time_stepping.error_tolerance > 0. ||
+          (has_inertia && parameters_.implicit_dynamics.error_tolerance > 0.),
+      "");
   const auto &[every_steps, interval, keep] = parameters_.output.checkpoint;
-  tell("Checkpoints", every_steps > 0 || interval > 0., "the last " + std::to_string(keep) + " are kept");
-  tell("Matrix", !is_explicit,
-       (capabilities_.unsymmetric_matrix ? "unsymmetric; " : "symmetric; ") +
-           describe_solver(parameters_.solver.linear_solver.value, capabilities_.unsymmetric_matrix));
+  add("Checkpoints", every_steps > 0 || interval > 0., "the last " + std::to_string(keep) + " are kept");
+  add("Matrix", !is_explicit,
+      (capabilities_.unsymmetric_matrix ? "unsymmetric; " : "symmetric; ") +
+          describe_solver(parameters_.solver.linear_solver.value, capabilities_.unsymmetric_matrix));
+  return uses;
 }
 
 void Scene::describe(std::ostream &stream) const {
@@ -608,8 +608,80 @@ void Scene::describe(std::ostream &stream) const {
          << (parameters_.is_explicit()  ? "dynamic, explicit\n"
              : parameters_.is_dynamic() ? "dynamic, implicit\n"
                                         : "quasi-static, implicit\n");
-  describe_capabilities(stream);
+  for (const CapabilityUse &use : capability_uses())
+    stream << use.name << std::string(15 - use.name.size(), ' ')
+           << (use.is_used ? "yes" : "no (neither allocated nor run)") << (use.how.empty() ? "" : ": ")
+           << use.how << "\n";
   stream << "Output         " << parameters_.output.folder.value << "\n";
+}
+
+std::string Scene::describe_as_json() const {
+  using Json = nlohmann::ordered_json;
+  Json scene;
+  scene["file"] = parameters_.file_name;
+  scene["valid"] = true;
+  scene["title"] = parameters_.title;
+  if (parameters_.target_error > 0.)
+    scene["target error"] = parameters_.target_error;
+  else
+    scene["profile"] = parameters_.profile;
+  scene["presets"] = Json::object();
+  for (const auto &preset : parameters_.presets)
+    scene["presets"][join(preset.path) + " / " + preset.key] = preset.value;
+  std::size_t n_elements = 0;
+  scene["bodies"] = Json::array();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto &body = parameters_.bodies[i];
+    dealii::Triangulation<3> outline;
+    build_body_mesh(body, MeshDetail::outline, outline);
+    const std::size_t n = count_full_elements(body.mesh, outline);
+    n_elements += n;
+    scene["bodies"].push_back({{"name", body.name},
+                               {"hexahedra", n},
+                               {"law", describe_law(body)},
+                               {"symmetry planes", body.symmetry_planes.value.size()},
+                               {"supports", body.supports.size()},
+                               {"loads", body.loads.size()}});
+  }
+  scene["tools"] = Json::array();
+  for (const auto &tool : tools_) {
+    Json entry = {{"name", tool.name()},
+                  {"shapes", tool.shapes()},
+                  {"control", tool.control() == Tool::Control::force    ? "force"
+                              : tool.control() == Tool::Control::moment ? "moment"
+                              : tool.control() == Tool::Control::stop   ? "stop at a force"
+                                                                        : "motion"}};
+    if (std::isfinite(tool.removal_time()))
+      entry["removed at"] = tool.removal_time();
+    scene["tools"].push_back(entry);
+  }
+  scene["contact pairs"] = Json::array();
+  const auto add_pair = [&](const auto &pair, const std::string &body, const std::string &against,
+                            const std::string &facets) {
+    Json entry = {{"name", pair.name}, {"body", body}, {"against", against}};
+    if (!facets.empty())
+      entry["facets"] = facets;
+    entry["friction"] = describe_friction(*pair.input);
+    entry["normal penalty"] = pair.normal_penalty;
+    entry["tangential penalty"] = pair.tangential_penalty;
+    entry["penalty unit"] = pair.penalty_is_factor ? "E/h" : "absolute";
+    entry["penetration tolerance"] = pair.penetration_tolerance;
+    scene["contact pairs"].push_back(entry);
+  };
+  for (const auto &pair : pairs_)
+    add_pair(pair, bodies_[pair.body].name, tools_[pair.tool].name(), "");
+  for (const auto &pair : body_pairs_)
+    add_pair(pair, bodies_[pair.bodies[0]].name, bodies_[pair.bodies[1]].name, describe_facets(pair.facets));
+  scene["end time"] = parameters_.time_stepping.end_time;
+  scene["scheme"] = parameters_.is_explicit()  ? "explicit"
+                    : parameters_.is_dynamic() ? "implicit dynamics"
+                                               : "quasi-static";
+  scene["elements"] = n_elements;
+  for (const CapabilityUse &use : capability_uses())
+    scene["capabilities"][use.name] = use.is_used;
+  scene["output folder"] = parameters_.output.folder.value;
+  scene["diagnostics"] = Json::array();
+  return scene.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace billet

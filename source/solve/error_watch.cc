@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/error_watch.h"
+
+#include "billet/diagnostic_kinds.h"
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
 
@@ -219,29 +221,30 @@ void ErrorWatch::after_failure() {
   demand_accuracy(false);
 }
 
-std::string ErrorWatch::take_note(const StepControl &control) {
+DiagnosticList ErrorWatch::check(const StepControl &control) const {
   const bool has_given_up = std::any_of(controls_.begin(), controls_.end(),
                                         [](const ErrorControl &errors) { return errors.has_given_up(); });
-  if (has_given_up && !has_told_surrender_) {
-    has_told_surrender_ = true;
-    return "Steps cannot be compared with ones of twice the length, which do not converge: what steps make "
-           "of "
-           "the error is not known from here on. Try another 'Contact tangent' or a softer penalty";
-  }
-  constexpr double very_many = 2000., many_more = 10.;
+  DiagnosticList messages;
+  if (has_given_up)
+    messages.push_back(
+        Diagnostic(diagnostic::comparison_failed,
+                   "The error of the steps is unknown from here on: steps of twice the length, "
+                   "with which they are compared, do not converge")
+            .time(control.time()));
+  constexpr double very_many = 2000.;
   if (control.is_finished() || !(control.next_step() > 0.) || probe_length_ > 0.)
-    return "";
+    return messages;
   const double to_come = (end_time_ - control.time()) / control.next_step();
-  if (to_come < std::max(very_many, many_more * told_steps_))
-    return "";
-  told_steps_ = to_come;
+  if (to_come < very_many)
+    return messages;
   std::ostringstream text;
   text.precision(2);
-  text << "The error that is allowed takes steps of " << control.next_step() << " by now, " << to_come
-       << " more of them if that goes on: try a larger 'Target error' or 'Error tolerance' unless that is "
-          "what "
-          "it is worth";
-  return text.str();
+  text << "The error that is allowed needs steps of " << control.next_step() << " now; at that length "
+       << to_come << " more of them are to come";
+  messages.push_back(Diagnostic(diagnostic::target_error_expensive, text.str())
+                         .time(control.time())
+                         .measure("steps to come", to_come));
+  return messages;
 }
 
 void ErrorWatch::save(StateWriter &writer) const {

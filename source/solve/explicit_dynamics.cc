@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit_dynamics.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include "billet/errors.h"
 
 #include <algorithm>
@@ -625,7 +627,7 @@ void ExplicitDynamics::update_ledger() {
     energy_of_steps_ = std::max(energy_of_steps_, energy);
 }
 
-std::string ExplicitDynamics::watch_penalties() {
+DiagnosticList ExplicitDynamics::check_penalties() {
   // Of all ranks: the largest displacement, and for each pair how deep it is, in facet sizes and as length.
   std::vector<double> maxima(1);
   for (unsigned int node = 0; node < nodes_.size(); ++node)
@@ -639,24 +641,21 @@ std::string ExplicitDynamics::watch_penalties() {
     add(contact->penetration());
   dealii::Utilities::MPI::max(maxima, discretization_.communicator(), maxima);
 
-  std::ostringstream note;
+  DiagnosticList messages;
   auto next = maxima.begin() + 1;
-  const auto add_line = [&note](const std::string &text) {
-    note << (note.str().empty() || text.empty() ? "" : "\n") << text;
-  };
-  const auto look = [&](const std::string &name, const double displacement) {
-    add_line(soft_penalties_.look(name, {next[0], next[1]}, displacement));
+  const auto check = [&](const std::string &name, const double displacement) {
+    append(messages, soft_penalties_.check(name, time_, {next[0], next[1]}, displacement));
     next += 2;
   };
   for (auto &contact : contacts_) {
     const double tool_moved = largest_motion(scene_.tools()[contact.tool()].placement(0.),
                                              tools_[contact.tool()].now(), discretization_.radius());
-    look(scene_.pairs()[contact.pair()].name, std::max(maxima[0], tool_moved));
-    add_line(contact.tell_nodes_behind());
+    check(scene_.pairs()[contact.pair()].name, std::max(maxima[0], tool_moved));
+    append(messages, contact.check_nodes_behind());
   }
   for (const auto &contact : body_contacts_)
-    look(contact->name(), maxima[0]);
-  return note.str();
+    check(contact->name(), maxima[0]);
+  return messages;
 }
 
 std::string ExplicitDynamics::describe_flat_elements() const {
@@ -667,10 +666,10 @@ std::string ExplicitDynamics::describe_flat_elements() const {
   return text.str();
 }
 
-std::string ExplicitDynamics::watch_steps() {
+DiagnosticList ExplicitDynamics::check_steps() const {
   constexpr double much_shorter = 0.1, flat = 0.01;
-  std::ostringstream note;
-  if (!has_told_stiff_ && element_step_ < much_shorter * free_step_) {
+  DiagnosticList messages;
+  if (element_step_ < much_shorter * free_step_) {
     std::vector<double> room; // by pair, on all ranks
     for (const auto &contact : contacts_)
       room.push_back(contact.stiffening_left());
@@ -680,23 +679,26 @@ std::string ExplicitDynamics::watch_steps() {
     const auto stiffest = std::min_element(room.begin(), room.end());
     if (stiffest != room.end() && *stiffest < 1.) {
       const auto i = static_cast<std::size_t>(stiffest - room.begin());
-      note.precision(3);
-      note << "The penalty of contact pair '"
-           << (i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
-                                    : body_contacts_[i - contacts_.size()]->name())
-           << "', " << enough_penalty / *stiffest << " E/h, makes steps "
-           << std::round(free_step_ / element_step_)
-           << " times shorter than the elements ask for. Try a softer one: 10 to 40 E/h let little in";
-      has_told_stiff_ = true;
+      std::ostringstream text;
+      text.precision(3);
+      text << "The penalty, " << enough_penalty / *stiffest << " E/h, makes steps "
+           << std::round(free_step_ / element_step_) << " times shorter than the elements require";
+      messages.push_back(Diagnostic(diagnostic::penalty_too_high, text.str())
+                             .pair(i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
+                                                        : body_contacts_[i - contacts_.size()]->name())
+                             .time(time_)
+                             .value("penalty [E/h]", enough_penalty / *stiffest));
     }
   }
-  if (!has_told_flat_ && free_step_ < flat * first_free_step_) {
+  if (free_step_ < flat * first_free_step_) {
     std::string text = describe_flat_elements();
     text.front() = 'T';
-    note << (note.str().empty() ? "" : "\n") << text << ": " << flat_element_advice;
-    has_told_flat_ = true;
+    messages.push_back(Diagnostic(diagnostic::flat_elements, text)
+                           .time(time_)
+                           .value("stable step", free_step_)
+                           .advice(flat_element_advice));
   }
-  return note.str();
+  return messages;
 }
 
 double ExplicitDynamics::smallest_energy() const {

@@ -458,21 +458,21 @@ void QuasiStatic::start_step(const double t) {
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
-  std::string softened;
+  DiagnosticList messages;
   choose_contact_damping();
   NewtonReport report = attempt_step(t, previous_step);
   if (report.makes_energy) { // once more, so that it does not
     damp_contact();
     report.append_anew(attempt_step(t, previous_step));
   }
-  if (!report.converged && !(softened = soften_augmented_contacts()).empty())
+  if (!report.converged && !(messages = soften_augmented_contacts()).empty())
     report.append_anew(attempt_step(t, previous_step));
   if (!report.converged && !report.is_explained && !report.iterations.empty() && has_stiff_contacts()) {
     is_led_by_softer_ = true;
     report.append_anew(attempt_step(t, previous_step));
     is_led_by_softer_ = false;
     if (report.converged)
-      softened += tell_softer_penalties();
+      messages.push_back(needs_softer_penalties());
   }
   measures_penetration_ = false; // what is tried next may be no step to measure it in
   if (!report.converged) {
@@ -488,9 +488,12 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     }
   }
   report.linear_iterations = linear_->take_iterations();
-  report.note = softened + linear_->take_note();
-  if (report.converged)
-    report.note += watch_penalties() + tell_round_off(report.force);
+  append(report.diagnostics, std::move(messages));
+  append(report.diagnostics, linear_->take_diagnostics());
+  if (report.converged) {
+    append(report.diagnostics, check_penalties());
+    append(report.diagnostics, check_round_off(report.force));
+  }
   return report;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The augmented Lagrangian of contacts with a 'Penetration tolerance'.
+#include "billet/diagnostic_kinds.h"
 #include "billet/solve/quasi_static.h"
 
 #include <algorithm>
@@ -104,9 +105,9 @@ void QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
     spring_round_off_ = find_spring_round_off();
 }
 
-std::string QuasiStatic::soften_augmented_contacts() {
+DiagnosticList QuasiStatic::soften_augmented_contacts() {
   const std::vector<double> room = stiffening_left();
-  std::ostringstream note;
+  DiagnosticList messages;
   for (std::size_t i = 0; i < room.size(); ++i) {
     if (!(room[i] < 1.))
       continue;
@@ -115,14 +116,17 @@ std::string QuasiStatic::soften_augmented_contacts() {
                  : scene_.body_pairs()[i - contacts_.size()].penetration_tolerance) == 0.)
       continue;
     stiffen(i, room[i]);
-    note << "The penalty of contact pair '"
-         << (is_tool ? scene_.pairs()[contacts_[i].pair()].name
-                     : body_contacts_[i - contacts_.size()]->name())
-         << "' is too stiff for Newton's method; from here on it is " << enough_penalty
-         << " E/h, and augmentation does the rest\n";
+    std::ostringstream text;
+    text << "The penalty was reduced to " << enough_penalty
+         << " E/h, since Newton's method failed; augmentation enforces the 'Penetration tolerance'";
+    messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
+                           .pair(is_tool ? scene_.pairs()[contacts_[i].pair()].name
+                                         : body_contacts_[i - contacts_.size()]->name())
+                           .time(time_)
+                           .value("penalty [E/h]", enough_penalty));
   }
   spring_round_off_ = find_spring_round_off();
-  return note.str();
+  return messages;
 }
 
 void QuasiStatic::augment_contacts() {

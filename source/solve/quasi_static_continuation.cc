@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Ways out where Newton's method fails: softer penalties that lead to stiff ones, and the exact tangent.
+#include "billet/diagnostic_kinds.h"
 #include "billet/solve/quasi_static.h"
 
 #include <algorithm>
@@ -86,18 +87,17 @@ NewtonReport QuasiStatic::iterate_from_softer(std::vector<double> &offsets, Vect
   return report;
 }
 
-std::string QuasiStatic::tell_softer_penalties() {
-  if (has_told_softer_)
-    return "";
-  has_told_softer_ = true;
-  return "The penalty of contact pair " + stiffest_pairs() +
-         " is so stiff that Newton's method needs softer ones that lead to it, and many iterations: a softer "
-         "one, with a 'Penetration tolerance' where that is too soft, is faster; said only once\n";
+Diagnostic QuasiStatic::needs_softer_penalties() const {
+  return Diagnostic(diagnostic::penalty_too_high, "Newton's method needs lower penalties first, and many "
+                                                  "iterations, because of the penalty of contact pair " +
+                                                      stiffest_pairs())
+      .time(time_)
+      .advice("Reduce 'Normal penalty', with a 'Penetration tolerance' where that is too low");
 }
 
-std::string QuasiStatic::take_exact_tangent() {
+bool QuasiStatic::take_exact_tangent() {
   if (tangent_ == ContactTangent::exact || (contacts_.empty() && body_contacts_.empty()))
-    return "";
+    return false;
   tangent_ = ContactTangent::exact;
   for (auto &contact : contacts_)
     contact.set_tangent(tangent_);
@@ -106,8 +106,7 @@ std::string QuasiStatic::take_exact_tangent() {
     linear_.reset();
     build_matrix();
   }
-  return "Newton's method does not converge with this 'Contact tangent'; from here on it is the exact one, "
-         "with an unsymmetric matrix\n";
+  return true;
 }
 
 } // namespace billet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What users should know: penalties that are too soft for what presses, or too stiff for sixteen digits, and
 // where a step failed.
+#include "billet/diagnostic_kinds.h"
 #include "billet/solve/quasi_static.h"
 
 #include <Epetra_Vector.h>
@@ -11,10 +12,9 @@
 
 namespace billet {
 
-std::string QuasiStatic::watch_penalties() {
+DiagnosticList QuasiStatic::check_penalties() {
   constexpr double much_taken = 0.05; // of the largest energy
-  std::ostringstream note;
-  note.precision(2);
+  DiagnosticList messages;
   const double displacement = u_n_.linfty_norm();
   const double work = state_.energies.total();
   const auto look = [&](const std::string &name, Penetration deepest, const double moved,
@@ -22,9 +22,8 @@ std::string QuasiStatic::watch_penalties() {
     const MPI_Comm communicator = discretization_.communicator();
     deepest = {dealii::Utilities::MPI::max(deepest.of_facet, communicator),
                dealii::Utilities::MPI::max(deepest.length, communicator)};
-    const std::string text =
-        soft_penalties_.look(name, deepest, moved, work > 0. ? stored_energy / work : 0.);
-    note << text << (text.empty() ? "" : "\n");
+    append(messages,
+           soft_penalties_.check(name, state_.time, deepest, moved, work > 0. ? stored_energy / work : 0.));
   };
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     auto &contact = contacts_[i];
@@ -33,29 +32,33 @@ std::string QuasiStatic::watch_penalties() {
         largest_motion(scene_.tools()[tool].placement(0.), state_.placements[tool], discretization_.radius());
     look(scene_.pairs()[contact.pair()].name, contact.penetration(), std::max(displacement, tool_moved),
          tool_pair_energies_[i]);
-    const std::string text = contact.tell_nodes_behind();
-    note << text << (text.empty() ? "" : "\n");
+    append(messages, contact.check_nodes_behind());
   }
   for (std::size_t i = 0; i < body_contacts_.size(); ++i)
     look(body_contacts_[i]->name(), body_contacts_[i]->penetration(), displacement,
          state_.body_pair_loads[i].stored_energy);
   const double tolerance = scene_.parameters().solver.force_tolerance;
-  if (!has_told_stiff_ && force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
-    note << "Round-off leaves " << contact_round_off_force() / force_scale_
-         << " of the forces, more than 'Force tolerance' = " << tolerance
-         << " asks for, and is accepted up to " << most_round_off
-         << ": try a softer penalty, with a 'Penetration tolerance' where that is "
-            "too soft, or bodies nearer to the origin\n";
-    has_told_stiff_ = true;
+  if (force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
+    const double part = contact_round_off_force() / force_scale_;
+    std::ostringstream text;
+    text.precision(2);
+    text << "Round-off of contact's penalties leaves " << part << " of the forces, 'Force tolerance' is "
+         << tolerance << "; up to " << most_round_off << " is accepted";
+    messages.push_back(Diagnostic(diagnostic::round_off_limits_forces, text.str())
+                           .time(time_)
+                           .measure("part of the forces", part));
   }
-  if (!has_told_taken_ && largest_energy_ > 0. && contact_taken_ > much_taken * largest_energy_) {
-    note << "Contact has taken " << 100. * contact_taken_ / largest_energy_
-         << " % of the largest energy so far, since steps do not resolve how it opens and closes: where "
-            "bodies "
-            "are to bounce try a smaller 'Error tolerance' or 'Largest step', or a softer penalty\n";
-    has_told_taken_ = true;
+  if (largest_energy_ > 0. && contact_taken_ > much_taken * largest_energy_) {
+    const double part = contact_taken_ / largest_energy_;
+    std::ostringstream text;
+    text.precision(2);
+    text << "Contact has removed " << 100. * part
+         << " % of the largest energy so far, because the steps do not resolve how it opens and closes";
+    messages.push_back(Diagnostic(diagnostic::contact_dissipates, text.str())
+                           .time(time_)
+                           .measure("part of the energy", part));
   }
-  return note.str();
+  return messages;
 }
 
 std::string QuasiStatic::stiffest_pairs() const {
@@ -83,20 +86,20 @@ std::string QuasiStatic::describe_round_off(const double part) const {
   return text.str();
 }
 
-std::string QuasiStatic::tell_round_off(const double part) {
+DiagnosticList QuasiStatic::check_round_off(const double part) const {
   const double tolerance = scene_.parameters().solver.force_tolerance * std::max(1., accuracy_);
-  constexpr double much_more = 10.; // to tell it again
   // Bodies that nothing acts on yet have no other forces than round-off, nor have those in flight.
   const bool is_loaded = !motion_ && force_scale_ > 0.1 * round_off_force_;
-  if (!is_loaded || has_told_stiff_ || part <= std::max(tolerance, much_more * told_round_off_))
-    return "";
-  told_round_off_ = part;
-  std::ostringstream note;
-  note.precision(2);
-  note << "Round-off leaves " << part << " of the forces, more than 'Force tolerance' = " << tolerance
-       << " asks for: they are that small beside the stiffness of the bodies. Sixteen digits allow no more; "
-          "try bodies nearer to the origin, or moduli less far apart\n";
-  return note.str();
+  if (!is_loaded || part <= tolerance)
+    return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "Round-off of displacements leaves " << part << " of the forces, 'Force tolerance' is " << tolerance
+       << ": the forces are that small beside the stiffness of the bodies";
+  return {Diagnostic(diagnostic::round_off_limits_forces, text.str())
+              .time(time_)
+              .measure("part of the forces", part)
+              .advice("Place bodies nearer to the origin, or choose moduli less far apart")};
 }
 
 bool QuasiStatic::is_lost_in_round_off(const double t, NewtonReport &report) {

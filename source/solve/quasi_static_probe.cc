@@ -83,7 +83,7 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
     probe_ = std::make_unique<ProbedState>(ProbedState{t, trial_, offsets_});
   }
   probe.newton.linear_iterations = linear_->take_iterations();
-  probe.newton.note = linear_->take_note();
+  append(probe.newton.diagnostics, linear_->take_diagnostics());
   return probe;
 }
 

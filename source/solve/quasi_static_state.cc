@@ -32,8 +32,6 @@ void QuasiStatic::save(StateWriter &writer) const {
   writer.write_text("free body", body_failure_);
   if (tangent_ != scene_.contact_tangent())
     writer.write("exact tangent", {1.});
-  if (has_told_softer_)
-    writer.write("softer penalties told", {1.});
   if (probe_ && probe_->time > state_.time)
     writer.in("probe", [&] {
       writer.write("time", {probe_->time});
@@ -159,7 +157,6 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
       });
     if (reader.has("exact tangent"))
       take_exact_tangent();
-    has_told_softer_ = reader.has("softer penalties told");
     const std::vector<double> scales = reader.read("scales");
     lasting_scale_ = scales.at(0);
     has_lost_pace_ = scales.at(1) != 0.;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/stability_watch.h"
+
+#include "billet/diagnostic_kinds.h"
 #include "billet/material/elastic.h"
 #include "billet/material/neo_hookean.h"
 
@@ -53,26 +55,29 @@ StabilityWatch::StabilityWatch(const Scene &scene, const Discretization &discret
   }
 }
 
-std::string StabilityWatch::look(const Vector &displacements) {
-  std::ostringstream text;
-  text.precision(2);
+DiagnosticList StabilityWatch::check(const double time, const Vector &displacements) {
+  DiagnosticList messages;
   for (Watched &watched : bodies_) {
-    if (watched.is_told)
+    if (watched.is_unstable)
       continue;
     const auto [stiffness, stretches] = find_weakest(watched, displacements);
     if (!(stiffness < 0.))
       continue;
-    watched.is_told = has_unstable_bodies_ = true;
-    text << (text.str().empty() ? "" : "\n") << "Body '" << watched.name
-         << "' is strained to principal stretches of " << stretches[2] << ", " << stretches[1] << " and "
-         << stretches[0] << ", where its law is no longer stable: waves grow in it, and what it does is the "
-         << "mesh's. Try "
-         << (stiffness_of(Kinematics::neo_hookean, watched.elastic, stretches) > 0.
-                 ? "'Kinematics = neo-Hookean', which is, or "
-                 : "")
-         << "smaller strains";
+    watched.is_unstable = has_unstable_bodies_ = true;
+    std::ostringstream text;
+    text.precision(2);
+    text << "The law has lost its ellipticity at principal stretches of " << stretches[2] << ", "
+         << stretches[1] << " and " << stretches[0] << "; results depend on the mesh";
+    messages.push_back(
+        Diagnostic(diagnostic::unstable_law, text.str())
+            .body(watched.name)
+            .time(time)
+            .advice(stiffness_of(Kinematics::neo_hookean, watched.elastic, stretches) > 0.
+                        ? "Choose 'Kinematics = neo-Hookean', which is stable there, or reduce "
+                          "the strains"
+                        : ""));
   }
-  return text.str();
+  return messages;
 }
 
 StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,

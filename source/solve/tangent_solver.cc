@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/tangent_solver.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include <Epetra_Comm.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
+#include <utility>
 
 namespace billet {
 
@@ -86,7 +89,7 @@ bool TangentSolver::factorize_directly() {
     direct_ = make_direct_solver(direct_kind_, symmetric_, *matrix_, communicator_);
   is_direct_now_ = true;
   if (direct_->factorize()) {
-    norm_ = has_told_condition_ ? 0. : matrix_->NormInf();
+    norm_ = is_ill_conditioned_ ? 0. : matrix_->NormInf();
     ++n_factorized_;
     if ((n_factorized_ & (n_factorized_ - 1)) == 0) // at the 1st, 2nd, 4th, ...
       estimate_condition();
@@ -125,12 +128,13 @@ bool TangentSolver::factorize() {
   if (!iterative_->factorize())
     return fall_back();
   note_memory();
-  if (!has_told_memory_) {
+  if (!has_reported_memory_) {
     std::ostringstream text;
     text.precision(3);
-    text << iterative_->name() << " takes " << 1e-6 * iterative_->memory() << " MB beside the matrix\n";
-    note_ += text.str();
-    has_told_memory_ = true;
+    text << iterative_->name() << " takes " << 1e-6 * iterative_->memory() << " MB beside the matrix";
+    diagnostics_.push_back(
+        Diagnostic(diagnostic::solver_memory, text.str()).value("bytes", iterative_->memory()));
+    has_reported_memory_ = true;
   }
   return true;
 }
@@ -140,11 +144,8 @@ bool TangentSolver::fall_back() {
   // It is tried again, but more and more seldom where that does not help.
   ++n_failures_;
   pause_ = (1u << std::min(n_failures_ - 1, 5u)) - 1;
-  if (!has_told_fallback_) {
-    note_ += iterative_->failure() +
-             ": a direct solver takes over whenever that happens, which is said only once\n";
-    has_told_fallback_ = true;
-  }
+  diagnostics_.emplace_back(diagnostic::direct_solver,
+                            iterative_->failure() + ": a direct solver replaces it whenever that happens");
   return factorize_directly();
 }
 
@@ -166,7 +167,7 @@ bool TangentSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const double
 }
 
 void TangentSolver::estimate_condition() {
-  if (has_told_condition_)
+  if (is_ill_conditioned_)
     return;
   // Inverse iteration: the second solution is nearly along what A^-1 stretches most.
   constexpr unsigned int n_solutions = 2;
@@ -189,7 +190,7 @@ void TangentSolver::estimate_condition() {
 }
 
 void TangentSolver::watch_condition(const Epetra_Vector &b, const Epetra_Vector &x) {
-  if (has_told_condition_)
+  if (is_ill_conditioned_)
     return;
   double of_b = 0., of_x = 0.;
   b.Norm2(&of_b);
@@ -200,12 +201,10 @@ void TangentSolver::watch_condition(const Epetra_Vector &b, const Epetra_Vector 
     return;
   std::ostringstream text;
   text.precision(1);
-  text << "The matrix is ill-conditioned, by " << std::scientific << condition
-       << " or more: of the sixteen digits of a correction few are right. Look for a body that hardly "
-          "anything "
-          "holds, for penalties or moduli that are far apart, and for elements much longer than thick\n";
-  note_ += text.str();
-  has_told_condition_ = true;
+  text << "The condition of the matrix is " << std::scientific << condition
+       << " or more: few of the sixteen digits of a correction are right";
+  diagnostics_.push_back(Diagnostic(diagnostic::ill_conditioned, text.str()).measure("condition", condition));
+  is_ill_conditioned_ = true;
 }
 
 unsigned int TangentSolver::take_iterations() {
@@ -216,10 +215,6 @@ unsigned int TangentSolver::take_iterations() {
   return n;
 }
 
-std::string TangentSolver::take_note() {
-  std::string result;
-  result.swap(note_);
-  return result;
-}
+DiagnosticList TangentSolver::take_diagnostics() { return std::exchange(diagnostics_, {}); }
 
 } // namespace billet

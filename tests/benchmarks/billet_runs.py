@@ -14,6 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "trade"))
+from billet_trade.records import read_records  # noqa: E402
 from billet_trade.scene import read_scene, variant  # noqa: E402  what the program billet-trade has
 
 PROGRAM = os.environ.get("BILLET", str(ROOT / "build/release/bin/billet"))
@@ -80,11 +81,12 @@ class Run:
             (place / "scene.prm").write_text(text)
             done = Measured(command, place)
             self.seconds, self.megabytes = done.seconds, done.megabytes
-            if done.code not in (0, 3):
+            if done.code not in (0, 3, 6, 7):
                 sys.exit(f"billet ended with {done.code}: {done.stderr}")
             with open(place / "results/history.csv", newline="") as file:
                 rows = list(csv.DictReader(file))
-        self.converged = done.code == 0
+            self.records = read_records(place / "results/diagnostics.jsonl")
+        self.converged = done.code != 3
         self.failure = ("" if self.converged else "inside out" if "inadmissible" in done.stderr else
                         "no convergence" if re.search("no convergence|given up", done.stderr) else
                         done.stderr.strip())

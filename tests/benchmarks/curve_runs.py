@@ -16,7 +16,7 @@ from billet_runs import PROGRAM, ROOT, read_scene, variant
 class CurveRun:
     """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it `finished`, `times` and `curves` by name (forces of tools and pairs of bodies; of
     explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit scenes
-    element updates), what it `believed` (believed_error.csv), what was `said`, and its `failure`."""
+    element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`."""
 
     def __init__(self, scene, changes, ranks=1):
         with tempfile.TemporaryDirectory() as place:
@@ -33,16 +33,16 @@ class CurveRun:
                 code = process.returncode = os.waitstatus_to_exitcode(status)
                 self.seconds = usage.ru_utime + usage.ru_stime
             self.said, self.failure = ((Path(place) / name).read_text() for name in ("out", "errors"))
-            if code not in (0, 3):
+            if code not in (0, 3, 6, 7):
                 raise RuntimeError(f"billet ended with {code}: {self.failure}")
             with open(Path(place) / "results/history.csv", newline="") as file:
                 rows = list(csv.DictReader(file))
-            believed = Path(place) / "results/believed_error.csv"
+            believed = Path(place) / "results/error_estimate.csv"
             self.believed = {}
             if believed.exists():
                 with open(believed, newline="") as file:
                     self.believed = {row["quantity"]: float(row["value"]) for row in csv.DictReader(file)}
-        self.finished, self.failure = code == 0, self.failure.strip()
+        self.finished, self.failure = code != 3, self.failure.strip()
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]
         self.times = [float(row["time"]) for row in rows]
         names = [key[:-len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]

@@ -26,9 +26,9 @@ class ExplicitRun:
         before = children_seconds()
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
         self.seconds = children_seconds() - before
-        if done.returncode not in (0, 3):
+        if done.returncode not in (0, 3, 6, 7):
             sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
-        self.finished, self.said, self.failure = done.returncode == 0, done.stdout, done.stderr.strip()
+        self.finished, self.said, self.failure = done.returncode != 3, done.stdout, done.stderr.strip()
         with open(self.folder / "results/history.csv", newline="") as file:
             self.rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
         said = ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in changes.items())

@@ -52,7 +52,7 @@ for (split /\n/, read_text($table))
   $expected =~ s/\@/$file:$line/g;
   $expected =~ s/\bscene\.prm\b(?=:)/$file/g;
   my $pattern = join '.*', map { quotemeta } split /\.\.\./, $expected, -1;
-  push @cases, { name => $name, file => $file, expected => $expected, pattern => qr/^billet: $pattern\n\z/ };
+  push @cases, { name => $name, file => $file, expected => $expected, pattern => qr/^error\[bad-input\]: $pattern\.?\n\z/ };
 }
 
 # --- the program ---------------------------------------------------------------------------------------------------
@@ -65,12 +65,12 @@ sub refused
 {
   my ($option, @these) = @_;
   my ($code, $output, $errors) = run(@command, @$option, map { $_->{file} } @these);
-  my @messages = split /^(?=billet: )/m, $errors;
+  my @messages = split /^(?=error\[)/m, $errors;
   for my $case (@these)
   {
-    my $is_of_another = @messages && $messages[0] =~ /^billet: (case_\d+\.prm)/ && $1 ne $case->{file};
+    my $is_of_another = @messages && $messages[0] =~ /^error\[bad-input\]: (case_\d+\.prm)/ && $1 ne $case->{file};
     my $message = @messages && !$is_of_another ? shift @messages : "nothing\n";
-    $faults{$case->{name}} .= "says:\n${message}instead of:\nbillet: $case->{expected}\n" if $message !~ $case->{pattern};
+    $faults{$case->{name}} .= "says:\n${message}instead of:\nerror[bad-input]: $case->{expected}\n" if $message !~ $case->{pattern};
   }
   my $last = $these[-1]{name};
   $faults{$last} .= "prints:\n" . join '', (split /^/m, $output)[0 .. 7] if $output ne '';

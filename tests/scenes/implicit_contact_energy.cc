@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Implicit dynamics makes no energy by contact, however stiff the penalty is for the step: a bar on a wall,
 // and two bars on each other. Where steps resolve contact nothing is damped.
+#include "billet/diagnostic_kinds.h"
 #include "implicit_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -41,7 +42,7 @@ Run run(parameters::Scene scene, const double penalty, const double friction = 0
     result.made = std::max(result.made, -drift);
     result.lost = std::max(result.lost, drift);
     result.rise = std::max(result.rise, (energies.kinetic + energies.elastic) / energies.initial - 1.);
-    result.is_told = result.is_told || report.note.find("Contact has taken") != std::string::npos;
+    result.is_told = result.is_told || find(report.diagnostics, diagnostic::contact_dissipates) != nullptr;
   });
   result.is_damped = energies.numerical > 1e-4 * energies.initial;
   return result;

@@ -4,6 +4,7 @@
 // patterns are taken over.
 #include "two_blocks.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/solve/tangent_solver.h"
 
 #include "../testing.h"
@@ -189,14 +190,12 @@ int main(int argc, char *argv[]) {
       solver.release();
       solver.set_matrix(others.matrix().trilinos_matrix());
       solve_it(others, other_load, other_exact);
-      const std::string note = solver.take_note(), text = "a direct solver takes over";
-      const auto found = note.find(text);
-      check(name + ": tells of its memory",
-            (note.find(" MB beside the matrix") != std::string::npos) == is_iterative);
-      check(name + ": tells once that it failed",
-            (found != std::string::npos) == (most_iterations == 1) &&
-                (found == std::string::npos || note.find(text, found + 1) == std::string::npos));
-      check(name + ": has told", solver.take_note().empty() && solver.take_iterations() < 200);
+      const billet::DiagnosticList messages = solver.take_diagnostics();
+      check(name + ": reports its memory",
+            (find(messages, billet::diagnostic::solver_memory) != nullptr) == is_iterative);
+      check(name + ": reports that it failed",
+            (find(messages, billet::diagnostic::direct_solver) != nullptr) == (most_iterations == 1));
+      check(name + ": has reported", solver.take_diagnostics().empty() && solver.take_iterations() < 200);
     }
   std::cout.rdbuf(console); // `silence` goes first
   return billet::testing::exit_code();

@@ -7,6 +7,7 @@ import contextlib
 import csv
 import fcntl
 import io
+import json
 import math
 import os
 import subprocess
@@ -254,7 +255,7 @@ class TestCommand(unittest.TestCase):
                 self.assertLessEqual(after - before, "--force" in arguments or arguments[:1] == ["--knobs"], arguments)
         self.assertEqual(self.said(scene="nowhere.prm"), (2, "billet-trade: nowhere.prm: there is no such scene file\n"))
         (self.folder / "wrong.prm").write_text("set Speed = 1\n")
-        self.assertEqual(self.said(scene="wrong.prm")[1], "billet-trade: billet refuses the scene:\nbillet: wrong.prm:1: 'Speed': "
+        self.assertEqual(self.said(scene="wrong.prm")[1], "billet-trade: billet refuses the scene:\nwrong.prm:1: 'Speed': "
                          "there is no such parameter\n")
 
     def test_one_at_a_time(self):
@@ -298,8 +299,8 @@ class TestCommand(unittest.TestCase):
     def test_factors_of_what_a_profile_sets(self):
         """What the program itself says that it sets."""
         (self.folder / "fast.prm").write_text("set Profile = fast\n" + read_scene(ROOT / "prm/taylor_bar.prm").replace("set Normal penalty", "# "))
-        said = subprocess.run([os.environ["BILLET"], "--check", "fast.prm"], cwd=self.folder, capture_output=True, text=True).stdout
-        presets = read_presets(said)
+        said = subprocess.run([os.environ["BILLET"], "--check", "--json", "fast.prm"], cwd=self.folder, capture_output=True, text=True).stdout
+        presets = read_presets(json.loads(said))
         penalty = "Contact pairs/bar on wall/Normal penalty"
         self.assertEqual((presets[penalty], presets["Bodies/bar/Material/Kinematics"]), ("1", "hypoelastic"))
         defaults = subprocess.run([os.environ["BILLET"], "--print-parameters"], capture_output=True, text=True).stdout

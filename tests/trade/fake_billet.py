@@ -4,6 +4,7 @@
 limit and errors are known. Some values fail, each in its own way. Each run adds a line to the file $FAKE_LOG; where that
 has $FAKE_INTERRUPT lines the sweep is interrupted as by Ctrl-C."""
 
+import json
 import os
 import signal
 import sys
@@ -66,13 +67,13 @@ def check(file):
     try:
         scene = entries(Path(file).read_text())
     except OSError:
-        return {}, f"billet: {file}: the scene file cannot be read"
+        return {}, f"{file}: the scene file cannot be read"
     for path, value in scene.items():
         key = path.split("/")[-1]
         if not known(path) and key != "Title":
-            return scene, f"billet: {file}:1: '{key}': there is no such parameter"
+            return scene, f"{file}:1: '{key}': there is no such parameter"
         if key in WORDS and value not in WORDS[key]:
-            return scene, f"billet: {file}:1: '{key}': found '{value}', allowed is one of: {', '.join(WORDS[key])}"
+            return scene, f"{file}:1: '{key}': found '{value}', allowed is one of: {', '.join(WORDS[key])}"
     return scene, ""
 
 
@@ -131,9 +132,11 @@ def run(scene):
     rows += [f"{i},{t:.15g},{step},3,1e-9,{3 * i},0,2,{(1 + t) * force:.15g},{depth},{t},0" for i, t in enumerate(times, 1)]
     (results / "history.csv").write_text("\n".join(rows) + "\n")
     if end < 1:
+        message = "scene.prm: at time 0.4 Newton's method does not converge: no convergence"
         # Three in each accepted step, and twenty more.
-        print("".join(f"         iteration {i % 20 + 1:2}  force 1e-3  energy 1e-5  step length 1\n" for i in range(3 * len(times) + 20)))
-        print("billet: scene.prm: at time 0.4 Newton's method does not converge: no convergence", file=sys.stderr)
+        (results / "diagnostics.jsonl").write_text(json.dumps({"key": "solution-failed", "severity": "error", "message": message,
+                                                               "values": {"steps": len(times), "Newton iterations": 3 * len(times) + 20}}) + "\n")
+        print(f"error[solution-failed]: {message}", file=sys.stderr)
         return 3
     pvtu(results / "fields_00001", n, 0.1 * (1 + error))
     return 0
@@ -148,13 +151,14 @@ def main():
         return 0
     file = sys.argv[-1]
     scene, against = check(file)
-    if against:
-        print(against, file=sys.stderr)
-        return 2
     if sys.argv[1] == "--check":
         layers = next((v for path, v in scene.items() if path.endswith("/Layers")), 4)
-        print(f"Elements       {layers} in all, quasi-static, implicit")
-        return 0
+        messages = [{"key": "bad-input", "severity": "error", "message": against}] if against else []
+        print(json.dumps({"file": file, "valid": not against, "elements": int(layers), "diagnostics": messages}))
+        return 2 if against else 0
+    if against:
+        print(f"error[bad-input]: {against}", file=sys.stderr)
+        return 2
     return run(scene)
 
 

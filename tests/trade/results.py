@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Outputs of runs against closed forms, on distorted meshes."""
 
+import json
 import math
 import unittest
 from pathlib import Path
@@ -177,30 +178,40 @@ class TestHistory(unittest.TestCase):
             self.assertEqual(results.read_history(Path(folder, "none.csv")), {})
 
     def test_what_failed_has_worked(self):
-        """Iterations of a step that failed for good stand in no history, but in the log; explicit steps in the message."""
+        """Iterations of a step that failed for good stand in no history, but in the message that ended the run, as do explicit steps."""
         with TemporaryDirectory() as folder:
             place = Path(folder)
-            (place / "stdout").write_text("title\n" + "".join(f"         iteration {i:2}  force 1e-1  energy 1e-3  step length 1\n" for i in range(1, 13)))
-            (place / "stderr").write_text("billet: scene.prm: the step failed after 0 accepted steps")
+            (place / "stderr").write_text("error[solution-failed]: scene.prm: the step failed")
+            (place / "results").mkdir()
+
+            def fail(key, **values):
+                record = {"key": key, "severity": "error", "message": "scene.prm: the step failed", "values": values}
+                (place / "results/diagnostics.jsonl").write_text('{"key": "penalty-too-low", "severity": "warning"}\n' + json.dumps(record) + '\n{"summary"')
+
+            fail("solution-failed", **{"Newton iterations": 12, "steps": 0})
             kept = results.collect(place, 3, 10)
             self.assertEqual((kept["status"], kept["newton"], kept["steps"]), ("diverged", 12, 0))
             (place / "results").mkdir()
             (place / "results/history.csv").write_text("step,time,total_iterations\n1,0.5,7\n")
+            fail("solution-failed", **{"Newton iterations": 12, "steps": 1})
             self.assertEqual(results.collect(place, 3, 10)["newton"], 12)
             (place / "results").mkdir()
             (place / "results/history.csv").write_text("step,time,total_iterations\n1,0.5,7\n")
             self.assertEqual(results.collect(place, 0, 10)["newton"], 7)
-            (place / "stderr").write_text("billet: scene.prm: at time 1e-7 after 100 steps the energies fail to balance by 9 %, allowed are 5 % ('Largest drift')")
+            (place / "results").mkdir()
+            fail("energy-drift", steps=100)
             kept = results.collect(place, 3, 10)
             self.assertEqual((kept["status"], kept["steps"]), ("drifted", 100))
 
     def test_failures(self):
-        self.assertEqual(results.failure(0, "", 1)[0], "ok")
-        self.assertEqual(results.failure(3, "billet: a: no convergence", 1), ("diverged", "a: no convergence"))
-        self.assertEqual(results.failure(3, "fail to balance by 9 % ('Largest drift')", 1)[0], "drifted")
-        self.assertEqual(results.failure(2, "billet: x", 0), ("refused", "x"))
-        self.assertEqual(results.failure(None, "", 0.3), ("out of time", "at time 0.3: a longer --time-limit, or a smaller pilot (--mesh, --until), may do"))
-        self.assertEqual(results.failure(-11, "", 0.3)[0], "crashed")
+        for code in (0, 6, 7):  # without complaint, with warnings, beside the target error
+            self.assertEqual(results.failure(code, "", 1, {})[0], "ok")
+        self.assertEqual(results.failure(3, "", 1, {"key": "solution-failed", "message": "a: no convergence"}), ("diverged", "a: no convergence"))
+        self.assertEqual(results.failure(3, "error[solution-failed]: a: no convergence", 1, {}), ("diverged", "a: no convergence"))
+        self.assertEqual(results.failure(3, "", 1, {"key": "energy-drift", "message": "by 9 %"})[0], "drifted")
+        self.assertEqual(results.failure(2, "error[bad-input]: x", 0, {}), ("refused", "x"))
+        self.assertEqual(results.failure(None, "", 0.3, {}), ("out of time", "at time 0.3: a longer --time-limit, or a smaller pilot (--mesh, --until), may do"))
+        self.assertEqual(results.failure(-11, "", 0.3, {})[0], "crashed")
 
 
 unittest.main()

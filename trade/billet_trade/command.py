@@ -148,11 +148,9 @@ def pilot(scene, options):
     return scene.changed(results.output_settings(scene))
 
 
-def read_presets(said):
-    """{path: value} of what a profile or a target error sets in a scene, as --check tells it."""
-    block = re.search(r"^(?:Profile|Target error) .*\n((?: {15}.+ = .*\n)*)", said, re.MULTILINE)
-    lines = [line.strip().partition(" = ") for line in block.group(1).splitlines()] if block else []
-    return {path.replace(" / ", "/"): value for path, _, value in lines}
+def read_presets(checked):
+    """{path: value} of what a profile or a target error sets in a scene, as --check --json says."""
+    return {path.replace(" / ", "/"): value for path, value in checked.get("presets", {}).items()}
 
 
 def is_number(text):
@@ -471,10 +469,10 @@ def main(arguments, beside):
     try:
         runner.files = original.files(file.parent)
         scene = pilot(original, options)
-        elements, against, said = runner.check(scene)
+        elements, against, checked = runner.check(scene)
         if against:
             raise TradeError(f"billet refuses the scene as it would be measured: {against}")
-        scene.presets = read_presets(said)
+        scene.presets = read_presets(checked)
         if options.list:
             print(Candidates(scene, runner, options).tell())
             return 0

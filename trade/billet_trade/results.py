@@ -14,15 +14,16 @@ from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkGenericCell, vtkSta
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 from . import TradeError, measure
+from .records import failure_of, read_records, value_of
 
-FORMAT = 2  # of what is kept; another one makes runs anew
+FORMAT = 3  # of what is kept; another one makes runs anew
 SAMPLES = 2000  # of an explicit history
 FACES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 
 
 def output_settings(scene):
     """What a measured run writes: its history, and fields at the start and the end."""
-    changes = {"Output/Folder": "results", "Output/Format": "vtu", "Output/Every steps": 0, "Output/Verbosity": "iterations",
+    changes = {"Output/Folder": "results", "Output/Format": "vtu", "Output/Every steps": 0, "Output/Verbosity": "steps",
                "Output/Stress": "false"}
     if scene.number("Output/Interval") > 0:
         changes["Output/Interval"] = 0
@@ -32,17 +33,6 @@ def output_settings(scene):
     if scene.is_explicit:
         changes["Output/History interval"] = f"{scene.end_time / SAMPLES:.9g}"
     return changes
-
-
-def iterations_told(said):
-    """Newton iterations that a log of verbosity `iterations` names: with those of a step that failed for good, which no history has."""
-    return len(re.findall(r"^ +iteration +\d+ ", said, re.MULTILINE))
-
-
-def explicit_steps_told(reason):
-    """How many explicit steps a run did until it failed; 0: it does not say."""
-    found = re.search(r" after (\d+) steps", reason)
-    return int(found.group(1)) if found else 0
 
 
 # --- what is kept of a run ---------------------------------------------------------------------------------------
@@ -107,18 +97,21 @@ def facet_size(fields):
     return math.sqrt(float(numpy.median(areas))) if len(areas) else math.nan
 
 
-def failure(code, said, time):
-    """Status and reason of an exit code and what was said on standard error."""
-    if code == 0:
+COMPLETED = (0, 6, 7)  # exit codes of runs that came to their end: without complaint, with warnings, beside the target error
+
+
+def failure(code, said, time, error):
+    """Status and reason of an exit code, what was said on standard error, and the message that ended the run."""
+    if code in COMPLETED:
         return "ok", ""
-    reason = re.sub(r"\s+", " ", re.sub(r"-{40,}.*?-{40,}", "", said, flags=re.DOTALL)).strip()
-    reason = re.sub(r"^billet: ", "", reason)
+    reason = re.sub(r"\s+", " ", re.sub(r"-{40,}.*?-{40,}", "", error.get("message", said), flags=re.DOTALL)).strip()
+    reason = re.sub(r"^error\[[\w-]+\]: ", "", reason)
     if code is None:
         return "out of time", f"at time {time:.3g}: a longer --time-limit, or a smaller pilot (--mesh, --until), may do"
     if code == 2:
         return "refused", reason
     if code == 3:
-        return ("drifted" if "'Largest drift'" in said else "diverged"), reason
+        return ("drifted" if error.get("key") == "energy-drift" else "diverged"), reason
     return "crashed", f"exit code {code}: {reason}"
 
 
@@ -133,11 +126,12 @@ def collect(folder, code, limit):
         return history[name][-1] if len(times) and name in history else 0
 
     last = float(last_of("time"))
-    status, reason = failure(code, (folder / "stderr").read_text(), last)
+    error = failure_of(read_records(folder / "results/diagnostics.jsonl"))
+    status, reason = failure(code, (folder / "stderr").read_text(), last, error)
     kept = {"status": status, "reason": reason[:2000], "code": code, "limit": limit, "time": last,
-            "steps": max(int(last_of("step")), explicit_steps_told(reason)),
-            "newton": int(last_of("total_iterations")) if status == "ok" else max(
-                int(last_of("total_iterations")), iterations_told((folder / "stdout").read_text(errors="replace"))),
+            "steps": max(int(last_of("step")), int(value_of(error, "steps"))),
+            # With those of a step that failed for good, which no history has.
+            "newton": max(int(last_of("total_iterations")), int(value_of(error, "Newton iterations"))),
             "cuts": int(last_of("total_cuts")),
             "linear": int(numpy.sum(history.get("linear_iterations", 0))),
             "first_step": float(lengths[0]) if len(lengths) else 0.0,

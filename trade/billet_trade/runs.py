@@ -60,16 +60,15 @@ class Program:
         return done.stdout
 
     def check(self, file):
-        """Exit code, what is said of the scene, and what is against it."""
+        """Exit code, what the scene is, and why it is refused, '' if it is not."""
         # Alone, without Open MPI's daemon: a good part of the time of a tiny scene.
-        done = subprocess.run([str(self.path), "--check", str(file)], capture_output=True, text=True,
+        done = subprocess.run([str(self.path), "--check", "--json", str(file)], capture_output=True, text=True,
                               env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"})
-        return done.returncode, done.stdout, done.stderr.strip()
-
-
-def n_elements(said):
-    found = re.search(r"^Elements\s+(\d+)", said, re.MULTILINE)
-    return int(found.group(1)) if found else 0
+        try:
+            scene = json.loads(done.stdout)
+        except ValueError:
+            return done.returncode, {}, done.stderr.strip()
+        return done.returncode, scene, "" if scene["valid"] else scene["diagnostics"][-1]["message"]
 
 
 def end(process, ranks):
@@ -141,22 +140,22 @@ class Runner:
         return hashlib.sha256(whole.encode()).hexdigest()[:20]
 
     def check(self, scene):
-        """Elements of a scene, and why the program refuses it, '' if it does not."""
+        """Elements of a scene, why the program refuses it, '' if it does not, and what the program says it is."""
         text = self.prepared(scene)
         kept = self.folder / "checks" / (self.key(text) + ".json")
         if not kept.exists():
             file = kept.with_suffix(f".{threading.get_ident()}.prm")
             file.write_text(text)
-            code, said, against = self.program.check(file)
+            code, checked, against = self.program.check(file)
             file.unlink()
             if self.stop.is_set():
                 raise Stopped
             if code not in (0, 2):
                 raise TradeError(f"'{self.program.path} --check' ended with {code}: {against}", 3)
-            write_json(kept, {"code": code, "said": said, "against": against.replace(str(file), "scene").replace(file.name, "scene")})
+            write_json(kept, {"code": code, "scene": checked, "against": against.replace(str(file), "scene").replace(file.name, "scene")})
         known = json.loads(kept.read_text())
         why = "" if known["code"] == 0 else known["against"]
-        return n_elements(known["said"]), re.sub(r"^billet: scene:?\d*:? ?", "", why), known["said"]
+        return known["scene"].get("elements", 0), re.sub(r"^scene:?\d*:? ?", "", why), known["scene"]
 
     def elements(self, scene):
         """How many it has; scenes with the same meshes are asked once."""

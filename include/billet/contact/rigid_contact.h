@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_RIGID_CONTACT_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/diagnostics.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
@@ -136,10 +137,10 @@ public:
   std::string describe_thin_tool() const;
   /// Whether that is looked for, on all ranks alike.
   bool has_thin_tool() const { return thickness_of_thin_tool_ > 0.; }
-  /// The first time that nodes have been found behind the tool, what to say; else nothing. Collective.
-  std::string tell_nodes_behind();
-  /// A line on each tool that fits between the nodes. Collective.
-  static std::string describe_small_tools(const std::vector<RigidContact> &contacts);
+  /// A message if nodes have been found behind the tool. Collective.
+  DiagnosticList check_nodes_behind() const;
+  /// A message on each tool that fits between the nodes. Collective.
+  static DiagnosticList check_small_tools(const std::vector<RigidContact> &contacts);
 
   /// On all ranks, after update().
   ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }
@@ -263,7 +264,7 @@ private:
   void collect_facets(const Discretization &discretization, double young_modulus);
   /// How wide and, if it is thin, how thick it is. Collective.
   void measure_tool();
-  std::string describe_small_tool() const;
+  DiagnosticList check_small_tool() const;
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
   /// Whether a node there has missed the tool's surface.
@@ -345,7 +346,7 @@ private:
   double most_stiffening_ = std::numeric_limits<double>::infinity();
   double most_tangential_stiffening_ = std::numeric_limits<double>::infinity(); ///< of the penalties as given
   bool is_removed_ = false;
-  bool has_nodes_behind_ = false, has_told_nodes_behind_ = false;
+  bool has_nodes_behind_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction},
       augmentation_memory_{Capability::augmentation};
 };

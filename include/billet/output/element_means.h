@@ -2,6 +2,7 @@
 #ifndef BILLET_OUTPUT_ELEMENT_MEANS_H
 #define BILLET_OUTPUT_ELEMENT_MEANS_H
 
+#include "billet/diagnostics.h"
 #include "billet/solve/solution.h"
 
 #include <string>
@@ -29,8 +30,8 @@ struct Checkerboard {
   double size = 0.;        ///< sqrt(sum V d^2 / sum V p^2), 0 without pressure
   double alternating = 0.; ///< sqrt(sum V (d - S d)^2 / sum V d^2): 1 of a checkerboard
 
-  /// What users should know; empty if it is no matter.
-  std::string describe() const;
+  /// A message if it is large.
+  DiagnosticList check() const;
 };
 
 /// Of meshes with so few elements that a checkerboard cannot be told from their stresses: zeros. Collective.

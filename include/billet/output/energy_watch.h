@@ -2,14 +2,16 @@
 #ifndef BILLET_OUTPUT_ENERGY_WATCH_H
 #define BILLET_OUTPUT_ENERGY_WATCH_H
 
+#include "billet/diagnostics.h"
 #include "billet/solve/solution.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace billet {
 
-/// Looks at the energies of accepted steps, and says once each what makes them doubtful, and what to do:
+/// Checks the energies of accepted steps for what makes them doubtful:
 /// energies of implicit dynamics that fail to balance (explicit runs look at them themselves), hourglass
 /// energy of one-point elements.
 class EnergyWatch {
@@ -27,20 +29,20 @@ public:
   explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
       : balance_(balance), allowed_drift_(allowed_drift) {}
 
-  /// A message for the console, empty if there is nothing to tell. `find_cause` is asked for the likely one
-  /// where energies fail to balance, on all ranks.
-  std::string look(
+  /// Messages about the energies at this time. `find_cause` is asked for the likely one where energies fail
+  /// to balance, on all ranks.
+  DiagnosticList check(
       double time, const EnergyLedger &energies,
       const std::function<Cause()> &find_cause = [] { return Cause::steps; });
-  /// Why the run has to end after the last look(); empty if it may go on.
+  /// Why the run has to end after the last check(); empty if it may go on.
   const std::string &imbalance() const { return imbalance_; }
 
 private:
   Balance balance_;
   double allowed_drift_;
   double largest_ = 0.;
-  bool told_balance_ = false, told_hourglass_ = false;
   std::string imbalance_;
+  std::optional<Cause> cause_; ///< of the first imbalance
 };
 
 } // namespace billet

@@ -2,13 +2,15 @@
 #ifndef BILLET_OUTPUT_ERROR_REPORT_H
 #define BILLET_OUTPUT_ERROR_REPORT_H
 
+#include "billet/diagnostics.h"
+
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace billet {
 
-/// The error that a run believes to have made, beside what was asked for and what it cost.
+/// The estimated error of a run, beside what was asked for and what it cost.
 struct ErrorReport {
   /// One source of errors: its name, its part of the forces or energies, and what lowers it.
   struct Source {
@@ -28,10 +30,13 @@ struct ErrorReport {
 
   /// Of what is known.
   double total() const;
-  /// For the console.
-  std::string describe() const;
-  /// believed_error.csv in this folder: quantity, value. Throws SolutionFailure if it cannot be written.
+  /// The estimate, and whether it meets the target.
+  DiagnosticList diagnostics() const;
+  /// error_estimate.csv in this folder: quantity, value. Throws SolutionFailure if it cannot be written.
   void write(const std::string &folder) const;
+
+private:
+  Diagnostic estimate() const;
 };
 
 } // namespace billet

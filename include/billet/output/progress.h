@@ -16,28 +16,21 @@ public:
   Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
 
   void start(const Discretization &discretization, const Solution &solution);
-  /// Of an explicit scene whose mass was scaled: the mass added, and that which was there before.
-  void show_mass_scaling(double added, double mass);
-  /// Of an explicit scene, once its first step is known: how many there will be, if they stay as long, and a
-  /// hint if they are absurdly many.
+  /// Of an explicit scene, once its first step is known: how many there will be, if they stay as long.
   void show_number_of_steps(double n_steps, double step);
   /// Of an explicit scene, where a line of the history is due.
   void show(unsigned int step, double length, const SolutionState &state);
-  /// A line of text, such as where a run goes on.
-  void note(const std::string &text);
-  /// A note, unless there is nothing to tell.
-  void warn(const std::string &text) {
-    if (!text.empty())
-      note(text);
-  }
-  /// A warning or an error, whatever the verbosity; a note only where there is a console at all.
+  /// A warning, whatever the verbosity; a note unless that is quiet.
   void show_diagnostic(Severity severity, const std::string &text);
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
   /// Of an explicit scene, at its end: how long its steps took without output, by the clock and of the
   /// processor.
   void show_pace(unsigned int n_steps, std::size_t n_elements, double seconds, double processor_seconds);
-  void finish(const std::string &file_to_open);
+  /// The last lines: how often messages were repeated, how many warnings there were (in words, or empty), and
+  /// what to open.
+  void finish(const std::vector<std::string> &repetitions, const std::string &warnings,
+              const std::string &file_to_open);
 
 private:
   void show_iterations(const NewtonReport &newton);

@@ -18,7 +18,8 @@ struct Scene {
   std::string file_name;
   std::string text; ///< the file as read
   std::string profile;
-  double target_error = 0.;    ///< part of the forces; 0: none is asked for
+  double target_error = 0.; ///< part of the forces; 0: none is asked for
+  bool warnings_are_errors = false;
   std::vector<Preset> presets; ///< what the profile, or the target error, has set
   std::vector<Amplitude> amplitudes;
   std::vector<Body> bodies;
@@ -44,6 +45,9 @@ struct Scene {
 
 /// Prints every parameter with its default, range, unit and meaning.
 void print_all_parameters(std::ostream &stream);
+
+/// Prints the same as a JSON Schema (draft 7) of a scene written as JSON: an object for each subsection.
+void print_schema(std::ostream &stream);
 
 } // namespace billet::parameters
 

@@ -148,10 +148,18 @@ public:
 
   /// What will be modelled, for --check; from the outlines of the meshes.
   void describe(std::ostream &stream) const;
+  /// The same as one JSON object, on one line.
+  std::string describe_as_json() const;
 
 private:
+  /// A capability of the program: whether the scene needs it, and for what.
+  struct CapabilityUse {
+    std::string name;
+    bool is_used;
+    std::string how;
+  };
+  std::vector<CapabilityUse> capability_uses() const;
   void add_corners(std::vector<double> &times) const;
-  void describe_capabilities(std::ostream &stream) const;
   void make_pairs();
   void allow_for_pressure();
   void choose_material_tangents();

@@ -46,8 +46,9 @@ public:
   /// Whether steps, or penetrations, are a source of errors in this scene.
   bool measures_steps() const { return measures_steps_; }
   bool measures_penetration() const { return measures_penetration_; }
-  /// What users should know before the end: that very many steps are to come; empty: nothing new.
-  std::string take_note(const StepControl &control);
+  /// Messages before the end of the run: that very many steps are to come, that none can be compared any
+  /// more.
+  DiagnosticList check(const StepControl &control) const;
   /// Iterations of all measurements.
   unsigned int n_iterations() const { return n_iterations_; }
 
@@ -79,8 +80,6 @@ private:
   double probe_end_ = 0.;
   double last_residual_ = 0.;
   unsigned int n_iterations_ = 0;
-  double told_steps_ = 0.; ///< so many to come have been told
-  bool has_told_surrender_ = false;
   HeldMemory memory_{Capability::error_control};
 };
 

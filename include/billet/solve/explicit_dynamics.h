@@ -60,10 +60,10 @@ public:
   /// The same, and the fields. Collective.
   void update_state();
   /// After prepare_step(): what the user should know of the penalties; lines. Collective.
-  std::string watch_penalties();
+  DiagnosticList check_penalties();
   /// After prepare_step(): what makes steps much shorter than they would be without, contact or flat
   /// elements; lines, each once. Collective.
-  std::string watch_steps();
+  DiagnosticList check_steps() const;
   /// Whether it has said so of any pair, ever.
   bool has_soft_penalties() const { return soft_penalties_.has_soft_pairs(); }
   /// Part of the largest energy so far by which the energies of the last update fail to balance; of
@@ -83,7 +83,7 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override;
-  std::string warnings() const override { return RigidContact::describe_small_tools(contacts_); }
+  DiagnosticList initial_diagnostics() const override { return RigidContact::check_small_tools(contacts_); }
 
 private:
   void make_blocks();
@@ -143,8 +143,7 @@ private:
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
   double element_step_ = 0.;                     ///< stable step, with what else bounds it, of all ranks
   double free_step_ = 0., first_free_step_ = 0.; ///< that of the elements alone, of all ranks; at the start
-  bool has_told_stiff_ = false, has_told_flat_ = false;
-  Crossings crossings_; ///< of this rank, at t_n
+  Crossings crossings_;                          ///< of this rank, at t_n
   double crossing_step_ = 0.;
   double time_ = 0., step_ = 0., step_before_ = 0.;
   double step_factor_ = 1.; ///< beside the safety factor

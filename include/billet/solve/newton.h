@@ -49,7 +49,6 @@ struct NewtonReport {
   bool goes_round = false;   ///< it did not converge: go_round()
   bool is_explained = false; ///< `failure` says what to do, too, and it is not the iterations' fault
   unsigned int linear_iterations = 0;
-  std::string note;           ///< of the linear solver, for the user; lines
   DiagnosticList diagnostics; ///< messages for the user
   /// Iterations of the hardest of the solutions that were appended: what the length of a step is ruled by.
   /// Each of many augmentations may be easy.
@@ -65,7 +64,6 @@ struct NewtonReport {
     is_explained = next.is_explained;
     force = next.force;
     linear_iterations += next.linear_iterations;
-    note += next.note;
     billet::append(diagnostics, next.diagnostics);
     iterations.insert(iterations.end(), next.iterations.begin(), next.iterations.end());
     hardest = std::max(hardest, next.hardest);

@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_PENALTY_WATCH_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/diagnostics.h"
 #include "billet/geometry/placement.h"
 
 #include <map>
@@ -13,8 +14,8 @@ namespace billet {
 /// Says which contact pairs have penalties that are too soft for what presses them, by three signs: nodes a
 /// tenth of a facet deep; or deeper than a fifth of the largest displacement so far, of bodies or of the
 /// pair's tool; or more than a fifth of all work in the pair's springs, as where what is pressed is flat and
-/// moves aside: then the penalty gives way in place of the body. Once for each pair, and again where nodes
-/// get ten times as deep. In a blow nodes come in before bodies deform: there only the first sign is told.
+/// moves aside: then the penalty gives way in place of the body. In a blow nodes come in before bodies
+/// deform: there only the first sign is told.
 class PenaltyWatch {
 public:
   enum class Motion { slow, sudden };
@@ -22,20 +23,16 @@ public:
   explicit PenaltyWatch(const Motion motion) : motion_(motion) {}
 
   /// The deepest node of the pair, the largest displacement [length], and what part of all work the pair's
-  /// springs hold, of all ranks. A line for the console, empty if there is nothing to tell.
-  std::string look(const std::string &pair, const Penetration &deepest, double displacement,
-                   double part_of_work = 0.);
+  /// springs hold, of all ranks. A message, or none.
+  DiagnosticList check(const std::string &pair, double time, const Penetration &deepest, double displacement,
+                       double part_of_work = 0.);
   /// Whether a pair has shown either sign.
   bool has_soft_pairs() const { return has_soft_pairs_; }
 
 private:
-  struct Record {
-    double displacement = 0.; ///< the largest so far [length]
-    double told = 0.;         ///< depth that was told last [facet sizes]
-  };
   Motion motion_;
   bool has_soft_pairs_ = false;
-  std::map<std::string, Record> pairs_;
+  std::map<std::string, double> displacements_; ///< by pair, the largest so far [length]
 };
 
 /// How far a tool's motion takes a point that is `radius` from its moved centre, at most [length].

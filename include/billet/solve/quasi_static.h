@@ -85,9 +85,8 @@ public:
   /// Residuals, and their work, have to be this part of what the solver's tolerances allow; in (0, 1].
   void set_accuracy(const double factor) { accuracy_ = factor; }
   /// Where steps with another contact tangent fail: from here on it is the exact one, of an unsymmetric
-  /// matrix. Returns a line about it; empty, and nothing is done, where it is exact already, or nothing can
-  /// touch. Collective.
-  std::string take_exact_tangent();
+  /// matrix. False, and nothing is done, where it is exact already, or nothing can touch. Collective.
+  bool take_exact_tangent();
 
   /// Of the last step that was tried, in dynamic scenes: see ImplicitMotion::step_error().
   double time_error() const { return time_error_; }
@@ -108,7 +107,7 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override { return linear_->name(); }
-  std::string warnings() const override { return RigidContact::describe_small_tools(contacts_); }
+  DiagnosticList initial_diagnostics() const override { return RigidContact::check_small_tools(contacts_); }
   bool solves_iteratively() const override { return linear_->is_iterative(); }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
@@ -232,9 +231,9 @@ private:
   void stiffen(std::size_t contact, double factor);
   /// Makes the penalties of contacts stiffer whose errors fell by little since `before`. Collective.
   void stiffen_slow_contacts(const std::vector<double> &before, const std::vector<double> &errors);
-  /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that. Empty if there are
-  /// none, else a line about it. Collective.
-  std::string soften_augmented_contacts();
+  /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that. Returns a message
+  /// on each. Collective.
+  DiagnosticList soften_augmented_contacts();
   /// The force that round-off in positions makes of the stiffest penalty. Collective.
   double find_spring_round_off() const;
   /// Whether a step that has converged has to fail, since contact's round-off leaves too much of the forces
@@ -242,14 +241,13 @@ private:
   bool is_lost_in_round_off(double t, NewtonReport &report);
   /// What is left of the forces, why and what to do.
   std::string describe_round_off(double part) const;
-  /// Where a step was accepted with this part of the forces, more than the tolerance, since round-off lets it
-  /// come no nearer; again where it is ten times as much.
-  std::string tell_round_off(double part);
+  /// A message if the step was accepted with this part of the forces, more than the tolerance, since
+  /// round-off lets it come no nearer.
+  DiagnosticList check_round_off(double part) const;
   /// Names of the pairs whose penalties make most of it. Collective.
   std::string stiffest_pairs() const;
-  /// What the user should know of the penalties after a step, each once; lines. In
-  /// solve/quasi_static_guards.cc.
-  std::string watch_penalties();
+  /// Messages about the penalties after a step. In solve/quasi_static_guards.cc.
+  DiagnosticList check_penalties();
   /// Of a failed static step: whether round-off of its contacts may be as large as what is left. Collective.
   bool may_be_round_off(const NewtonReport &report) const;
   /// At the end of a step: tools whose load friction bears, and that slip nearly all over. Collective.
@@ -279,8 +277,8 @@ private:
   bool has_stiff_contacts() const;
   /// As iterate(), with penalties of 10 E/h first, which then grow to what they are.
   NewtonReport iterate_from_softer(std::vector<double> &offsets, Vector &displacements);
-  /// Once: that a step needed that.
-  std::string tell_softer_penalties();
+  /// That a step needed that. Collective.
+  Diagnostic needs_softer_penalties() const;
   double fading(double t, std::size_t tool) const;
   void remove_tools(double t);
   /// A rigid motion of the body that supports and contacts do not hold, if there is one. On all ranks.
@@ -322,7 +320,6 @@ private:
   // Of dynamic scenes: what contact has taken and not yet given back; what the integrator took of it; the
   // largest energy so far.
   double contact_balance_ = 0., contact_taken_ = 0., largest_energy_ = 0.;
-  bool has_told_taken_ = false;
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
   bool contact_bears_ = false;      ///< at the last residual
   unsigned int n_in_round_off_ = 0; ///< of the last accepted steps, those that are lost in it
@@ -340,7 +337,6 @@ private:
   std::unique_ptr<ProbedState> probe_; ///< of the last probe, while steps may start from it
   bool is_probing_ = false;
   bool is_led_by_softer_ = false; ///< of the step that is tried
-  bool has_told_softer_ = false;
   double penetration_allowed_ = 1., accuracy_ = 1.;
   double penetration_ = 0.;
   bool measures_penetration_ = false, may_leave_penetration_ = false;
@@ -348,10 +344,8 @@ private:
   std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
   std::vector<double>
-      tool_pair_energies_;      ///< in the springs of each pair with a tool, at the last step's end
-  bool has_told_stiff_ = false; ///< by watch_penalties()
-  double told_round_off_ = 0.;  ///< part of the forces
-  bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
+      tool_pair_energies_;     ///< in the springs of each pair with a tool, at the last step's end
+  bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
   std::vector<std::size_t> slipping_tools_;         ///< at the end of the last accepted step

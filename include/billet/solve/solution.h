@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_SOLUTION_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/diagnostics.h"
 #include "billet/discretization/discretization.h"
 #include "billet/geometry/placement.h"
 #include "billet/mechanics/element_block.h"
@@ -55,8 +56,8 @@ public:
   virtual std::array<std::size_t, 2> history_sizes() const = 0;
   /// How it is solved, for the console.
   virtual std::string method() const = 0;
-  /// What the user should know of the scene before the first step; lines. Collective.
-  virtual std::string warnings() const = 0;
+  /// Messages about the scene before the first step. Collective.
+  virtual DiagnosticList initial_diagnostics() const = 0;
   /// Whether linear iterations are worth showing.
   virtual bool solves_iteratively() const { return false; }
 };

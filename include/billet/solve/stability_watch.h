@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_STABILITY_WATCH_H
 #define BILLET_SOLVE_STABILITY_WATCH_H
 
+#include "billet/diagnostics.h"
 #include "billet/discretization/discretization.h"
 #include "billet/material/stability.h"
 #include "billet/scene/scene.h"
@@ -19,8 +20,9 @@ class StabilityWatch {
 public:
   StabilityWatch(const Scene &scene, const Discretization &discretization);
 
-  /// At these (ghosted) displacements: lines for the console, empty if there is nothing to tell. Collective.
-  std::string look(const Vector &displacements);
+  /// Messages at these (ghosted) displacements, one for each body that has lost its stability for the first
+  /// time. Collective.
+  DiagnosticList check(double time, const Vector &displacements);
   /// Whether a body has been found so.
   bool has_unstable_bodies() const { return has_unstable_bodies_; }
 
@@ -30,7 +32,7 @@ private:
     std::string name;
     ElasticModuli elastic;
     parameters::Material::Kinematics kinematics;
-    bool is_told;
+    bool is_unstable;
   };
   struct Weakest {
     double stiffness; ///< over the shear modulus

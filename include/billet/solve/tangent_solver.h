@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_TANGENT_SOLVER_H
 #define BILLET_SOLVE_TANGENT_SOLVER_H
 
+#include "billet/diagnostics.h"
 #include "billet/solve/iterative_solver.h"
 #include "billet/usage.h"
 
@@ -38,16 +39,16 @@ public:
   const std::string &failure() const { return failure_; }
   /// Of an iterative solver, since the last call.
   unsigned int take_iterations();
-  /// What the user has to be told, since the last call: once how much memory an iterative solver takes, once
-  /// that a direct one had to help.
-  std::string take_note();
+  /// Messages since the last call: how much memory an iterative solver takes, that a direct one had to help,
+  /// that the matrix is ill-conditioned.
+  DiagnosticList take_diagnostics();
 
 private:
   bool factorize_directly();
   bool fall_back();
   /// Of the matrix just factorised, by two solves.
   void estimate_condition();
-  /// Tells, once, of a condition |A| |x|/|b| that takes most digits: no more than that of the matrix, and for
+  /// Reports, once, a condition |A| |x|/|b| that takes most digits: no more than that of the matrix, and for
   /// free.
   void watch_condition(const Epetra_Vector &b, const Epetra_Vector &x);
 
@@ -60,11 +61,11 @@ private:
   bool is_direct_now_;
   unsigned int n_failures_ = 0; ///< of the iterative solver in succession
   unsigned int pause_ = 0;      ///< matrices for which it is not tried
-  bool has_told_memory_ = false, has_told_fallback_ = false;
-  bool has_told_condition_ = false;
+  bool has_reported_memory_ = false, is_ill_conditioned_ = false;
   unsigned int n_factorized_ = 0; ///< directly
   double norm_ = 0.;              ///< |A|, as factorised directly
-  std::string name_, failure_, note_;
+  std::string name_, failure_;
+  DiagnosticList diagnostics_;
   HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},
       iterative_memory_{Capability::iterative_solver};
 

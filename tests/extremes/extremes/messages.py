@@ -5,13 +5,13 @@ import re
 
 WHERE = re.compile(r"scene\.prm(:\d+)?:|command line:")
 WHEN = re.compile(r"\b(time|step)\b")
-TODO = re.compile(r"\b(allowed (is|are)|[Tt]ry (a|an|another|the|'|more|less|it|one|some)|draw the tool|[Ll]et )")
+TODO = re.compile(r"\b(allowed (is|are)|[Tt]ry (a|an|another|the|'|more|less|it|one|some)|draw the tool|[Ll]et |(Reduce|Increase|Choose|Use|Set|Check|Add|Support) )")
 WORTHLESS = re.compile(r"(?<![\w'])-?(nan|inf)\b", re.IGNORECASE)
 
 
 def reason(stderr):
     said = re.sub(r"-{40,}.*?-{40,}", "", stderr, flags=re.DOTALL)
-    return re.sub(r"^billet: ", "", re.sub(r"\s+", " ", said).strip())
+    return re.sub(r"^error\[[\w-]+\]: ", "", re.sub(r"\s+", " ", said).strip())
 
 
 def lacks(code, said):

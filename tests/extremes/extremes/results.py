@@ -70,14 +70,14 @@ class Result:
     """Of one run; `setup` says what it was."""
 
     def __init__(self, setup, history, fields, believed=None):
-        """`believed`: {quantity: value} of believed_error.csv."""
+        """`believed`: {quantity: value} of error_estimate.csv."""
         self.setup, self.knobs, self.believed = setup, setup.knobs, believed or {}
         self.history, self.fields = in_base_units(history, setup.frame), upright(fields, setup.frame) if fields else {}
 
     @classmethod
     def read(cls, setup, folder):
         pictures = sorted(folder.glob("fields_*.pvtu"))
-        file, believed = folder / "believed_error.csv", {}
+        file, believed = folder / "error_estimate.csv", {}
         if file.exists():
             with open(file, newline="") as stream:
                 believed = {row["quantity"]: float(row["value"]) for row in csv.DictReader(stream)}
