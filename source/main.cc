@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/errors.h"
 #include "billet/output/checkpoint.h"
+#include "billet/scene/plausibility.h"
 #include "billet/scene/scene.h"
 #include "billet/simulation.h"
 #include "billet/version.h"
@@ -86,8 +87,13 @@ void check(const std::string &file, const std::string &restart_file, const bool 
     const billet::Scene scene(parameters);
     dealii::Triangulation<3> outline;
     scene.build_mesh(billet::MeshDetail::outline, outline);
-    if (is_first)
-      scene.describe(std::cout);
+    if (!is_first)
+      return;
+    scene.describe(std::cout);
+    billet::DiagnosticList diagnostics = billet::check_plausibility(scene, outline, MPI_COMM_SELF);
+    billet::append(diagnostics, billet::check_bricks(scene));
+    for (const auto &diagnostic : diagnostics)
+      std::cout << diagnostic.text() << "\n";
   });
 }
 

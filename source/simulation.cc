@@ -14,6 +14,7 @@
 #include "billet/solve/error_watch.h"
 #include "billet/solve/explicit_dynamics.h"
 #include "billet/solve/quasi_static.h"
+#include "billet/solve/run_review.h"
 #include "billet/solve/stability_watch.h"
 #include "billet/solve/step_control.h"
 
@@ -390,8 +391,11 @@ double processor_time() {
 
 /// Tells the user, and believed_error.csv. Collective.
 void tell_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
-                 const parameters::Scene &parameters, Outputs &outputs) {
+                 const parameters::Scene &parameters, const RunReview &review, Outputs &outputs) {
   report.target = parameters.target_error;
+  if (review.element_error() > 0.)
+    report.sources.push_back({"elements", review.element_error(),
+                              "they are too stiff for this deformation, see the warnings about them"});
   report.stress_jumps = stress_jumps(solution, discretization);
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
@@ -465,6 +469,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(), [](const BodyPair &pair) {
         return pair.has_friction() && pair.facets == parameters::ContactPair::Facets::overlap;
       });
+  RunReview review(scene, discretization);
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
@@ -482,6 +487,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         report.total_cuts = control.n_cuts();
         if (watch)
           watch->load(resumption->reader);
+        review.load(resumption->reader);
         if (errors && resumption->reader.has("errors"))
           errors->load(resumption->reader);
       });
@@ -490,6 +496,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   const double mass = errors ? problem.mass() : 0.;
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
+  outputs.diagnostics.report(review.start());
   if (resumption != nullptr)
     outputs.announce(*resumption, parameters.solver.force_tolerance);
   if (resumption == nullptr || !resumption->report.is_exact)
@@ -503,6 +510,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         watch->save(writer);
       if (errors)
         errors->save(writer);
+      review.save(writer);
     });
   };
   while (!control.is_finished()) {
@@ -538,6 +546,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
+      outputs.diagnostics.report(review.after_step(problem, control.is_finished()));
       outputs.progress.warn(stability.look(problem.state().displacements));
       outputs.progress.warn(energies.look(control.time(), problem.state().energies, [&] {
         return stability.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
@@ -581,12 +590,13 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       throw SolutionFailure(explain_failure(parameters, report, from, to, stability.has_unstable_bodies()));
     }
   }
+  outputs.diagnostics.report(review.finish());
   if (watch)
-    tell_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
+    tell_errors(make_report(*watch, report), problem, discretization, parameters, review, outputs);
   if (errors) {
     ErrorReport believed = make_report(*errors, "try a smaller 'Largest step'");
     believed.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
-    tell_errors(std::move(believed), problem, discretization, parameters, outputs);
+    tell_errors(std::move(believed), problem, discretization, parameters, review, outputs);
   }
   outputs.progress.warn(find_checkerboard(problem, discretization).describe());
   outputs.progress.finish(outputs.writer.file_to_open());
@@ -652,6 +662,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   std::unique_ptr<EnergyErrors> errors;
   if (parameters.target_error > 0.)
     errors = std::make_unique<EnergyErrors>(parameters.target_error);
+  RunReview review(scene, discretization);
   unsigned int balanced_step = 0; // the last at which the energies were seen to balance
   if (resumption != nullptr) {
     resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
@@ -664,6 +675,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         if (resumption->reader.number("interval") == history_times.interval())
           history_times.begin_after(resumption->reader.number("last"));
         balanced_step = static_cast<unsigned int>(resumption->reader.number("balanced step"));
+        review.load(resumption->reader);
         if (errors && resumption->reader.has("errors")) {
           errors->load(resumption->reader);
           problem.shorten_steps(errors->step_factor());
@@ -673,6 +685,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   const std::array<bool, 3> free_directions = scene.free_directions();
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
+  outputs.diagnostics.report(review.start());
   if (resumption != nullptr)
     outputs.announce(*resumption, 0.);
   const auto save = [&](StateWriter &writer) {
@@ -681,6 +694,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       writer.write("interval", {history_times.interval()});
       writer.write("last", {history_times.last()});
       writer.write("balanced step", {static_cast<double>(balanced_step)});
+      review.save(writer);
       if (errors)
         errors->save(writer);
     });
@@ -699,7 +713,11 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         outputs.history->write(problem.n_steps(), problem.step_length(), problem.state());
     });
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
-    outputs.progress.warn(problem.watch_penalties());
+    DiagnosticList diagnostics;
+    outputs.progress.warn(problem.watch_penalties(diagnostics));
+    problem.update_state();
+    append(diagnostics, review.after_step(problem, problem.time() >= events.end()));
+    outputs.diagnostics.report(diagnostics);
     outputs.progress.warn(energies.look(problem.time(), problem.state().energies));
   };
   const auto look_at_stability = [&] {
@@ -816,13 +834,14 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     if (wish == Signals::Wish::end && !is_finished)
       return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);
   }
+  outputs.diagnostics.report(review.finish());
   if (errors) {
     ErrorReport report = make_report(*errors, "try a smaller 'Safety factor'");
     report.costs = {{"steps taken", problem.n_steps()},
                     {"element updates", static_cast<double>(problem.n_steps()) *
                                             static_cast<double>(discretization.n_global_elements())}};
     problem.update_state();
-    tell_errors(report, problem, discretization, parameters, outputs);
+    tell_errors(report, problem, discretization, parameters, review, outputs);
   }
   outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
                              processor_seconds);

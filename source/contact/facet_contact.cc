@@ -702,7 +702,10 @@ std::vector<FacetContact::NodeReport> FacetContact::report() const {
                                 touches ? state.contact.gap - state.touched.offset + lift(s).now : 0.,
                                 history_.empty() ? 0. : history_[s].slip,
                                 touches ? state.area : 0.,
-                                state.traction.traction};
+                                state.traction.traction,
+                                touches && state.traction.pressure > 0.
+                                    ? std::abs(state.contact.gap + augmentation(s))
+                                    : 0.};
   }
   return reports;
 }

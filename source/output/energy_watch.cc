@@ -30,8 +30,6 @@ std::string EnergyWatch::advise(const Cause cause) {
 
 std::string EnergyWatch::look(const double time, const EnergyLedger &energies,
                               const std::function<Cause()> &find_cause) {
-  constexpr double doubtful_hourglass = 0.1;
-  constexpr double counts = 0.01; // less than that of the largest energy is no matter
   // What is there counts half only, as in explicit dynamics: energy from nowhere must not hide itself.
   largest_ =
       std::max({largest_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
@@ -48,16 +46,6 @@ std::string EnergyWatch::look(const double time, const EnergyLedger &energies,
       imbalance_ = what.str();
     } else
       text << "At time " << time << " " << what.str() << ": " << advise(find_cause());
-  }
-  const double taken_up = energies.elastic + energies.plastic + energies.hourglass;
-  if (!told_hourglass_ && energies.hourglass > doubtful_hourglass * taken_up &&
-      energies.hourglass > counts * largest_) {
-    told_hourglass_ = true;
-    text << (text.str().empty() ? "" : "\n") << "At time " << time << " hourglass control has "
-         << 100. * energies.hourglass / taken_up
-         << " % of the energy that deforms the bodies: one-point elements are coarse for this. Try a finer "
-            "mesh, "
-            "another 'Hourglass stiffness', or 'Element = mean dilatation'";
   }
   return text.str();
 }

@@ -625,7 +625,7 @@ void ExplicitDynamics::update_ledger() {
     energy_of_steps_ = std::max(energy_of_steps_, energy);
 }
 
-std::string ExplicitDynamics::watch_penalties() {
+std::string ExplicitDynamics::watch_penalties(DiagnosticList &diagnostics) {
   // Of all ranks: the largest displacement, and for each pair how deep it is, in facet sizes and as length.
   std::vector<double> maxima(1);
   for (unsigned int node = 0; node < nodes_.size(); ++node)
@@ -645,7 +645,8 @@ std::string ExplicitDynamics::watch_penalties() {
     note << (note.str().empty() || text.empty() ? "" : "\n") << text;
   };
   const auto look = [&](const std::string &name, const double displacement) {
-    add_line(soft_penalties_.look(name, {next[0], next[1]}, displacement));
+    if (const auto message = soft_penalties_.look(name, {next[0], next[1]}, displacement))
+      diagnostics.push_back(*message);
     next += 2;
   };
   for (auto &contact : contacts_) {

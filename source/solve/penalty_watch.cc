@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/penalty_watch.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
 namespace billet {
 
-std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepest, const double displacement,
-                               const double part_of_work) {
+std::optional<Diagnostic> PenaltyWatch::look(const std::string &pair, const Penetration &deepest,
+                                             const double displacement, const double part_of_work) {
   constexpr double deep = 0.1;       // of a facet: what is deeper is seen in pictures and counts in areas
   constexpr double much_taken = 0.2; // of the motion: a fifth of what bodies would bear
   constexpr double much_deeper = 10.;
@@ -23,19 +25,21 @@ std::string PenaltyWatch::look(const std::string &pair, const Penetration &deepe
   has_soft_pairs_ = has_soft_pairs_ || is_deep || takes_motion || takes_work;
   if (!(is_deep || takes_work || (is_slow && takes_motion)) ||
       (record.told > 0. && deepest.of_facet < much_deeper * record.told))
-    return "";
+    return std::nullopt;
   record.told = deepest.of_facet;
   std::ostringstream text;
   text.precision(3);
-  text << "Contact pair '" << pair << "' lets nodes " << deepest.of_facet << " facet sizes deep";
+  text << "Nodes penetrate by " << deepest.of_facet << " facet sizes";
   if (takes_motion)
     text << ", " << std::round(100. * std::min(1., deepest.length / record.displacement))
          << " % of the largest displacement so far";
   else if (takes_work)
-    text << ", and takes " << std::round(100. * part_of_work) << " % of the work done so far";
-  text << ": its penalty is soft for what presses here. Try a larger 'Normal penalty'"
-       << (is_slow ? " or a 'Penetration tolerance'" : "");
-  return text.str();
+    text << "; the contact holds " << std::round(100. * part_of_work) << " % of the work done so far";
+  return Diagnostic(diagnostic::penalty_too_low, text.str())
+      .pair(pair)
+      .measure("penetration [facet sizes]", deepest.of_facet)
+      .advice(is_slow ? "Increase 'Normal penalty', or set a 'Penetration tolerance'"
+                      : "Increase 'Normal penalty'");
 }
 
 double largest_motion(const Placement &from, const Placement &to, const double radius) {

@@ -490,7 +490,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   report.linear_iterations = linear_->take_iterations();
   report.note = softened + linear_->take_note();
   if (report.converged)
-    report.note += watch_penalties() + tell_round_off(report.force);
+    report.note += watch_penalties(report.diagnostics) + tell_round_off(report.force);
   return report;
 }
 

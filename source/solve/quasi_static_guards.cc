@@ -11,7 +11,7 @@
 
 namespace billet {
 
-std::string QuasiStatic::watch_penalties() {
+std::string QuasiStatic::watch_penalties(DiagnosticList &diagnostics) {
   constexpr double much_taken = 0.05; // of the largest energy
   std::ostringstream note;
   note.precision(2);
@@ -22,9 +22,9 @@ std::string QuasiStatic::watch_penalties() {
     const MPI_Comm communicator = discretization_.communicator();
     deepest = {dealii::Utilities::MPI::max(deepest.of_facet, communicator),
                dealii::Utilities::MPI::max(deepest.length, communicator)};
-    const std::string text =
-        soft_penalties_.look(name, deepest, moved, work > 0. ? stored_energy / work : 0.);
-    note << text << (text.empty() ? "" : "\n");
+    if (const auto message =
+            soft_penalties_.look(name, deepest, moved, work > 0. ? stored_energy / work : 0.))
+      diagnostics.push_back(*message);
   };
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     auto &contact = contacts_[i];

@@ -79,16 +79,5 @@ int main() {
     EnergyWatch watch(EnergyWatch::Balance::is_left);
     check("where the run ends by itself, nothing is told", watch.look(1., flight(2., 0.)).empty());
   }
-  {
-    EnergyWatch watch(EnergyWatch::Balance::is_told);
-    EnergyLedger energies = flight(0.999, 0.0004);
-    energies.hourglass = 0.0006;
-    check("hourglass energy of a flight is no matter", watch.look(1., energies).empty());
-    energies = flight(0.5, 0.4);
-    energies.hourglass = 0.1;
-    const std::string text = watch.look(2., energies);
-    check("of a blow it is", tells(text, "hourglass control has 20 %") && tells(text, "Try a finer mesh"));
-    check("once, too", watch.look(3., energies).empty());
-  }
   return billet::testing::exit_code();
 }

@@ -2,6 +2,7 @@
 // Penalties that are soft are told by either sign, again where nodes are much deeper, and not where depths
 // are no matter.
 #include "billet/solve/penalty_watch.h"
+#include "billet/diagnostic_kinds.h"
 #include "../testing.h"
 
 #include <cmath>
@@ -11,10 +12,15 @@ using billet::testing::check;
 
 namespace {
 
-bool tells(const std::string &text, const std::string &what) { return text.find(what) != std::string::npos; }
+using Message = std::optional<billet::Diagnostic>;
+
+bool tells(const Message &message, const std::string &what) {
+  return message && message->kind().key == std::string("penalty-too-low") &&
+         message->text().find(what) != std::string::npos;
+}
 
 /// In facets of size 2.
-std::string look(PenaltyWatch &watch, const double of_facet, const double displacement) {
+Message look(PenaltyWatch &watch, const double of_facet, const double displacement) {
   return watch.look("pair", {of_facet, 2. * of_facet}, displacement);
 }
 
@@ -23,19 +29,19 @@ std::string look(PenaltyWatch &watch, const double of_facet, const double displa
 int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
-    check("a hundredth of a facet after a motion of one is no matter", look(watch, 0.01, 2.).empty());
-    check("a tenth is, nearly", look(watch, 0.099, 2.).empty() && !watch.has_soft_pairs());
-    const std::string text = look(watch, 0.11, 4.);
+    check("a hundredth of a facet after a motion of one is no matter", !look(watch, 0.01, 2.));
+    check("a tenth is, nearly", !look(watch, 0.099, 2.) && !watch.has_soft_pairs());
+    const Message text = look(watch, 0.11, 4.);
     check("more is told",
-          tells(text, "'pair' lets nodes 0.11 facet sizes deep:") && tells(text, "'Normal penalty' or"));
-    check("once", look(watch, 1., 40.).empty() && watch.has_soft_pairs());
+          tells(text, "Nodes penetrate by 0.11 facet sizes (pair 'pair'") && tells(text, "'Normal penalty', or"));
+    check("once", !look(watch, 1., 40.) && watch.has_soft_pairs());
     check("and again at ten times that", tells(look(watch, 1.2, 40.), "1.2 facet sizes"));
-    check("of each pair", !watch.look("other", {0.2, 0.4}, 40.).empty());
+    check("of each pair", watch.look("other", {0.2, 0.4}, 40.).has_value());
   }
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
-    const std::string text = look(watch, 1e-3, 4e-3);
-    check("half of the motion is told, however small", tells(text, "deep, 50 % of the largest displacement"));
+    const Message text = look(watch, 1e-3, 4e-3);
+    check("half of the motion is told, however small", tells(text, "facet sizes, 50 % of the largest displacement"));
   }
   {
     // A flat body moves aside by much more than it is high.
@@ -43,20 +49,20 @@ int main() {
     const auto look_at = [](PenaltyWatch &at, const double part_of_work) {
       return at.look("pair", {1e-3, 2e-3}, 1., part_of_work);
     };
-    check("a tenth of the work is no matter", look_at(watch, 0.1).empty() && !watch.has_soft_pairs());
-    check("half of it is told", tells(look_at(watch, 0.5), "deep, and takes 50 % of the work done so far"));
-    check("in a blow it is not", look_at(sudden, 0.5).empty() && !sudden.has_soft_pairs());
+    check("a tenth of the work is no matter", !look_at(watch, 0.1) && !watch.has_soft_pairs());
+    check("half of it is told", tells(look_at(watch, 0.5), "the contact holds 50 % of the work done so far"));
+    check("in a blow it is not", !look_at(sudden, 0.5) && !sudden.has_soft_pairs());
   }
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     look(watch, 0., 1.);
-    check("the largest motion so far counts", look(watch, 0.01, 0.).empty());
+    check("the largest motion so far counts", !look(watch, 0.01, 0.));
   }
   {
     PenaltyWatch watch(PenaltyWatch::Motion::sudden);
-    check("a first touch is no matter", look(watch, 1e-2, 2e-2).empty());
+    check("a first touch is no matter", !look(watch, 1e-2, 2e-2));
     check("one that is deeper is not told, but noticed",
-          !watch.has_soft_pairs() && look(watch, 0.05, 0.1).empty() && watch.has_soft_pairs());
+          !watch.has_soft_pairs() && !look(watch, 0.05, 0.1) && watch.has_soft_pairs());
     check("what gives way on is told", tells(look(watch, 0.2, 0.4), "100 % of the largest displacement"));
   }
   {

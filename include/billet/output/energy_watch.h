@@ -9,9 +9,9 @@
 
 namespace billet {
 
-/// Looks at the energies of accepted steps, and says once each what makes them doubtful, and what to do:
-/// energies of implicit dynamics that fail to balance (explicit runs look at them themselves), hourglass
-/// energy of one-point elements.
+/// Looks at the energies of accepted steps, and says once what makes them doubtful, and what to do: energies
+/// of implicit dynamics that fail to balance (explicit runs look at them themselves). The energy of the
+/// one-point elements' stabilisation is that of bending: whether it is right, ElementWatch finds.
 class EnergyWatch {
 public:
   /// What becomes of energies that fail to balance: nothing, a word, or the end of the run.
@@ -39,7 +39,7 @@ private:
   Balance balance_;
   double allowed_drift_;
   double largest_ = 0.;
-  bool told_balance_ = false, told_hourglass_ = false;
+  bool told_balance_ = false;
   std::string imbalance_;
 };
 

@@ -60,7 +60,7 @@ public:
   /// The same, and the fields. Collective.
   void update_state();
   /// After prepare_step(): what the user should know of the penalties; lines. Collective.
-  std::string watch_penalties();
+  std::string watch_penalties(DiagnosticList &diagnostics);
   /// After prepare_step(): what makes steps much shorter than they would be without, contact or flat
   /// elements; lines, each once. Collective.
   std::string watch_steps();

@@ -3,9 +3,11 @@
 #define BILLET_SOLVE_PENALTY_WATCH_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/diagnostics.h"
 #include "billet/geometry/placement.h"
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace billet {
@@ -22,9 +24,9 @@ public:
   explicit PenaltyWatch(const Motion motion) : motion_(motion) {}
 
   /// The deepest node of the pair, the largest displacement [length], and what part of all work the pair's
-  /// springs hold, of all ranks. A line for the console, empty if there is nothing to tell.
-  std::string look(const std::string &pair, const Penetration &deepest, double displacement,
-                   double part_of_work = 0.);
+  /// springs hold, of all ranks. None if there is nothing to tell.
+  std::optional<Diagnostic> look(const std::string &pair, const Penetration &deepest, double displacement,
+                                 double part_of_work = 0.);
   /// Whether a pair has shown either sign.
   bool has_soft_pairs() const { return has_soft_pairs_; }
 

@@ -249,7 +249,7 @@ private:
   std::string stiffest_pairs() const;
   /// What the user should know of the penalties after a step, each once; lines. In
   /// solve/quasi_static_guards.cc.
-  std::string watch_penalties();
+  std::string watch_penalties(DiagnosticList &diagnostics);
   /// Of a failed static step: whether round-off of its contacts may be as large as what is left. Collective.
   bool may_be_round_off(const NewtonReport &report) const;
   /// At the end of a step: tools whose load friction bears, and that slip nearly all over. Collective.

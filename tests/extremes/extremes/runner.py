@@ -21,10 +21,10 @@ from .scenes import make, nudged
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Said in the log of a run that comes to its end: what it makes doubtful, which is all but these.
-DOUBT = re.compile(r"^.*(the energies fail to balance by|its law is no longer stable|hourglass control has)\b.*$", re.MULTILINE)
+DOUBT = re.compile(r"^.*(the energies fail to balance by\b|its law is no longer stable\b|warning\[element-too-(?:stiff|soft)\]).*$", re.MULTILINE)
 # What the log says that rounding leaves of the forces: as much of them need not balance.
 ROUND_OFF = re.compile(r"^Round-off leaves (\S+) of the forces", re.MULTILINE)
-SOFT = re.compile(r"^Contact pair .* lets nodes .* deep.*: its penalty is soft", re.MULTILINE)
+SOFT = re.compile(r"^warning\[(?:penalty-too-low|contact-too-soft)\]:", re.MULTILINE)
 DEEP = 0.1  # facet sizes
 BALANCES = ("residual of steps", "patch test", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
