@@ -2,6 +2,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/output/checkpoint.h"
+#include "billet/scene/plausibility.h"
 #include "billet/scene/scene.h"
 #include "billet/simulation.h"
 #include "billet/version.h"
@@ -102,10 +103,17 @@ void check(const std::string &file, const CommandLine &command, const bool is_fi
     const billet::Scene scene(parameters);
     dealii::Triangulation<3> outline;
     scene.build_mesh(billet::MeshDetail::outline, outline);
-    if (is_first && command.json)
-      std::cout << scene.describe_as_json() << "\n";
-    else if (is_first)
-      scene.describe(std::cout);
+    if (!is_first)
+      return;
+    billet::DiagnosticList diagnostics = billet::check_plausibility(scene, outline, MPI_COMM_SELF);
+    billet::append(diagnostics, billet::check_bricks(scene));
+    if (command.json) {
+      std::cout << scene.describe_as_json(diagnostics) << "\n";
+      return;
+    }
+    scene.describe(std::cout);
+    for (const auto &diagnostic : diagnostics)
+      std::cout << diagnostic.text() << "\n";
   });
 }
 

@@ -15,6 +15,7 @@
 #include "billet/solve/error_watch.h"
 #include "billet/solve/explicit_dynamics.h"
 #include "billet/solve/quasi_static.h"
+#include "billet/solve/run_review.h"
 #include "billet/solve/stability_watch.h"
 #include "billet/solve/step_control.h"
 
@@ -413,8 +414,11 @@ double processor_time() {
 
 /// Reports the estimate, and writes error_estimate.csv. Collective.
 void report_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
-                   const parameters::Scene &parameters, Outputs &outputs) {
+                   const parameters::Scene &parameters, const RunReview &review, Outputs &outputs) {
   report.target = parameters.target_error;
+  if (review.element_error() > 0.)
+    report.sources.push_back(
+        {"elements", review.element_error(), "Choose the element that the warnings about them name"});
   report.stress_jumps = stress_jumps(solution, discretization);
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
@@ -488,6 +492,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
       std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(), [](const BodyPair &pair) {
         return pair.has_friction() && pair.facets == parameters::ContactPair::Facets::overlap;
       });
+  RunReview review(scene, discretization);
   StepReport report;
   double continued = 0.; // length of the last step, if its increment may be continued
   if (resumption != nullptr) {
@@ -505,6 +510,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         report.total_cuts = control.n_cuts();
         if (watch)
           watch->load(resumption->reader);
+        review.load(resumption->reader);
         if (errors && resumption->reader.has("errors"))
           errors->load(resumption->reader);
       });
@@ -514,6 +520,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   Outputs outputs(scene, discretization, diagnostics, resumption);
   outputs.progress.start(discretization, problem);
   diagnostics.report(problem.initial_diagnostics());
+  diagnostics.report(review.start());
   if (resumption != nullptr)
     outputs.announce(*resumption, parameters.solver.force_tolerance);
   if (resumption == nullptr || !resumption->report.is_exact)
@@ -527,6 +534,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
         watch->save(writer);
       if (errors)
         errors->save(writer);
+      review.save(writer);
     });
   };
   while (!control.is_finished()) {
@@ -562,6 +570,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
           outputs.history->write(report, problem.state());
       });
       outputs.progress.accept(report, problem.state());
+      diagnostics.report(review.after_step(problem, control.is_finished()));
       diagnostics.report(stability.check(control.time(), problem.state().displacements));
       diagnostics.report(energies.check(control.time(), problem.state().energies, [&] {
         return stability.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
@@ -615,12 +624,13 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
               .value("Newton iterations", report.total_iterations));
     }
   }
+  diagnostics.report(review.finish());
   if (watch)
-    report_errors(make_report(*watch, report), problem, discretization, parameters, outputs);
+    report_errors(make_report(*watch, report), problem, discretization, parameters, review, outputs);
   if (errors) {
     ErrorReport estimate = make_report(*errors, "Reduce 'Largest step'");
     estimate.costs = {{"steps taken", report.step}, {"Newton iterations", report.total_iterations}};
-    report_errors(std::move(estimate), problem, discretization, parameters, outputs);
+    report_errors(std::move(estimate), problem, discretization, parameters, review, outputs);
   }
   diagnostics.report(find_checkerboard(problem, discretization).check());
   return outputs.finish();
@@ -686,6 +696,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   std::unique_ptr<EnergyErrors> errors;
   if (parameters.target_error > 0.)
     errors = std::make_unique<EnergyErrors>(parameters.target_error);
+  RunReview review(scene, discretization);
   unsigned int balanced_step = 0; // the last at which the energies were seen to balance
   if (resumption != nullptr) {
     resumption->load(scene, discretization, [&] { return problem.load(resumption->reader); });
@@ -698,6 +709,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
         if (resumption->reader.number("interval") == history_times.interval())
           history_times.begin_after(resumption->reader.number("last"));
         balanced_step = static_cast<unsigned int>(resumption->reader.number("balanced step"));
+        review.load(resumption->reader);
         if (errors && resumption->reader.has("errors")) {
           errors->load(resumption->reader);
           problem.shorten_steps(errors->step_factor());
@@ -708,6 +720,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   Outputs outputs(scene, discretization, diagnostics, resumption);
   outputs.progress.start(discretization, problem);
   diagnostics.report(problem.initial_diagnostics());
+  diagnostics.report(review.start());
   if (resumption != nullptr)
     outputs.announce(*resumption, 0.);
   const auto save = [&](StateWriter &writer) {
@@ -716,6 +729,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       writer.write("interval", {history_times.interval()});
       writer.write("last", {history_times.last()});
       writer.write("balanced step", {static_cast<double>(balanced_step)});
+      review.save(writer);
       if (errors)
         errors->save(writer);
     });
@@ -741,6 +755,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     });
     outputs.progress.show(problem.n_steps(), problem.step_length(), problem.state());
     diagnostics.report(problem.check_penalties());
+    problem.update_state();
+    diagnostics.report(review.after_step(problem, problem.time() >= events.end()));
     diagnostics.report(energies.check(problem.time(), problem.state().energies));
   };
   const auto look_at_stability = [&] {
@@ -869,13 +885,14 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     if (wish == Signals::Wish::end && !is_finished)
       return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);
   }
+  diagnostics.report(review.finish());
   if (errors) {
     ErrorReport report = make_report(*errors, "Reduce 'Safety factor'");
     report.costs = {{"steps taken", problem.n_steps()},
                     {"element updates", static_cast<double>(problem.n_steps()) *
                                             static_cast<double>(discretization.n_global_elements())}};
     problem.update_state();
-    report_errors(report, problem, discretization, parameters, outputs);
+    report_errors(report, problem, discretization, parameters, review, outputs);
   }
   outputs.progress.show_pace(problem.n_steps(), discretization.n_global_elements(), seconds,
                              processor_seconds);

@@ -24,6 +24,46 @@ inline const DiagnosticKind
                "Check the end time, densities, units and flat elements; 'Mass scaling "
                "step' makes steps longer");
 
+inline const DiagnosticKind implausible_yield_stress(
+    "implausible-yield-stress", Severity::warning,
+    "The yield stress is above a tenth, or below a ten-millionth, of Young's modulus.",
+    "Check the units of both: metals have ratios of 1e-4 to 1e-2");
+
+inline const DiagnosticKind
+    implausible_speed("implausible-speed", Severity::warning,
+                      "A body or a tool moves with more than 0.3 of the speed of elastic waves.",
+                      "Check units of velocity, density and Young's modulus: they have to be consistent");
+
+inline const DiagnosticKind
+    run_shorter_than_wave("run-shorter-than-wave", Severity::warning,
+                          "The run ends before an elastic wave has crossed a body once.",
+                          "Check units of time, density and Young's modulus: they have to be consistent");
+
+inline const DiagnosticKind step_longer_than_period(
+    "step-longer-than-period", Severity::warning,
+    "Fixed steps are longer than the time in which an elastic wave crosses a body that hits something.",
+    "Reduce 'Initial step', or use 'Step control = automatic'");
+
+inline const DiagnosticKind implausible_travel(
+    "implausible-travel", Severity::warning,
+    "A tool travels more than ten times, or less than a ten-millionth of, the size of all bodies.",
+    "Check the units of the mesh ('Scale') and of the motion");
+
+inline const DiagnosticKind starts_behind_tool(
+    "starts-behind-tool", Severity::warning,
+    "Nodes start more than two facet sizes behind the surface of a tool, where overlap is allowed.",
+    "Check the side to which the tool faces and its position");
+
+inline const DiagnosticKind
+    large_displacement("large-displacement", Severity::warning,
+                       "In a static scene a node has moved more than three times the size of all bodies.",
+                       "Check supports, units and loads: a body may be without support");
+
+inline const DiagnosticKind implausible_force(
+    "implausible-force", Severity::warning,
+    "A tool exerts more than ten times the force that the largest section of a body bears as it yields.",
+    "Check the units of force and stress, and whether the tool closes on something rigid");
+
 // --- contact ---------------------------------------------------------------------------------------------
 
 inline const DiagnosticKind penalty_too_low(
@@ -31,6 +71,32 @@ inline const DiagnosticKind penalty_too_low(
     "Penetration is large beside the facets, the displacements or the work: the contact is softer than the "
     "bodies.",
     "Increase 'Normal penalty'");
+
+inline const DiagnosticKind contact_too_soft(
+    "contact-too-soft", Severity::warning,
+    "Penetration takes part of the deformation along a load path: over all its contact pairs, more than 4 % "
+    "of the energy. Forces of driven tools and supports are too small by that part.",
+    "Increase 'Normal penalty' or, in statics, set a smaller 'Penetration tolerance', for all pairs named");
+
+inline const DiagnosticKind few_contact_nodes(
+    "few-contact-nodes", Severity::warning,
+    "Fewer than five nodes carry the force of a contact pair, with unequal pressures. The force may be off "
+    "by tens of per cent.",
+    "Use a finer mesh where the pair touches");
+
+inline const DiagnosticKind coarse_on_tool(
+    "coarse-on-tool", Severity::warning,
+    "Facets are large beside the radius of the tool that they touch: fewer than four along a quarter turn.",
+    "Use a finer mesh where the pair touches");
+
+inline const DiagnosticKind pair_never_touched(
+    "pair-never-touched", Severity::warning, "A contact pair had no contact during the whole run.",
+    "Check boundary ids, positions, the direction of motion and the side to which the tool faces");
+
+inline const DiagnosticKind
+    tool_without_force("tool-without-force", Severity::warning,
+                       "A tool touched nothing during the whole run.",
+                       "Check its position, motion, units and the side to which it faces, or remove it");
 
 inline const DiagnosticKind penalty_too_high(
     "penalty-too-high", Severity::warning,
@@ -73,10 +139,23 @@ inline const DiagnosticKind
                      "The energies do not balance: forces do work that no account knows.",
                      "Reduce 'Largest step'");
 
-inline const DiagnosticKind
-    hourglass_energy("hourglass-energy", Severity::warning,
-                     "The stabilisation of one-point elements holds much of the energy of deformation.",
-                     "Use a finer mesh");
+inline const DiagnosticKind element_too_stiff(
+    "element-too-stiff", Severity::warning,
+    "The elements of a body lock: the displacements store more energy in them than in elements without "
+    "parasitic shear. Forces are too large, or displacements too small, by at least the given factor.",
+    "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
+
+inline const DiagnosticKind element_too_soft(
+    "element-too-soft", Severity::warning,
+    "The elements of a body are too soft in bending: the displacements store less energy in them than in "
+    "elements that bend right. Forces are too small, or displacements too large, by about the given factor.",
+    "Use a finer mesh; with one-point elements 'Hourglass stiffness = 1'");
+
+inline const DiagnosticKind bricks_may_lock(
+    "bricks-may-lock", Severity::warning,
+    "A thin body has long bricks, or few through its thickness, of an element that is too stiff in bending. "
+    "Only '--check' tells this; a run measures what it makes and warns with the factor.",
+    "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
 
 inline const DiagnosticKind pressure_checkerboard(
     "pressure-checkerboard", Severity::warning,

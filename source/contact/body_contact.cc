@@ -493,7 +493,7 @@ std::vector<ContactNodeReport> BodyContact::report() const {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double area = nodes_.is_owned(local_nodes_[i]) ? states[i].area : 0.;
     reports.push_back({nodes_.dofs(local_nodes_[i]), states[i].status, states[i].pressure, states[i].gap,
-                       states[i].slip, area, states[i].traction});
+                       states[i].slip, area, states[i].traction, states[i].penetration, sizes_[i]});
   }
   return reports;
 }

@@ -697,12 +697,14 @@ std::vector<FacetContact::NodeReport> FacetContact::report() const {
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
     const bool touches = state.presses();
-    reports[slaves_[s].node] = {state.traction.status,
-                                state.traction.pressure,
-                                touches ? state.contact.gap - state.touched.offset + lift(s).now : 0.,
-                                history_.empty() ? 0. : history_[s].slip,
-                                touches ? state.area : 0.,
-                                state.traction.traction};
+    reports[slaves_[s].node] = {
+        state.traction.status,
+        state.traction.pressure,
+        touches ? state.contact.gap - state.touched.offset + lift(s).now : 0.,
+        history_.empty() ? 0. : history_[s].slip,
+        touches ? state.area : 0.,
+        state.traction.traction,
+        touches && state.traction.pressure > 0. ? std::abs(state.contact.gap + augmentation(s)) : 0.};
   }
   return reports;
 }

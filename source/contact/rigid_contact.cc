@@ -27,6 +27,12 @@ constexpr double fading_width = 0.05;
 /// an area that does not change: that of the last step in which the node was not so deep.
 constexpr double depth_on_current_areas = 0.1;
 
+/// Of a surface whose normal turns like this.
+double largest_curvature(const dealii::Tensor<2, 3> &turning) {
+  const auto principal = dealii::eigenvalues(dealii::symmetrize(turning));
+  return std::max(std::abs(principal[0]), std::abs(principal[2]));
+}
+
 } // namespace
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
@@ -897,7 +903,9 @@ std::vector<ContactNodeReport> RigidContact::report() const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const NodeState &state = states_[i];
     reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap + lift_of(nodes_[i]),
-                       friction_.empty() ? 0. : friction_[i].slip, 0., state.traction});
+                       friction_.empty() ? 0. : friction_[i].slip, 0., state.traction,
+                       state.pressure > 0. ? std::abs(state.gap + nodes_[i].lift) : 0., nodes_[i].size,
+                       state.pressure > 0. ? largest_curvature(state.turning) : 0.});
   }
   for_each_area([&](const unsigned int i, const double area) { reports[i].area += area; });
   return reports;

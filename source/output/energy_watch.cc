@@ -37,8 +37,6 @@ std::string EnergyWatch::advise(const Cause cause) {
 
 DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energies,
                                   const std::function<Cause()> &find_cause) {
-  constexpr double doubtful_hourglass = 0.1;
-  constexpr double counts = 0.01; // less than that of the largest energy is no matter
   // What is there counts half only, as in explicit dynamics: energy from nowhere must not hide itself.
   largest_ =
       std::max({largest_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
@@ -62,16 +60,6 @@ DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energie
                              .measure("part of the largest energy", drift / largest_)
                              .advice(advice));
     }
-  }
-  const double taken_up = energies.elastic + energies.plastic + energies.hourglass;
-  if (energies.hourglass > doubtful_hourglass * taken_up && energies.hourglass > counts * largest_) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "The stabilisation of one-point elements holds " << 100. * energies.hourglass / taken_up
-         << " % of the energy of deformation";
-    messages.push_back(Diagnostic(diagnostic::hourglass_energy, text.str())
-                           .time(time)
-                           .measure("part of the energy of deformation", energies.hourglass / taken_up));
   }
   return messages;
 }

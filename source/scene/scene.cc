@@ -615,7 +615,7 @@ void Scene::describe(std::ostream &stream) const {
   stream << "Output         " << parameters_.output.folder.value << "\n";
 }
 
-std::string Scene::describe_as_json() const {
+std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
   using Json = nlohmann::ordered_json;
   Json scene;
   scene["file"] = parameters_.file_name;
@@ -681,6 +681,8 @@ std::string Scene::describe_as_json() const {
     scene["capabilities"][use.name] = use.is_used;
   scene["output folder"] = parameters_.output.folder.value;
   scene["diagnostics"] = Json::array();
+  for (const auto &diagnostic : diagnostics)
+    scene["diagnostics"].push_back(Json::parse(diagnostic.json()));
   return scene.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -457,7 +457,7 @@ class Running(unittest.TestCase):
         work.mkdir(exist_ok=True)
         setup = scenes.make("stretch.explicit", {})
         setup.checks = [lambda r: [must.Finding("stress of the bar", 0.5, 0.1)]]
-        for keys, outcome in (((), "wrong"), (("penalty-too-low",), "wrong"), (("unstable-law",), "doubtful"), (("penalty-too-low", "hourglass-energy"), "doubtful")):
+        for keys, outcome in (((), "wrong"), (("penalty-too-low",), "wrong"), (("unstable-law",), "doubtful"), (("penalty-too-low", "element-too-stiff"), "doubtful")):
             write_warnings(work, *keys)
             with unittest.mock.patch.object(Result, "read", return_value=made_up("stretch.explicit")):
                 self.assertEqual(runner._verdict(plan.Case("stretch.explicit", {}, (), ()), setup, work, (0, "", "", 1.0))["outcome"], outcome)

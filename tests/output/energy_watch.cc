@@ -84,16 +84,5 @@ int main() {
     EnergyWatch watch(EnergyWatch::Balance::is_left);
     check("where the run ends by itself, nothing is told", watch.check(1., flight(2., 0.)).empty());
   }
-  {
-    EnergyWatch watch(EnergyWatch::Balance::is_told);
-    EnergyLedger energies = flight(0.999, 0.0004);
-    energies.hourglass = 0.0006;
-    check("hourglass energy of a flight is no matter", watch.check(1., energies).empty());
-    energies = flight(0.5, 0.4);
-    energies.hourglass = 0.1;
-    const billet::DiagnosticList text = watch.check(2., energies);
-    check("of a blow it is",
-          tells(text, "holds 20 % of the energy of deformation") && tells(text, "Use a finer mesh"));
-  }
   return billet::testing::exit_code();
 }

@@ -61,6 +61,8 @@ struct ContactNodeReport {
   double pressure, gap, slip;
   double area; ///< this rank's share
   dealii::Tensor<1, 3> traction;
+  double penetration = 0.; ///< where it presses: into the surface itself, whatever augmentation has done
+  double facet_size = 0., curvature = 0.; ///< of the facets around it, and of the tool there [1/length]
 };
 
 } // namespace billet

@@ -211,6 +211,7 @@ public:
     double pressure = 0., gap = 0., slip = 0.;
     double area = 0.; ///< of all facets around it
     dealii::Tensor<1, 3> traction;
+    double penetration = 0.; ///< where it presses, as penetration() has it
   };
   /// Of each of this rank's nodes.
   std::vector<NodeReport> report() const;

@@ -11,9 +11,9 @@
 
 namespace billet {
 
-/// Checks the energies of accepted steps for what makes them doubtful:
-/// energies of implicit dynamics that fail to balance (explicit runs look at them themselves), hourglass
-/// energy of one-point elements.
+/// Checks whether the energies of accepted steps balance in implicit dynamics (explicit runs check that
+/// themselves). The energy of the one-point elements' stabilisation is that of bending: ElementWatch judges
+/// it.
 class EnergyWatch {
 public:
   /// What becomes of energies that fail to balance: nothing, a word, or the end of the run.

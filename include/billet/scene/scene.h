@@ -2,6 +2,7 @@
 #ifndef BILLET_SCENE_SCENE_H
 #define BILLET_SCENE_SCENE_H
 
+#include "billet/diagnostics.h"
 #include "billet/friction/friction_law.h"
 #include "billet/mechanics/element_block.h"
 #include "billet/parameters/scene.h"
@@ -148,8 +149,8 @@ public:
 
   /// What will be modelled, for --check; from the outlines of the meshes.
   void describe(std::ostream &stream) const;
-  /// The same as one JSON object, on one line.
-  std::string describe_as_json() const;
+  /// The same as one JSON object, on one line, with these messages.
+  std::string describe_as_json(const DiagnosticList &diagnostics) const;
 
 private:
   /// A capability of the program: whether the scene needs it, and for what.

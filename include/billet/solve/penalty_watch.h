@@ -7,6 +7,7 @@
 #include "billet/geometry/placement.h"
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace billet {

@@ -218,7 +218,7 @@ def write(records, folder, planned=0, program=""):
              f"*right*: all of that holds. *soft*: it does, but a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is soft, since it "
              "takes more than a fifth of the motion: what is in balance then is less than the scene asks for, and forces are too small, by any factor. A larger penalty, "
              "or a 'Penetration tolerance', mends that. *doubtful*: it does not hold, and the log says why, and what to do: energies fail to balance, a law is no longer "
-             "stable at such strains, or hourglass control has much of the energy. "
+             "stable at such strains, or elements are too stiff or too soft in bending. "
              "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
              f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
              + slow(records),

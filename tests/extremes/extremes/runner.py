@@ -23,8 +23,8 @@ from .scenes import make, nudged
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Messages of a run that comes to its end, and what they make of it: doubtful, soft, ...
-DOUBT = ("energy-imbalance", "unstable-law", "hourglass-energy")
-SOFT = ("penalty-too-low",)
+DOUBT = ("energy-imbalance", "unstable-law", "element-too-stiff", "element-too-soft")
+SOFT = ("penalty-too-low", "contact-too-soft")
 # ... or with forces as much of which need not balance.
 ROUND_OFF = ("round-off-limits-forces",)
 DEEP = 0.1  # facet sizes

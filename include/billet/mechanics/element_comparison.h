@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_ELEMENT_COMPARISON_H
+#define BILLET_MECHANICS_ELEMENT_COMPARISON_H
+
+#include "billet/mechanics/element_block.h"
+
+#include <functional>
+
+namespace billet {
+
+/// Energies of the same nodal displacements under different elements [energy].
+struct ElementEnergies {
+  double used = 0.;      ///< the element of the body
+  double one_point = 0.; ///< the one-point element, without a factor on its stabilisation
+  double accurate = 0.;  ///< the assumed field without parasitic shear
+
+  /// How many times as stiff the element is as it should be, (L4): at least.
+  double factor() const { return accurate > 0. ? used / accurate : 1.; }
+  ElementEnergies &operator+=(const ElementEnergies &other) {
+    used += other.used;
+    one_point += other.one_point;
+    accurate += other.accurate;
+    return *this;
+  }
+};
+
+/// Compares the element of a body with one that bends right, by the energy of given displacements: no
+/// equations are solved. The energy is that of total strains, (L5) of doc/theory.md: Hencky's hyperelasticity
+/// and, where the body yields, the deformation theory of plasticity. It knows no history.
+class ElementComparison {
+public:
+  /// `formulation`: of its hourglass_stiffness and element alone.
+  ElementComparison(const MaterialLaw &material, const ElementFormulation &formulation);
+
+  /// False, and `energies` is left alone, if an element is inside out.
+  bool compare(const ElementVectors &positions, const ElementVectors &displacements,
+               ElementEnergies &energies) const;
+
+  /// Energy per reference volume of a volumetric logarithmic strain and of what an elastic body would store
+  /// by its deviator [stress].
+  double energy(double volumetric_strain, double elastic_deviatoric_energy) const;
+
+private:
+  double energy(const dealii::Tensor<2, 3> &F, double stabilisation = 0.) const;
+  double one_point_energy(const ElementVectors &positions, const ElementVectors &displacements,
+                          double hourglass_stiffness) const;
+
+  ElasticModuli elastic_;
+  double poisson_;
+  ElementFormulation formulation_;
+  std::function<double(double)> yield_stress_, plastic_work_; ///< none of elastic bodies
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_CONTACT_REVIEW_H
+#define BILLET_SOLVE_CONTACT_REVIEW_H
+
+#include "billet/diagnostics.h"
+#include "billet/scene/scene.h"
+#include "billet/solve/solution.h"
+#include "billet/state.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Bodies that contact pairs connect, directly or by others, and the pairs: forces go through all of them,
+/// and their penetrations add up. Tools are rigid and connect nothing.
+struct LoadPath {
+  std::vector<std::size_t> bodies, pairs;
+};
+/// `bodies_of`: the one or two bodies of each pair.
+std::vector<LoadPath> find_load_paths(std::size_t n_bodies,
+                                      const std::vector<std::vector<std::size_t>> &bodies_of);
+
+/// What penetration takes of the deformation along a load path, (M42) of doc/theory.md: over the time in
+/// which its pairs press, the energy ½ Σ p g A of pressures on penetrations beside that of the bodies'
+/// deformation.
+class PathSoftness {
+public:
+  /// At these times; `all_energy`: whatever there is in the scene, of motion, too.
+  void add(double time, double penetration, double deformation, double all_energy);
+  /// The part by which forces of driven tools are too small; 0 where contact is no matter for the scene.
+  double part() const;
+
+  static constexpr std::size_t n_numbers = 8;
+  void save(std::vector<double> &numbers) const;
+  void load(const double *numbers);
+
+private:
+  struct Sample {
+    double time = 0., penetration = 0., deformation = 0., all = 0.;
+  };
+  Sample last_;
+  double penetration_ = 0., deformation_ = 0., all_ = 0.; ///< integrals over time
+  bool has_begun_ = false;
+};
+
+/// How a pair's force is spread over nodes, each counted with its mirror images.
+struct ForceSpread {
+  double force = 0., squares = 0.;                          ///< Σ m F, Σ m F²
+  double nodes = 0., pressures = 0., pressure_squares = 0.; ///< Σ 1, Σ p, Σ p² of the nodes themselves
+  double on_coarse_curves = 0.; ///< force of nodes with fewer than four facets on a quarter of the radius
+  double coarsest = 0.;         ///< facet size / radius of the tool, largest
+
+  /// By how many equal forces: (Σ m F)²/Σ m F².
+  double effective_nodes() const { return squares > 0. ? force * force / squares : 0.; }
+  /// Whether pressures are alike, as of a flat face on another, which needs no more nodes.
+  bool is_uniform() const;
+  bool has_few_nodes() const;
+  bool is_coarse_on_curves() const;
+};
+
+/// Judges contact over a whole run: what penetration makes softer along each load path, pairs that few nodes
+/// carry, facets that are large beside the tool's radius, pairs and tools without contact, forces beyond what
+/// bodies bear.
+class ContactReview {
+public:
+  ContactReview(const Scene &scene, const Discretization &discretization);
+
+  /// After an accepted step; of explicit scenes now and then. Collective.
+  void add(const Solution &solution);
+  /// At the end of the run.
+  DiagnosticList finish() const;
+
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
+private:
+  struct Pair {
+    std::string name;
+    std::vector<std::size_t> bodies;
+    std::size_t tool; ///< or none
+    bool is_self_contact = false;
+    bool has_touched = false;
+    double largest_force = 0., time = 0.; ///< and when
+    ForceSpread spread;                   ///< at the largest force
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  ForceSpread spread_of(const std::vector<ContactNodeReport> &reports) const;
+  void judge_pairs(DiagnosticList &diagnostics) const;
+  void judge_paths(DiagnosticList &diagnostics) const;
+  void judge_forces(DiagnosticList &diagnostics) const;
+
+  const Scene &scene_;
+  const Discretization &discretization_;
+  std::map<DofIndex, double> images_; ///< of nodes on this rank, by first dof, with symmetry planes
+  std::vector<double> sections_;      ///< of the bodies: the largest face of the box around [length²]
+  std::vector<Pair> pairs_;           ///< with tools first
+  std::vector<LoadPath> paths_;
+  std::vector<PathSoftness> softness_; ///< by path
+  std::vector<double> tool_forces_;    ///< largest, by tool
+};
+
+} // namespace billet
+
+#endif

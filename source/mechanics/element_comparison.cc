@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/element_comparison.h"
+
+#include "billet/mechanics/assumed_strain.h"
+#include "billet/mechanics/eight_point_elements.h"
+#include "billet/mechanics/one_point.h"
+
+#include <cmath>
+#include <type_traits>
+
+namespace billet {
+
+ElementComparison::ElementComparison(const MaterialLaw &material, const ElementFormulation &formulation)
+    : elastic_(material.elastic),
+      poisson_((3. * elastic_.bulk - 2. * elastic_.shear) / (6. * elastic_.bulk + 2. * elastic_.shear)),
+      formulation_(formulation) {
+  std::visit(
+      [this](const auto &hardening) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>) {
+          yield_stress_ = [hardening](const double a) { return hardening.stress(a); };
+          plastic_work_ = [hardening](const double a) { return hardening.work(a); };
+        }
+      },
+      material.hardening);
+}
+
+double ElementComparison::energy(const double volumetric_strain,
+                                 const double elastic_deviatoric_energy) const {
+  const double of_volume = 0.5 * elastic_.bulk * volumetric_strain * volumetric_strain;
+  // G e:e = ½ 3G ε², ε the equivalent strain.
+  const double stiffness = 3. * elastic_.shear;
+  const double strain = std::sqrt(2. * elastic_deviatoric_energy / stiffness);
+  if (!yield_stress_ || stiffness * strain <= yield_stress_(0.))
+    return of_volume + elastic_deviatoric_energy;
+  // 3G (ε − α) = σ(α), of which the left falls faster than the right.
+  double low = 0., high = strain;
+  constexpr unsigned int n_bisections = 48;
+  for (unsigned int i = 0; i < n_bisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (stiffness * (strain - middle) > yield_stress_(middle) ? low : high) = middle;
+  }
+  return of_volume + 0.5 * stiffness * (strain - low) * (strain - low) + plastic_work_(low);
+}
+
+double ElementComparison::energy(const dealii::Tensor<2, 3> &F, const double stabilisation) const {
+  // C − I, without the digits that C would lose.
+  dealii::Tensor<2, 3> H = F;
+  for (unsigned int i = 0; i < 3; ++i)
+    H[i][i] -= 1.;
+  const auto squares =
+      dealii::eigenvalues(dealii::symmetrize(H + dealii::transpose(H) + dealii::transpose(H) * H));
+  std::array<double, 3> strains;
+  double volumetric = 0.;
+  for (unsigned int A = 0; A < 3; ++A)
+    volumetric += strains[A] = 0.5 * std::log1p(squares[A]);
+  double deviatoric = 0.;
+  for (const double strain : strains)
+    deviatoric += (strain - volumetric / 3.) * (strain - volumetric / 3.);
+  return energy(volumetric, elastic_.shear * deviatoric + stabilisation);
+}
+
+double ElementComparison::one_point_energy(const ElementVectors &positions,
+                                           const ElementVectors &displacements,
+                                           const double hourglass_stiffness) const {
+  ElementFormulation formulation;
+  formulation.hourglass_stiffness = hourglass_stiffness;
+  const OnePointElement element(elastic_, formulation);
+  OnePointElement::Reference reference;
+  OnePointElement::Kinematics kinematics;
+  if (!OnePointElement::initialize(positions, reference) ||
+      !OnePointElement::compute(reference, displacements, kinematics))
+    return -1.;
+  return reference.volume *
+         energy(kinematics.F, element.stabilise(reference, kinematics, {}).energy / reference.volume);
+}
+
+bool ElementComparison::compare(const ElementVectors &positions, const ElementVectors &displacements,
+                                ElementEnergies &energies) const {
+  ElementEnergies own;
+  PointDeformations accurate;
+  own.one_point = one_point_energy(positions, displacements, 1.);
+  if (own.one_point < 0. || !compute_assumed_strain(positions, displacements, poisson_, accurate))
+    return false;
+  for (unsigned int q = 0; q < n_element_points; ++q)
+    own.accurate += accurate.volumes[q] * energy(accurate.F[q]);
+
+  const auto add_points = [&](const auto &element) {
+    using Element = std::decay_t<decltype(element)>;
+    typename Element::Reference reference;
+    typename Element::Kinematics kinematics;
+    if (!Element::initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
+      return false;
+    for (unsigned int q = 0; q < n_element_points; ++q)
+      own.used += Element::reference_volume(reference, q) *
+                  energy(Element::template deformation<false>(reference, kinematics, q));
+    return true;
+  };
+  switch (formulation_.element) {
+  case ElementFormulation::Element::mean_dilatation:
+    if (!add_points(MeanDilatationElement(elastic_, formulation_)))
+      return false;
+    break;
+  case ElementFormulation::Element::full:
+    if (!add_points(FullElement(elastic_, formulation_)))
+      return false;
+    break;
+  case ElementFormulation::Element::one_point:
+    own.used = formulation_.hourglass_stiffness == 1.
+                   ? own.one_point
+                   : one_point_energy(positions, displacements, formulation_.hourglass_stiffness);
+    break;
+  }
+  if (!std::isfinite(own.used + own.one_point + own.accurate))
+    return false;
+  energies += own;
+  return true;
+}
+
+} // namespace billet

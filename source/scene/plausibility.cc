@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/scene/plausibility.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <type_traits>
+
+namespace billet {
+
+using dealii::Tensor;
+using dealii::Triangulation;
+
+namespace {
+
+/// The box around points, which may be of several ranks.
+class Box {
+public:
+  void add(const Tensor<1, 3> &x) {
+    for (unsigned int i = 0; i < 3; ++i) {
+      ends_[i] = std::max(ends_[i], -x[i]);
+      ends_[3 + i] = std::max(ends_[3 + i], x[i]);
+    }
+  }
+  void gather(const MPI_Comm communicator) { dealii::Utilities::MPI::max(ends_, communicator, ends_); }
+  double diagonal() const {
+    return std::hypot(ends_[0] + ends_[3], ends_[1] + ends_[4], ends_[2] + ends_[5]);
+  }
+
+private:
+  std::vector<double> ends_ = std::vector<double>(6, -std::numeric_limits<double>::infinity());
+};
+
+/// What the mesh tells of the scene at its start.
+struct Start {
+  std::vector<double> sizes, speeds; ///< by body
+  double size = 0.;                  ///< of all together
+  std::vector<double> depths;        ///< by pair with a tool [facet sizes]
+};
+
+Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator) {
+  std::vector<Box> boxes(scene.bodies().size());
+  Box all;
+  Start start;
+  start.speeds.resize(boxes.size());
+  start.depths.resize(scene.pairs().size());
+  for (const auto &cell : mesh.active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    const std::size_t b = cell->material_id();
+    const Body &body = scene.bodies()[b];
+    for (const unsigned int v : cell->vertex_indices()) {
+      boxes[b].add(cell->vertex(v));
+      all.add(cell->vertex(v));
+      if (scene.parameters().is_dynamic()) {
+        Tensor<1, 3> velocity;
+        for (unsigned int i = 0; i < 3; ++i)
+          velocity[i] = body.initial_velocity[i].value(0., cell->vertex(v));
+        start.speeds[b] = std::max(start.speeds[b], velocity.norm());
+      }
+    }
+    for (std::size_t p = 0; p < scene.pairs().size(); ++p) {
+      const ContactPair &pair = scene.pairs()[p];
+      if (pair.body != b || !pair.overlap.is_allowed) // else it is refused
+        continue;
+      const Placement placement = scene.tools()[pair.tool].placement(0.);
+      for (const unsigned int f : cell->face_indices()) {
+        const auto &face = cell->face(f);
+        if (!face->at_boundary() || std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(),
+                                              face->boundary_id()) == pair.boundary_ids.end())
+          continue;
+        const double size = std::sqrt(face->measure());
+        for (const unsigned int v : face->vertex_indices()) {
+          const auto projection =
+              scene.tools()[pair.tool].surface().project(placement.to_tool(face->vertex(v)));
+          if (projection.exists)
+            start.depths[p] = std::max(start.depths[p], -projection.gap / size);
+        }
+      }
+    }
+  }
+  for (Box &box : boxes) {
+    box.gather(communicator);
+    start.sizes.push_back(box.diagonal());
+  }
+  all.gather(communicator);
+  start.size = all.diagonal();
+  dealii::Utilities::MPI::max(start.speeds, communicator, start.speeds);
+  dealii::Utilities::MPI::max(start.depths, communicator, start.depths);
+  return start;
+}
+
+/// Of the prescribed motion of a tool over the run.
+struct Course {
+  double travel = 0., speed = 0.;
+};
+
+Course follow(const Tool &tool, const double end) {
+  constexpr unsigned int n_samples = 200;
+  Course course;
+  const Placement start = tool.placement(0.);
+  Placement before = start;
+  for (unsigned int i = 1; i <= n_samples; ++i) {
+    const Placement now = tool.placement(end * i / n_samples);
+    course.travel = std::max(course.travel, (now.translation - start.translation).norm());
+    course.speed = std::max(course.speed, (now.translation - before.translation).norm() * n_samples / end);
+    before = now;
+  }
+  return course;
+}
+
+std::string ratio(const std::string &what, const double number) {
+  std::ostringstream text;
+  text.precision(3);
+  text << what << " " << number;
+  return text.str();
+}
+
+void check_yield_stress(const Body &body, DiagnosticList &diagnostics) {
+  constexpr double least = 1e-7, most = 0.1;
+  const double stress = std::visit(
+      [](const auto &hardening) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>)
+          return 0.;
+        else
+          return hardening.stress(0.);
+      },
+      body.material.hardening);
+  const double part = stress / body.young_modulus;
+  if (stress > 0. && !(part > least && part < most))
+    diagnostics.push_back(
+        Diagnostic(diagnostic::implausible_yield_stress, ratio("Yield stress / Young's modulus is", part))
+            .body(body.name)
+            .measure("yield stress / Young's modulus", part));
+}
+
+void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
+  constexpr double fast = 0.3;
+  const parameters::TimeStepping &steps = scene.parameters().time_stepping;
+  double fastest_wave = 0.;
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    const double wave = std::sqrt(body.largest_modulus / body.density);
+    fastest_wave = std::max(fastest_wave, wave);
+    if (start.speeds[b] > fast * wave)
+      diagnostics.push_back(
+          Diagnostic(diagnostic::implausible_speed,
+                     ratio("Initial speed / speed of elastic waves is", start.speeds[b] / wave))
+              .body(body.name)
+              .measure("speed / wave speed", start.speeds[b] / wave));
+    const double crossing = start.sizes[b] / wave;
+    if (steps.end_time < crossing)
+      diagnostics.push_back(Diagnostic(diagnostic::run_shorter_than_wave,
+                                       ratio("'End time' / time of an elastic wave through the body is",
+                                             steps.end_time / crossing))
+                                .body(body.name)
+                                .value("end time / crossing time", steps.end_time / crossing));
+    if (!scene.parameters().is_explicit() && steps.control == parameters::TimeStepping::Control::fixed &&
+        start.speeds[b] > 0. && scene.capabilities().contact && steps.initial_step > crossing)
+      diagnostics.push_back(Diagnostic(diagnostic::step_longer_than_period,
+                                       ratio("Step / time of an elastic wave through the body is",
+                                             steps.initial_step / crossing))
+                                .body(body.name)
+                                .value("step / crossing time", steps.initial_step / crossing));
+  }
+  for (const Tool &tool : scene.tools()) {
+    const double speed = follow(tool, steps.end_time).speed;
+    if (speed > fast * fastest_wave)
+      diagnostics.push_back(
+          Diagnostic(diagnostic::implausible_speed,
+                     ratio("Speed of the tool / speed of elastic waves is", speed / fastest_wave))
+              .tool(tool.name())
+              .measure("speed / wave speed", speed / fastest_wave));
+  }
+}
+
+} // namespace
+
+DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &mesh,
+                                  const MPI_Comm communicator) {
+  const Start start = measure_start(scene, mesh, communicator);
+  DiagnosticList diagnostics;
+  for (const Body &body : scene.bodies())
+    check_yield_stress(body, diagnostics);
+  if (scene.parameters().is_dynamic())
+    check_speeds(scene, start, diagnostics);
+  constexpr double far = 10., hardly = 1e-7, deep = 2.;
+  for (const Tool &tool : scene.tools()) {
+    const double part = follow(tool, scene.parameters().time_stepping.end_time).travel / start.size;
+    if (part > far || (part > 0. && part < hardly))
+      diagnostics.push_back(Diagnostic(diagnostic::implausible_travel,
+                                       ratio("Travel of the tool / size of all bodies is", part))
+                                .tool(tool.name())
+                                .measure("travel / size", part));
+  }
+  for (std::size_t p = 0; p < scene.pairs().size(); ++p)
+    if (start.depths[p] > deep)
+      diagnostics.push_back(
+          Diagnostic(diagnostic::starts_behind_tool,
+                     ratio("At the start nodes lie behind the surface of the tool by facet sizes of",
+                           start.depths[p]))
+              .pair(scene.pairs()[p].name)
+              .tool(scene.tools()[scene.pairs()[p].tool].name())
+              .measure("depth [facet sizes]", start.depths[p]));
+  return diagnostics;
+}
+
+ThinPart measure_thin_part(const Triangulation<3> &mesh) {
+  constexpr double thin = 0.1;
+  Box box;
+  for (const auto &vertex : mesh.get_vertices())
+    box.add(vertex);
+  ThinPart result;
+  double whole_area = 0., thickness_sum = 0.;
+  for (const auto &start : mesh.active_cell_iterators())
+    for (const unsigned int first : start->face_indices()) {
+      if (!start->face(first)->at_boundary())
+        continue;
+      const auto &face = start->face(first);
+      const double area = face->measure();
+      whole_area += area;
+      double thickness = 0.;
+      unsigned int layers = 0;
+      auto cell = start;
+      for (unsigned int f = first;;) {
+        const unsigned int opposite = dealii::GeometryInfo<3>::opposite_face[f];
+        thickness += cell->face(f)->center().distance(cell->face(opposite)->center());
+        ++layers;
+        if (cell->at_boundary(opposite) || layers > mesh.n_active_cells())
+          break;
+        f = cell->neighbor_of_neighbor(opposite);
+        cell = cell->neighbor(opposite);
+      }
+      if (thickness > thin * box.diagonal())
+        continue;
+      const double along =
+          std::max(0.5 * (face->vertex(1) + face->vertex(3) - face->vertex(0) - face->vertex(2)).norm(),
+                   0.5 * (face->vertex(2) + face->vertex(3) - face->vertex(0) - face->vertex(1)).norm());
+      result.area += area;
+      result.mean_layers += area * layers;
+      result.mean_aspect += area * along * layers / thickness;
+      thickness_sum += area * thickness;
+    }
+  if (result.area > 0.) {
+    result.mean_layers /= result.area;
+    result.mean_aspect /= result.area;
+    result.slenderness = box.diagonal() * result.area / thickness_sum;
+    result.area /= whole_area;
+  }
+  return result;
+}
+
+DiagnosticList check_bricks(const Scene &scene) {
+  constexpr std::size_t too_many = 100000;
+  constexpr double most = 0.5, enough_layers = 4., long_brick = 1.5;
+  DiagnosticList diagnostics;
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    if (body.formulation.element == ElementFormulation::Element::one_point)
+      continue;
+    const parameters::Body &input = scene.parameters().bodies[b];
+    Triangulation<3> outline, mesh;
+    build_body_mesh(input, MeshDetail::outline, outline);
+    if (count_full_elements(input.mesh, outline) > too_many)
+      continue;
+    build_body_mesh(input, MeshDetail::full, mesh);
+    const ThinPart part = measure_thin_part(mesh);
+    if (part.area < most || (part.mean_layers >= enough_layers && part.mean_aspect <= long_brick))
+      continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "A body " << part.slenderness << " times as long as thick has " << part.mean_layers
+         << " bricks through its thickness, " << part.mean_aspect << " times as long as high";
+    diagnostics.push_back(Diagnostic(diagnostic::bricks_may_lock, text.str())
+                              .body(body.name)
+                              .value("layers", part.mean_layers)
+                              .measure("aspect ratio", part.mean_aspect));
+  }
+  return diagnostics;
+}
+
+} // namespace billet

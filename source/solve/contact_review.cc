@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/contact_review.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <type_traits>
+
+namespace billet {
+
+std::vector<LoadPath> find_load_paths(const std::size_t n_bodies,
+                                      const std::vector<std::vector<std::size_t>> &bodies_of) {
+  std::vector<std::size_t> path(n_bodies);
+  std::iota(path.begin(), path.end(), std::size_t{0});
+  for (const auto &bodies : bodies_of)
+    for (const std::size_t body : bodies) {
+      const std::size_t from = path[body], to = path[bodies.front()];
+      std::replace(path.begin(), path.end(), from, to);
+    }
+  std::vector<LoadPath> result;
+  for (std::size_t p = 0; p < n_bodies; ++p) {
+    LoadPath load_path;
+    for (std::size_t body = 0; body < n_bodies; ++body)
+      if (path[body] == p)
+        load_path.bodies.push_back(body);
+    for (std::size_t pair = 0; pair < bodies_of.size(); ++pair)
+      if (path[bodies_of[pair].front()] == p)
+        load_path.pairs.push_back(pair);
+    if (!load_path.pairs.empty())
+      result.push_back(std::move(load_path));
+  }
+  return result;
+}
+
+void PathSoftness::add(const double time, const double penetration, const double deformation,
+                       const double all_energy) {
+  const Sample now = {time, penetration, deformation, all_energy};
+  if (has_begun_ && (last_.penetration > 0. || penetration > 0.)) {
+    const double half = 0.5 * (time - last_.time);
+    penetration_ += half * (last_.penetration + penetration);
+    deformation_ += half * (last_.deformation + deformation);
+    all_ += half * (last_.all + all_energy);
+  }
+  has_begun_ = true;
+  last_ = now;
+}
+
+double PathSoftness::part() const {
+  constexpr double counts = 0.01; // of all energies: below that it does not matter for the motion
+  const double sum = penetration_ + deformation_;
+  return sum > 0. && penetration_ > counts * all_ ? penetration_ / sum : 0.;
+}
+
+void PathSoftness::save(std::vector<double> &numbers) const {
+  numbers.insert(numbers.end(), {has_begun_ ? 1. : 0., last_.time, last_.penetration, last_.deformation,
+                                 last_.all, penetration_, deformation_, all_});
+}
+
+void PathSoftness::load(const double *numbers) {
+  has_begun_ = numbers[0] > 0.;
+  last_ = {numbers[1], numbers[2], numbers[3], numbers[4]};
+  penetration_ = numbers[5];
+  deformation_ = numbers[6];
+  all_ = numbers[7];
+}
+
+bool ForceSpread::is_uniform() const {
+  constexpr double alike = 0.9;
+  return nodes >= 3. && pressures * pressures > alike * nodes * pressure_squares;
+}
+
+bool ForceSpread::has_few_nodes() const {
+  constexpr double enough = 5.;
+  return force > 0. && effective_nodes() < enough && !is_uniform();
+}
+
+bool ForceSpread::is_coarse_on_curves() const {
+  constexpr double much = 0.5;
+  return force > 0. && on_coarse_curves > much * force;
+}
+
+ContactReview::ContactReview(const Scene &scene, const Discretization &discretization)
+    : scene_(scene), discretization_(discretization), tool_forces_(scene.tools().size()) {
+  std::vector<std::vector<std::size_t>> bodies_of;
+  for (const auto &pair : scene.pairs()) {
+    pairs_.push_back({pair.name, {pair.body}, pair.tool, false, false, 0., 0., {}});
+    bodies_of.push_back(pairs_.back().bodies);
+  }
+  for (const auto &pair : scene.body_pairs()) {
+    pairs_.push_back(
+        {pair.name, {pair.bodies[0], pair.bodies[1]}, none, pair.is_self_contact, false, 0., 0., {}});
+    bodies_of.push_back(pairs_.back().bodies);
+  }
+  paths_ = find_load_paths(scene.bodies().size(), bodies_of);
+  softness_.resize(paths_.size());
+
+  const double tolerance = 1e-8 * discretization.radius();
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> box(6, -infinity); // −low, high
+    for (const auto &element : discretization.elements(b))
+      for (const unsigned int v : element.cell->vertex_indices()) {
+        const auto &X = element.cell->vertex(v);
+        double images = 1.;
+        for (const Hold &hold : scene.bodies()[b].holds)
+          if (hold.on_plane && std::abs(X * hold.normal - hold.offset) > tolerance)
+            images *= 2.;
+        images_[element.dofs[std::size_t{3} * v]] = images;
+        for (unsigned int i = 0; i < 3; ++i) {
+          box[i] = std::max(box[i], -X[i]);
+          box[3 + i] = std::max(box[3 + i], X[i]);
+        }
+      }
+    dealii::Utilities::MPI::max(box, discretization.communicator(), box);
+    std::array<double, 3> extents{};
+    for (unsigned int i = 0; i < 3; ++i)
+      extents[i] = box[i] + box[3 + i];
+    std::sort(extents.begin(), extents.end());
+    sections_.push_back(extents[1] * extents[2]);
+  }
+}
+
+ForceSpread ContactReview::spread_of(const std::vector<ContactNodeReport> &reports) const {
+  // Nodes at the border of a rank have parts of their areas on several.
+  Vector additive = discretization_.make_additive_vector();
+  for (const auto &node : reports) {
+    additive(node.dofs[0]) += node.pressure * node.area;
+    additive(node.dofs[1]) += node.area;
+  }
+  additive.compress(dealii::VectorOperation::add);
+  Vector sums = discretization_.make_owned_vector();
+  sums = additive;
+  constexpr double coarse = 3.14159265358979 / 8.; // facet size / radius: four facets on a quarter turn
+  std::vector<double> own(6);
+  double coarsest = 0.;
+  for (const auto &node : reports) {
+    if (!discretization_.owned_dofs().is_element(node.dofs[0]))
+      continue;
+    const double force = sums(node.dofs[0]), area = sums(node.dofs[1]);
+    if (!(force > 0.) || !(area > 0.))
+      continue;
+    const double images = images_.at(node.dofs[0]), pressure = force / area;
+    own[0] += images * force;
+    own[1] += images * force * force;
+    own[2] += 1.;
+    own[3] += pressure;
+    own[4] += pressure * pressure;
+    if (node.facet_size * node.curvature > coarse)
+      own[5] += images * force;
+    coarsest = std::max(coarsest, node.facet_size * node.curvature);
+  }
+  dealii::Utilities::MPI::sum(own, discretization_.communicator(), own);
+  return {own[0],
+          own[1],
+          own[2],
+          own[3],
+          own[4],
+          own[5],
+          dealii::Utilities::MPI::max(coarsest, discretization_.communicator())};
+}
+
+void ContactReview::add(const Solution &solution) {
+  constexpr double grown = 1.02; // of the force: the nodes are looked at again
+  if (pairs_.empty())
+    return;
+  const SolutionState &state = solution.state();
+  for (std::size_t i = 0; i < tool_forces_.size(); ++i)
+    tool_forces_[i] = std::max(tool_forces_[i], state.tool_loads[i].force.norm());
+  const auto reports = solution.report_contacts();
+  // Of each pair the energy of its penetrations and its force.
+  std::vector<double> sums(2 * pairs_.size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    for (const auto &node : reports[p]) {
+      sums[2 * p] += 0.5 * node.pressure * node.penetration * node.area;
+      sums[2 * p + 1] += node.pressure * node.area;
+    }
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    Pair &pair = pairs_[p];
+    const double force = sums[2 * p + 1];
+    pair.has_touched = pair.has_touched || force > 0.;
+    if (!(force > grown * pair.largest_force))
+      continue;
+    pair.largest_force = force;
+    pair.time = state.time;
+    pair.spread = spread_of(reports[p]);
+  }
+  const EnergyLedger &ledger = state.energies;
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    double penetration = 0., deformation = ledger.elastic + ledger.plastic + ledger.hourglass;
+    for (const std::size_t pair : paths_[i].pairs)
+      penetration += sums[2 * pair];
+    if (paths_[i].bodies.size() < scene_.bodies().size()) {
+      deformation = 0.;
+      for (const std::size_t body : paths_[i].bodies)
+        for (const auto &element : solution.summarize(body))
+          deformation += element.elastic_energy + element.plastic_work + element.hourglass_energy;
+      deformation = dealii::Utilities::MPI::sum(deformation, discretization_.communicator());
+    }
+    if (std::isfinite(penetration + deformation + ledger.total()))
+      softness_[i].add(state.time, penetration, deformation, ledger.total());
+  }
+}
+
+void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
+  constexpr double allowed = 0.04;
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const double part = softness_[i].part();
+    if (!(part > allowed))
+      continue;
+    std::string names;
+    for (const std::size_t pair : paths_[i].pairs)
+      if (pairs_[pair].has_touched)
+        names += (names.empty() ? "'" : ", '") + pairs_[pair].name + "'";
+    std::ostringstream text;
+    text.precision(2);
+    text << "Penetration takes " << 100. * part << " % of the deformation along the load path of " << names
+         << ": forces of driven tools and supports are about that much too small, or displacements under "
+            "given loads "
+         << 1. / (1. - part) << " times too large";
+    diagnostics.push_back(Diagnostic(diagnostic::contact_too_soft, text.str())
+                              .pair(pairs_[paths_[i].pairs.front()].name)
+                              .measure("part", part)
+                              .value("factor", 1. / (1. - part)));
+  }
+}
+
+void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
+  for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
+    const auto is_of_tool = [t](const Pair &pair) { return pair.tool == t; };
+    if (std::none_of(pairs_.begin(), pairs_.end(),
+                     [&](const Pair &pair) { return is_of_tool(pair) && pair.has_touched; }))
+      diagnostics.push_back(Diagnostic(diagnostic::tool_without_force, "The tool touched nothing")
+                                .tool(scene_.tools()[t].name()));
+  }
+  for (const Pair &pair : pairs_) {
+    const bool has_idle_tool =
+        pair.tool != none && std::none_of(pairs_.begin(), pairs_.end(), [&](const Pair &other) {
+          return other.tool == pair.tool && other.has_touched;
+        });
+    if (!pair.has_touched && !pair.is_self_contact && !has_idle_tool)
+      diagnostics.push_back(
+          Diagnostic(diagnostic::pair_never_touched, "The pair had no contact").pair(pair.name));
+    const ForceSpread &spread = pair.spread;
+    if (spread.has_few_nodes()) {
+      std::ostringstream text;
+      text.precision(2);
+      text << "At its largest, the force is spread as over " << spread.effective_nodes()
+           << " nodes, mirror images included";
+      diagnostics.push_back(Diagnostic(diagnostic::few_contact_nodes, text.str())
+                                .pair(pair.name)
+                                .time(pair.time)
+                                .value("nodes", spread.effective_nodes()));
+    }
+    if (spread.is_coarse_on_curves()) {
+      std::ostringstream text;
+      text.precision(2);
+      text << "Facets that bear " << 100. * spread.on_coarse_curves / spread.force
+           << " % of the force have up to " << spread.coarsest << " times the tool's radius there";
+      diagnostics.push_back(Diagnostic(diagnostic::coarse_on_tool, text.str())
+                                .pair(pair.name)
+                                .time(pair.time)
+                                .measure("facet size / radius", spread.coarsest));
+    }
+  }
+}
+
+void ContactReview::judge_forces(DiagnosticList &diagnostics) const {
+  constexpr double strain = 1., many = 10.;
+  for (std::size_t t = 0; t < tool_forces_.size(); ++t) {
+    double borne = 0.; // by the strongest body that it may touch
+    for (const Pair &pair : pairs_)
+      if (pair.tool == t) {
+        const double stress = std::visit(
+            [](const auto &hardening) {
+              if constexpr (std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>)
+                return std::numeric_limits<double>::infinity();
+              else
+                return hardening.stress(strain);
+            },
+            scene_.bodies()[pair.bodies.front()].material.hardening);
+        borne = std::max(borne, stress * sections_[pair.bodies.front()]);
+      }
+    if (borne > 0. && tool_forces_[t] > many * borne) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "The tool exerts up to " << tool_forces_[t] << ", which is " << tool_forces_[t] / borne
+           << " times what the largest section of the body bears as it yields";
+      diagnostics.push_back(Diagnostic(diagnostic::implausible_force, text.str())
+                                .tool(scene_.tools()[t].name())
+                                .measure("force / (yield stress x section)", tool_forces_[t] / borne));
+    }
+  }
+}
+
+DiagnosticList ContactReview::finish() const {
+  DiagnosticList diagnostics;
+  judge_paths(diagnostics);
+  judge_pairs(diagnostics);
+  judge_forces(diagnostics);
+  return diagnostics;
+}
+
+void ContactReview::save(StateWriter &writer) const {
+  std::vector<double> numbers = tool_forces_;
+  for (const auto &softness : softness_)
+    softness.save(numbers);
+  for (const Pair &pair : pairs_)
+    numbers.insert(numbers.end(),
+                   {pair.has_touched ? 1. : 0., pair.largest_force, pair.time, pair.spread.force,
+                    pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
+                    pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest});
+  writer.write("contact review", numbers);
+}
+
+void ContactReview::load(const StateReader &reader) {
+  constexpr std::size_t of_pair = 10;
+  const std::vector<double> numbers = reader.read("contact review");
+  if (numbers.size() !=
+      tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size())
+    return; // of other pairs
+  const double *next = numbers.data();
+  for (double &force : tool_forces_)
+    force = *next++;
+  for (auto &softness : softness_) {
+    softness.load(next);
+    next += PathSoftness::n_numbers;
+  }
+  for (Pair &pair : pairs_) {
+    pair.has_touched = next[0] > 0.;
+    pair.largest_force = next[1];
+    pair.time = next[2];
+    pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9]};
+    next += of_pair;
+  }
+}
+
+} // namespace billet

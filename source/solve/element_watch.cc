@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/element_watch.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+using Element = ElementFormulation::Element;
+
+ElementFormulation formulation_of(const Scene &scene, const std::size_t body) {
+  ElementFormulation formulation = scene.bodies()[body].formulation;
+  const parameters::Scene &parameters = scene.parameters();
+  if (parameters.is_explicit())
+    formulation.hourglass_stiffness = parameters.bodies[body].hourglass_stiffness.value_or(
+        parameters.explicit_dynamics.hourglass_stiffness);
+  return formulation;
+}
+
+const char *name_of(const Element element) {
+  return element == Element::full ? "full" : element == Element::one_point ? "one point" : "mean dilatation";
+}
+
+/// What helps a body whose elements are too stiff: never an element that is as stiff.
+std::string advise_on_stiffness(const ElementEnergies &energies, const ElementFormulation &formulation) {
+  const bool one_point_helps = energies.one_point * ElementWatch::doubtful_factor < energies.used;
+  if (formulation.element == Element::one_point)
+    return one_point_helps ? "Use 'Hourglass stiffness = 1'"
+                           : "Use bricks with edges along the normal of the surface, or a finer mesh";
+  return std::string(one_point_helps ? "Use 'Element = one point', or bricks" : "Use bricks") +
+         " that are as long as high, four or more through the thickness";
+}
+
+} // namespace
+
+ElementWatch::ElementWatch(const Scene &scene, const Discretization &discretization)
+    : scene_(scene), discretization_(discretization), energies_(scene.bodies().size()) {
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    comparisons_.emplace_back(scene.bodies()[b].material, formulation_of(scene, b));
+    double volume = 0.;
+    for (const auto &element : discretization.elements(b))
+      volume += element.cell->measure();
+    volumes_.push_back(volume);
+  }
+  dealii::Utilities::MPI::sum(volumes_, discretization.communicator(), volumes_);
+}
+
+void ElementWatch::compare(const SolutionState &state) {
+  std::vector<double> sums;
+  for (std::size_t b = 0; b < comparisons_.size(); ++b) {
+    ElementEnergies energies;
+    for (const auto &element : discretization_.elements(b))
+      comparisons_[b].compare(nodal_positions(element.cell), gather(state.displacements, element.dofs),
+                              energies);
+    sums.insert(sums.end(), {energies.used, energies.one_point, energies.accurate});
+  }
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  for (std::size_t b = 0; b < comparisons_.size(); ++b)
+    energies_[b] = {sums[3 * b], sums[3 * b + 1], sums[3 * b + 2]};
+  compared_time_ = state.time;
+}
+
+bool ElementWatch::counts(const std::size_t body) const {
+  constexpr double rounding = 1e-9, part = 0.01;
+  double all = 0.;
+  for (const auto &energies : energies_)
+    all += energies.used;
+  return energies_[body].used > part * all &&
+         energies_[body].used > rounding * rounding * scene_.bodies()[body].young_modulus * volumes_[body];
+}
+
+DiagnosticList ElementWatch::judge(const double time) const {
+  DiagnosticList diagnostics;
+  for (std::size_t b = 0; b < energies_.size(); ++b) {
+    const double factor = energies_[b].factor();
+    const bool is_stiff = factor > doubtful_factor;
+    if (!counts(b) || !(is_stiff || factor * doubtful_factor < 1.))
+      continue;
+    const ElementFormulation formulation = formulation_of(scene_, b);
+    std::ostringstream text;
+    text.precision(3);
+    text << "Elements 'Element = " << name_of(formulation.element) << "' are "
+         << (is_stiff ? factor : 1. / factor) << " times too " << (is_stiff ? "stiff" : "soft")
+         << " for this deformation: forces are too " << (is_stiff ? "large" : "small")
+         << ", or displacements too " << (is_stiff ? "small" : "large") << ", by "
+         << (is_stiff ? "at least" : "about") << " this factor";
+    Diagnostic message(is_stiff ? diagnostic::element_too_stiff : diagnostic::element_too_soft, text.str());
+    message.body(scene_.bodies()[b].name).time(time).measure("factor", factor);
+    if (is_stiff)
+      message.advice(advise_on_stiffness(energies_[b], formulation));
+    diagnostics.push_back(message);
+  }
+  return diagnostics;
+}
+
+DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_last) {
+  constexpr double growth = 2., still_loaded = 0.5;
+  const EnergyLedger &ledger = state.energies;
+  const double energy = ledger.elastic + ledger.plastic + ledger.hourglass;
+  const bool is_static = !scene_.parameters().is_dynamic();
+  bool is_compared = false;
+  if (std::isfinite(energy) && energy > 0. &&
+      (energy > growth * compared_energy_ ||
+       (is_last && energy >= (is_static ? still_loaded * largest_energy_ : compared_energy_)))) {
+    compare(state);
+    compared_energy_ = energy;
+    is_compared = true;
+  }
+  largest_energy_ = std::isfinite(energy) ? std::max(largest_energy_, energy) : largest_energy_;
+  return (is_static ? is_compared : is_last) ? judge(compared_time_) : DiagnosticList();
+}
+
+double ElementWatch::error() const {
+  bool is_stiff = false;
+  ElementEnergies all;
+  for (std::size_t b = 0; b < energies_.size(); ++b) {
+    all += energies_[b];
+    is_stiff = is_stiff || (counts(b) && energies_[b].factor() > doubtful_factor);
+  }
+  return is_stiff ? std::max(0., all.factor() - 1.) : 0.;
+}
+
+void ElementWatch::save(StateWriter &writer) const {
+  std::vector<double> values = {compared_energy_, compared_time_, largest_energy_};
+  for (const auto &energies : energies_)
+    values.insert(values.end(), {energies.used, energies.one_point, energies.accurate});
+  writer.write("element energies", values);
+}
+
+void ElementWatch::load(const StateReader &reader) {
+  const std::vector<double> values = reader.read("element energies");
+  if (values.size() != 3 + 3 * energies_.size()) // of other bodies
+    return;
+  compared_energy_ = values[0];
+  compared_time_ = values[1];
+  largest_energy_ = values[2];
+  for (std::size_t b = 0; b < energies_.size(); ++b)
+    energies_[b] = {values[3 + 3 * b], values[4 + 3 * b], values[5 + 3 * b]};
+}
+
+} // namespace billet

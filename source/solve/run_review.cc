@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/run_review.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/scene/plausibility.h"
+
+#include <sstream>
+
+namespace billet {
+
+RunReview::RunReview(const Scene &scene, const Discretization &discretization)
+    : scene_(scene), discretization_(discretization), elements_(scene, discretization),
+      contacts_(scene, discretization) {}
+
+DiagnosticList RunReview::start() const {
+  return check_plausibility(scene_, discretization_.dof_handler().get_triangulation(),
+                            discretization_.communicator());
+}
+
+DiagnosticList RunReview::after_step(const Solution &solution, const bool is_last) {
+  contacts_.add(solution);
+  DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
+  constexpr double far = 3.; // sizes of the scene
+  const double moved = solution.state().displacements.linfty_norm() / (2. * discretization_.radius());
+  if (!scene_.parameters().is_dynamic() && moved > far) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "A node has moved by " << moved << " times the size of all bodies";
+    diagnostics.push_back(Diagnostic(diagnostic::large_displacement, text.str())
+                              .time(solution.state().time)
+                              .measure("displacement / size", moved));
+  }
+  return diagnostics;
+}
+
+DiagnosticList RunReview::finish() const { return contacts_.finish(); }
+
+void RunReview::save(StateWriter &writer) const {
+  writer.in("review", [&] {
+    elements_.save(writer);
+    contacts_.save(writer);
+  });
+}
+
+void RunReview::load(StateReader &reader) {
+  if (reader.has("review"))
+    reader.in("review", [&] {
+      elements_.load(reader);
+      contacts_.load(reader);
+    });
+}
+
+} // namespace billet

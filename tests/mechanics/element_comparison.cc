@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The comparison of elements: closed forms of bending of one brick, agreement where nothing bends, rigid
+// rotation, and the deformation theory's energy.
+#include "billet/mechanics/element_comparison.h"
+#include "../testing.h"
+
+#include <cmath>
+
+using namespace billet;
+using billet::testing::check;
+using Element = ElementFormulation::Element;
+
+namespace {
+
+constexpr double young = 1000.;
+
+MaterialLaw elastic(const double poisson) {
+  return {ElasticModuli::from_young_poisson(young, poisson), std::monostate{}};
+}
+
+/// A box, its edges along x sheared by `skew` of the height.
+ElementVectors brick(const std::array<double, 3> &lengths, const double skew = 0.) {
+  ElementVectors x;
+  for (unsigned int a = 0; a < n_element_nodes; ++a) {
+    for (unsigned int i = 0; i < 3; ++i)
+      x[3 * a + i] = ((a >> i) & 1U) != 0U ? lengths[i] : 0.;
+    x[3 * a] += skew * x[3 * a + 2];
+  }
+  return x;
+}
+
+template <class Function> ElementVectors move(const ElementVectors &x, const Function &u) {
+  ElementVectors result;
+  for (unsigned int a = 0; a < n_element_nodes; ++a) {
+    const dealii::Tensor<1, 3> moved = u(dealii::Tensor<1, 3>({x[3 * a], x[3 * a + 1], x[3 * a + 2]}));
+    for (unsigned int i = 0; i < 3; ++i)
+      result[3 * a + i] = moved[i];
+  }
+  return result;
+}
+
+ElementEnergies compare(const MaterialLaw &law, const Element element, const ElementVectors &x,
+                        const ElementVectors &u, const double hourglass_stiffness = 1.) {
+  ElementFormulation formulation;
+  formulation.element = element;
+  formulation.hourglass_stiffness = hourglass_stiffness;
+  ElementEnergies energies;
+  if (!ElementComparison(law, formulation).compare(x, u, energies))
+    energies.used = std::nan("");
+  return energies;
+}
+
+/// Bending in x and z about the middle: u_x = κ (x − l/2)(z − h/2).
+ElementVectors bend(const ElementVectors &x, const std::array<double, 3> &l, const double curvature) {
+  return move(x, [&](const dealii::Tensor<1, 3> &p) {
+    return dealii::Tensor<1, 3>({curvature * (p[0] - l[0] / 2) * (p[2] - l[2] / 2), 0., 0.});
+  });
+}
+
+} // namespace
+
+int main() {
+  const auto relative = [](const double a, const double b) { return std::abs(a / b - 1.); };
+  const std::array<double, 3> l = {{5., 3., 1.}};
+  for (const double poisson : {0., 0.3, 0.49}) {
+    const MaterialLaw law = elastic(poisson);
+    const double shear = law.elastic.shear, curvature = 1e-5;
+    const auto u = bend(brick(l), l, curvature);
+    // Bending of a plate that cannot bend across: E/(1 − ν²) κ² I/2 per length.
+    const double exact =
+        young / (1. - poisson * poisson) * curvature * curvature * l[0] * l[1] * std::pow(l[2], 3) / 24.;
+    const std::string name = "nu = " + std::to_string(poisson).substr(0, 4);
+    const ElementEnergies full = compare(law, Element::full, brick(l), u);
+    check("bending is exact, " + name, relative(full.accurate, exact), 1e-4);
+    check("and of one point, " + name, relative(full.one_point, exact), 1e-4);
+    // F itself has σ_xx by K + 4/3 G, and the shear κ (x − l/2) besides.
+    const double modulus = law.elastic.bulk + 4. / 3. * shear;
+    const double locked =
+        curvature * curvature * l[0] * l[1] * l[2] / 24. * (modulus * l[2] * l[2] + shear * l[0] * l[0]);
+    check("eight points lock as they should, " + name, relative(full.factor(), locked / exact), 1e-3);
+    const ElementEnergies mean = compare(law, Element::mean_dilatation, brick(l), u);
+    const double mean_locked = curvature * curvature * l[0] * l[1] * l[2] / 24. *
+                               (4. / 3. * shear * l[2] * l[2] + shear * l[0] * l[0]);
+    check("with mean dilatation less, " + name, relative(mean.factor(), mean_locked / exact), 1e-3);
+  }
+  const MaterialLaw law = elastic(0.3);
+  {
+    const auto linear = [](const dealii::Tensor<1, 3> &p) {
+      return dealii::Tensor<1, 3>(
+          {0.2 * p[0] + 0.1 * p[1], 0.3 * p[2] - 0.1 * p[1], 0.05 * p[0] - 0.1 * p[2]});
+    };
+    auto x = brick(l);
+    for (unsigned int k = 0; k < n_element_dofs; ++k)
+      x[k] += 0.2 * std::sin(1. + 3. * k);
+    for (const Element element : {Element::mean_dilatation, Element::full, Element::one_point}) {
+      const ElementEnergies energies = compare(law, element, x, move(x, linear));
+      check("where strain is constant all agree, on any brick",
+            relative(energies.used, energies.accurate) + relative(energies.one_point, energies.accurate),
+            1e-10);
+    }
+  }
+  {
+    // The same bending, turned by far.
+    const double angle = 1.1;
+    const auto x = brick(l), u = bend(x, l, 0.02);
+    ElementVectors turned = u;
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const double p = x[3 * a] + u[3 * a], q = x[3 * a + 2] + u[3 * a + 2];
+      turned[3 * a] = std::cos(angle) * p - std::sin(angle) * q - x[3 * a];
+      turned[3 * a + 2] = std::sin(angle) * p + std::cos(angle) * q - x[3 * a + 2];
+    }
+    const ElementEnergies a = compare(law, Element::full, x, u), b = compare(law, Element::full, x, turned);
+    check("rotation changes nothing", relative(a.used, b.used) + relative(a.accurate, b.accurate), 1e-10);
+    check("without strain there is nothing", compare(law, Element::full, x, {}).factor() == 1.);
+  }
+  {
+    const auto x = brick(l), u = bend(x, l, 1e-5);
+    const ElementEnergies soft = compare(law, Element::one_point, x, u, 0.05);
+    check("a soft stabilisation is seen", relative(soft.factor(), 0.05), 1e-3);
+    const auto skew = brick(l, 0.5);
+    const ElementEnergies skewed =
+        compare(law, Element::one_point, skew, move(skew, [&](const dealii::Tensor<1, 3> &p) {
+                  const double along = p[0] - 0.5 * l[0] - 0.25 * l[2], up = p[2] - 0.5 * l[2];
+                  return 1e-5 * dealii::Tensor<1, 3>({along * up, 0., -0.5 * along * along});
+                }));
+    check("of bricks whose edges are skew one point is too stiff", skewed.factor() > 1.2);
+  }
+  {
+    const double yield = 2., modulus = 50.;
+    MaterialLaw plastic = law;
+    plastic.hardening = LinearHardening{yield, modulus};
+    const ElementComparison comparison(plastic, {});
+    const double stiffness = 3. * law.elastic.shear;
+    const auto energy = [&](const double strain) {
+      return comparison.energy(0., 0.5 * stiffness * strain * strain);
+    };
+    const double strain = 0.02, alpha = (stiffness * strain - yield) / (stiffness + modulus);
+    check("energy of total strain",
+          relative(energy(strain), 0.5 * std::pow(stiffness * (strain - alpha), 2) / stiffness +
+                                       (yield + 0.5 * modulus * alpha) * alpha),
+          1e-10);
+    const double slope =
+        billet::testing::central_difference([&](const double d) { return energy(strain + d); }, 1e-4);
+    check("its slope is the stress", relative(slope, yield + modulus * alpha), 1e-7);
+    check("below the yield stress it is elastic",
+          relative(energy(0.5 * yield / stiffness), 0.125 * yield * yield / stiffness), 1e-12);
+  }
+  return billet::testing::exit_code();
+}
