@@ -2,6 +2,7 @@
 #include "billet/scene/plausibility.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/errors.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -107,7 +108,13 @@ Course follow(const Tool &tool, const double end) {
   const Placement start = tool.placement(0.);
   Placement before = start;
   for (unsigned int i = 1; i <= n_samples; ++i) {
-    const Placement now = tool.placement(end * i / n_samples);
+    Placement now;
+    try {
+      now = tool.placement(end * i / n_samples);
+    } catch (
+        const SolutionFailure &) { // the motion is not defined there: the run will say so when it gets there
+      break;
+    }
     course.travel = std::max(course.travel, (now.translation - start.translation).norm());
     course.speed = std::max(course.speed, (now.translation - before.translation).norm() * n_samples / end);
     before = now;

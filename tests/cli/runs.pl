@@ -297,9 +297,9 @@ check 'warnings may be errors, and the run is computed to its end all the same',
 check "messages are records, on $_ ranks", sub {
   my $folder = billet('top on die: Normal penalty = 1e-3', ranks => $_);
   my @lines = split /\n/, read_text("$folder/diagnostics.jsonl");
-  return 'lines: ' . join "\n", @lines unless @lines == 2;
+  return 'lines: ' . join "\n", @lines unless @lines == 3;
   return "first: $lines[0]" unless $lines[0] =~ /^\{"key":"penalty-too-low","severity":"warning","message":"Nodes penetrate .*","pair":"top on die","time":[\d.]+,"values":\{"penetration \[facet sizes\]":[\d.e-]+\},"advice":"Increase .*"\}$/;
-  return $lines[1] =~ /^\{"summary":\{"exit code":0,"errors":0,"warnings":1,"notes":0,"messages":\[\{"key":"penalty-too-low","pair":"top on die","count":\d+,"largest":[\d.]+,"at time":1(\.0)?\}\]\}\}$/ ? '' : "last: $lines[1]";
+  return $lines[2] =~ /^\{"summary":\{"exit code":0,"errors":0,"warnings":2,"notes":0,"messages":\[\{"key":"penalty-too-low","pair":"top on die","count":\d+,"largest":[\d.]+,"at time":1(\.0)?\},\{"key":"contact-too-soft","pair":"top on die","count":1,"largest":[\d.]+\}\]\}\}$/ ? '' : "last: $lines[2]";
 } for 1, 2;
 check 'the list of messages in the manual is that of the program', sub {
   my ($code, $list) = run($billet, '--print-diagnostics');
@@ -313,7 +313,7 @@ check 'so are errors', sub {
 };
 check 'warnings are printed where the console is quiet otherwise', sub {
   billet('Output: Verbosity = quiet & top on die: Normal penalty = 1e-3');
-  return $said =~ /^warning\[penalty-too-low\]: [^\n]*\nwarning\[penalty-too-low\] pair 'top on die': [^\n]*\nCompleted in \S+ with 1 warning\.[^\n]*\n\z/ ? '' : "says $said";
+  return $said =~ /^warning\[penalty-too-low\]: [^\n]*\nwarning\[contact-too-soft\]: [^\n]*\nwarning\[penalty-too-low\] pair 'top on die': [^\n]*\nCompleted in \S+ with 2 warnings\.[^\n]*\n\z/ ? '' : "says $said";
 };
 
 # --- penalties that do not fit ---------------------------------------------------------------------------------------
@@ -338,7 +338,7 @@ check "a penalty that takes the die's motion gives a warning, and the summary sa
   billet('top on die: Normal penalty = 1e-3');
   my ($first) = $said =~ /^warning\[penalty-too-low\]: Nodes penetrate by ([\d.e-]+) facet sizes, \d+ % of the largest displacement so far \(pair 'top on die', time/m;
   my ($worst) = $said =~ /^warning\[penalty-too-low\] pair 'top on die': \d+ times, penetration \[facet sizes\] up to ([\d.e-]+) at time 1$/m;
-  return $first < 0.02 && $worst >= 9.9 * $first && $said =~ /^Completed in \S+ with 1 warning\./m ? '' : "says $said";
+  return $first < 0.02 && $worst >= 9.9 * $first && $said =~ /^Completed in \S+ with 2 warnings\./m ? '' : "says $said";
 };
 check 'so in explicit scenes', sub {
   billet('hammer on block: Normal penalty = 1e-6', base => $impact);
