@@ -2,8 +2,8 @@
 // Penalties that are soft are told by either sign, again where nodes are much deeper, and not where depths
 // are no matter.
 #include "billet/solve/penalty_watch.h"
-#include "billet/diagnostic_kinds.h"
 #include "../testing.h"
+#include "billet/diagnostic_kinds.h"
 
 #include <cmath>
 
@@ -32,8 +32,8 @@ int main() {
     check("a hundredth of a facet after a motion of one is no matter", !look(watch, 0.01, 2.));
     check("a tenth is, nearly", !look(watch, 0.099, 2.) && !watch.has_soft_pairs());
     const Message text = look(watch, 0.11, 4.);
-    check("more is told",
-          tells(text, "Nodes penetrate by 0.11 facet sizes (pair 'pair'") && tells(text, "'Normal penalty', or"));
+    check("more is told", tells(text, "Nodes penetrate by 0.11 facet sizes (pair 'pair'") &&
+                              tells(text, "'Normal penalty', or"));
     check("once", !look(watch, 1., 40.) && watch.has_soft_pairs());
     check("and again at ten times that", tells(look(watch, 1.2, 40.), "1.2 facet sizes"));
     check("of each pair", watch.look("other", {0.2, 0.4}, 40.).has_value());
@@ -41,7 +41,8 @@ int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     const Message text = look(watch, 1e-3, 4e-3);
-    check("half of the motion is told, however small", tells(text, "facet sizes, 50 % of the largest displacement"));
+    check("half of the motion is told, however small",
+          tells(text, "facet sizes, 50 % of the largest displacement"));
   }
   {
     // A flat body moves aside by much more than it is high.
