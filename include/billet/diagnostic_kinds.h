@@ -145,17 +145,24 @@ inline const DiagnosticKind element_too_stiff(
     "parasitic shear. Forces are too large, or displacements too small, by at least the given factor.",
     "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
 
-inline const DiagnosticKind element_too_soft(
-    "element-too-soft", Severity::warning,
-    "The elements of a body are too soft in bending: the displacements store less energy in them than in "
-    "elements that bend right. Forces are too small, or displacements too large, by about the given factor.",
-    "Use a finer mesh; with one-point elements 'Hourglass stiffness = 1'");
+inline const DiagnosticKind element_too_soft("element-too-soft", Severity::warning,
+                                             "One-point elements with a reduced 'Hourglass stiffness' are "
+                                             "too soft in bending: the displacements store "
+                                             "less energy in them than in elements that bend right.",
+                                             "Use 'Hourglass stiffness = 1'");
 
 inline const DiagnosticKind bricks_may_lock(
     "bricks-may-lock", Severity::warning,
     "A thin body has long bricks, or few through its thickness, of an element that is too stiff in bending. "
     "Only '--check' tells this; a run measures what it makes and warns with the factor.",
     "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
+
+inline const DiagnosticKind element_unfit_at_start(
+    "element-unfit-at-start", Severity::note,
+    "At the first loaded step the elements of a body are too stiff or too soft by the given factor. The run "
+    "measures it again at the end.",
+    "If the body bends throughout, use 'Element = one point', or bricks that are as long as high, four or "
+    "more through the thickness");
 
 inline const DiagnosticKind pressure_checkerboard(
     "pressure-checkerboard", Severity::warning,

@@ -218,13 +218,23 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   return diagnostics;
 }
 
-ThinPart measure_thin_part(const Triangulation<3> &mesh) {
+ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold> &holds) {
   constexpr double thin = 0.1;
   Box box;
   for (const auto &vertex : mesh.get_vertices())
     box.add(vertex);
   ThinPart result;
   double whole_area = 0., thickness_sum = 0.;
+  // A face that is held flat cannot bend, nor what is below it.
+  const auto is_held = [&](const Triangulation<3>::active_face_iterator &face) {
+    const Tensor<1, 3> area =
+        dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+    constexpr double along = 0.99;
+    return std::any_of(holds.begin(), holds.end(), [&](const Hold &hold) {
+      return std::abs(hold.normal * area) > along * area.norm() &&
+             holds_face(hold, face, 1e-8 * box.diagonal());
+    });
+  };
   for (const auto &start : mesh.active_cell_iterators())
     for (const unsigned int first : start->face_indices()) {
       if (!start->face(first)->at_boundary())
@@ -235,16 +245,19 @@ ThinPart measure_thin_part(const Triangulation<3> &mesh) {
       double thickness = 0.;
       unsigned int layers = 0;
       auto cell = start;
+      bool is_free = !is_held(face);
       for (unsigned int f = first;;) {
         const unsigned int opposite = dealii::GeometryInfo<3>::opposite_face[f];
         thickness += cell->face(f)->center().distance(cell->face(opposite)->center());
         ++layers;
-        if (cell->at_boundary(opposite) || layers > mesh.n_active_cells())
+        if (cell->at_boundary(opposite) || layers > mesh.n_active_cells()) {
+          is_free = is_free && !is_held(cell->face(opposite));
           break;
+        }
         f = cell->neighbor_of_neighbor(opposite);
         cell = cell->neighbor(opposite);
       }
-      if (thickness > thin * box.diagonal())
+      if (!is_free || thickness > thin * box.diagonal())
         continue;
       const double along =
           std::max(0.5 * (face->vertex(1) + face->vertex(3) - face->vertex(0) - face->vertex(2)).norm(),
@@ -277,7 +290,7 @@ DiagnosticList check_bricks(const Scene &scene) {
     if (count_full_elements(input.mesh, outline) > too_many)
       continue;
     build_body_mesh(input, MeshDetail::full, mesh);
-    const ThinPart part = measure_thin_part(mesh);
+    const ThinPart part = measure_thin_part(mesh, body.holds);
     if (part.area < most || (part.mean_layers >= enough_layers && part.mean_aspect <= long_brick))
       continue;
     std::ostringstream text;

@@ -218,8 +218,9 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
       if (pairs_[pair].has_touched)
         names += (names.empty() ? "'" : ", '") + pairs_[pair].name + "'";
     std::ostringstream text;
-    text.precision(2);
-    text << "Penetration takes " << 100. * part << " % of the deformation along the load path of " << names
+    text.precision(3);
+    text << "Penetration takes " << std::round(1000. * part) / 10.
+         << " % of the deformation along the load path of " << names
          << ": forces of driven tools and supports are about that much too small, or displacements under "
             "given loads "
          << 1. / (1. - part) << " times too large";

@@ -74,14 +74,26 @@ bool ElementWatch::counts(const std::size_t body) const {
          energies_[body].used > rounding * rounding * scene_.bodies()[body].young_modulus * volumes_[body];
 }
 
-DiagnosticList ElementWatch::judge(const double time) const {
+double ElementWatch::factor_of(const std::size_t body) const {
+  // The deformation theory is an estimate once a body yields: there the stiffer of both references counts.
+  ElementEnergies energies = energies_[body];
+  if (!std::holds_alternative<std::monostate>(scene_.bodies()[body].material.hardening))
+    energies.accurate = std::max(energies.accurate, energies.one_point);
+  return energies.used > 0. ? energies.factor() : 1.;
+}
+
+DiagnosticList ElementWatch::judge(const bool is_first) const {
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
-    const double factor = energies_[b].factor();
+    const double factor = factor_of(b);
     const bool is_stiff = factor > doubtful_factor;
-    if (!counts(b) || !(is_stiff || factor * doubtful_factor < 1.))
-      continue;
     const ElementFormulation formulation = formulation_of(scene_, b);
+    // That f is small bounds nothing, (L4): of other elements, which a coarse mesh makes stiff, it is no
+    // sign.
+    const bool is_soft = formulation.element == ElementFormulation::Element::one_point &&
+                         formulation.hourglass_stiffness < 1. && factor * doubtful_factor < 1.;
+    if (!counts(b) || !(is_stiff || is_soft))
+      continue;
     std::ostringstream text;
     text.precision(3);
     text << "Elements 'Element = " << name_of(formulation.element) << "' are "
@@ -89,9 +101,12 @@ DiagnosticList ElementWatch::judge(const double time) const {
          << " for this deformation: forces are too " << (is_stiff ? "large" : "small")
          << ", or displacements too " << (is_stiff ? "small" : "large") << ", by "
          << (is_stiff ? "at least" : "about") << " this factor";
-    Diagnostic message(is_stiff ? diagnostic::element_too_stiff : diagnostic::element_too_soft, text.str());
-    message.body(scene_.bodies()[b].name).time(time).measure("factor", factor);
-    if (is_stiff)
+    Diagnostic message(is_first   ? diagnostic::element_unfit_at_start
+                       : is_stiff ? diagnostic::element_too_stiff
+                                  : diagnostic::element_too_soft,
+                       text.str());
+    message.body(scene_.bodies()[b].name).time(compared_time_).measure("factor", factor);
+    if (is_stiff && !is_first)
       message.advice(advise_on_stiffness(energies_[b], formulation));
     diagnostics.push_back(message);
   }
@@ -102,27 +117,28 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   constexpr double growth = 2., still_loaded = 0.5;
   const EnergyLedger &ledger = state.energies;
   const double energy = ledger.elastic + ledger.plastic + ledger.hourglass;
-  const bool is_static = !scene_.parameters().is_dynamic();
-  bool is_compared = false;
+  const bool is_static = !scene_.parameters().is_dynamic(), is_first = compared_energy_ == 0.;
   if (std::isfinite(energy) && energy > 0. &&
       (energy > growth * compared_energy_ ||
        (is_last && energy >= (is_static ? still_loaded * largest_energy_ : compared_energy_)))) {
     compare(state);
     compared_energy_ = energy;
-    is_compared = true;
   }
   largest_energy_ = std::isfinite(energy) ? std::max(largest_energy_, energy) : largest_energy_;
-  return (is_static ? is_compared : is_last) ? judge(compared_time_) : DiagnosticList();
+  if (is_last)
+    return judge(false);
+  return is_static && is_first && compared_energy_ > 0. ? judge(true) : DiagnosticList();
 }
 
 double ElementWatch::error() const {
   bool is_stiff = false;
-  ElementEnergies all;
+  double used = 0., accurate = 0.;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
-    all += energies_[b];
-    is_stiff = is_stiff || (counts(b) && energies_[b].factor() > doubtful_factor);
+    used += energies_[b].used;
+    accurate += energies_[b].used / factor_of(b);
+    is_stiff = is_stiff || (counts(b) && factor_of(b) > doubtful_factor);
   }
-  return is_stiff ? std::max(0., all.factor() - 1.) : 0.;
+  return is_stiff && accurate > 0. ? std::max(0., used / accurate - 1.) : 0.;
 }
 
 void ElementWatch::save(StateWriter &writer) const {

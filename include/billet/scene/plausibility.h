@@ -22,8 +22,8 @@ struct ThinPart {
   double slenderness = 0.; ///< size of the body / mean thickness
 };
 /// From each boundary face through opposite faces of bricks to the other side; thin is what has less than a
-/// tenth of the diagonal of the box around the body.
-ThinPart measure_thin_part(const dealii::Triangulation<3> &mesh);
+/// tenth of the diagonal of the box around the body. What `holds` keep flat cannot bend, and is left out.
+ThinPart measure_thin_part(const dealii::Triangulation<3> &mesh, const std::vector<Hold> &holds);
 
 /// Returns warnings about thin bodies whose elements may lock in bending, from their full meshes. Bodies of
 /// very many elements are left out. Serial.

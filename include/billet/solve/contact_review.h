@@ -22,7 +22,7 @@ struct LoadPath {
 std::vector<LoadPath> find_load_paths(std::size_t n_bodies,
                                       const std::vector<std::vector<std::size_t>> &bodies_of);
 
-/// What penetration takes of the deformation along a load path, (M42) of doc/theory.md: over the time in
+/// What penetration takes of the deformation along a load path, (L6) of doc/theory.md: over the time in
 /// which its pairs press, the energy ½ Σ p g A of pressures on penetrations beside that of the bodies'
 /// deformation.
 class PathSoftness {

@@ -13,9 +13,9 @@
 namespace billet {
 
 /// Compares the elements of each body with ones that bend right, (L4) of doc/theory.md, and warns where they
-/// are too stiff or too soft. In statics at the first loaded step, whenever the energy of deformation has
-/// doubled, and at the end. In dynamics a wave front is no measure: there the state of the largest energy
-/// counts, and the message comes at the end.
+/// are too stiff or too soft: at the end of the run, of the state of the largest energy of deformation or of
+/// the last one where it is still loaded. In statics a note tells it at the first loaded step already; a
+/// sheet that bends first and is stretched then may be wrong there and right in the end.
 class ElementWatch {
 public:
   ElementWatch(const Scene &scene, const Discretization &discretization);
@@ -29,8 +29,8 @@ public:
   /// The energies of the bodies at the last comparison.
   const std::vector<ElementEnergies> &energies() const { return energies_; }
 
-  /// What compare() finds of these energies; `time`: when they were.
-  DiagnosticList judge(double time) const;
+  /// Messages about the last comparison; notes where it is that of the first loaded step.
+  DiagnosticList judge(bool is_first) const;
 
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
@@ -40,6 +40,8 @@ public:
 
 private:
   void compare(const SolutionState &state);
+  /// (L4), on the safe side for bodies that yield.
+  double factor_of(std::size_t body) const;
   /// Whether the energies of a body are more than round-off and a part of all that counts.
   bool counts(std::size_t body) const;
 
