@@ -492,8 +492,10 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   }
   report.linear_iterations = linear_->take_iterations();
   report.note = softened + linear_->take_note();
-  if (report.converged)
+  if (report.converged) {
     report.note += watch_penalties() + tell_round_off(report.force);
+    append(report.diagnostics, contact_losses_.watch(largest_energy_, state_.time));
+  }
   return report;
 }
 

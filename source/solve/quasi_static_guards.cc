@@ -12,7 +12,6 @@
 namespace billet {
 
 std::string QuasiStatic::watch_penalties() {
-  constexpr double much_taken = 0.05; // of the largest energy
   std::ostringstream note;
   note.precision(2);
   const double displacement = u_n_.linfty_norm();
@@ -47,13 +46,6 @@ std::string QuasiStatic::watch_penalties() {
          << ": try a softer penalty, with a 'Penetration tolerance' where that is "
             "too soft, or bodies nearer to the origin\n";
     has_told_stiff_ = true;
-  }
-  if (!has_told_taken_ && largest_energy_ > 0. && contact_taken_ > much_taken * largest_energy_) {
-    note << "Contact has taken " << 100. * contact_taken_ / largest_energy_
-         << " % of the largest energy so far, since steps do not resolve how it opens and closes: where "
-            "bodies "
-            "are to bounce try a smaller 'Error tolerance' or 'Largest step', or a softer penalty\n";
-    has_told_taken_ = true;
   }
   return note.str();
 }
