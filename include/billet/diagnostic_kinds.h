@@ -111,7 +111,8 @@ inline const DiagnosticKind penalty_reduced(
 
 inline const DiagnosticKind contact_dissipates(
     "contact-dissipates", Severity::warning,
-    "Contact has removed much energy, because the time steps do not resolve how it opens and closes.",
+    "Contact has removed much energy beside friction, because the time steps do not resolve how it opens "
+    "and closes. The message names the cause.",
     "Where bodies should bounce, reduce 'Error tolerance', 'Largest step' or the penalty");
 
 inline const DiagnosticKind nodes_behind_tool(

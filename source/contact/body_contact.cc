@@ -74,7 +74,6 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
     settings.most_changes = most_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
-  settings.has_trapezoidal_works = scene.parameters().is_explicit();
   const auto stiffness = compute_stiffness(scene);
   settings.touching_gap *= std::min(1., most_stiffening_);
   contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, stiffness, sizes_);
@@ -379,6 +378,7 @@ ContactLoad BodyContact::compute_load() const {
   load.area = all.area;
   load.stored_energy = all.stored_energy;
   load.dissipation = all.dissipation;
+  load.damping = all.damping;
   load.deepest = all.deepest;
   return load;
 }

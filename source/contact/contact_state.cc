@@ -23,7 +23,32 @@ void restore(RowReader &row, Frame &frame) {
 constexpr std::size_t gap_width = 4, friction_width = 20; // of a node on a tool
 constexpr std::size_t behind_width = 4;                   // of a node that may be behind a tool
 constexpr std::size_t areas_width = 4;                    // of a facet
-constexpr std::size_t touch_width = 9, slave_width = 17;  // of a node on facets
+
+/// The areas of a facet's corners.
+template <class Facets, class Areas>
+void save_areas(StateWriter &writer, const std::string &name, const Facets &facets, const Areas &areas) {
+  std::vector<std::uint64_t> keys;
+  std::vector<double> rows;
+  for (const auto &facet : facets) {
+    keys.push_back(facet.key);
+    rows.insert(rows.end(), (facet.*areas).begin(), (facet.*areas).end());
+  }
+  writer.write_rows(name, areas_width, keys, rows);
+}
+
+template <class Facets, class Areas>
+void load_areas(const StateReader &reader, const std::string &name, Facets &facets, const Areas &areas) {
+  if (!reader.has(name))
+    return;
+  std::vector<std::uint64_t> keys;
+  for (const auto &facet : facets)
+    keys.push_back(facet.key);
+  const std::vector<double> rows = reader.read_rows(name, areas_width, keys);
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    std::copy_n(&rows[areas_width * f], areas_width, (facets[f].*areas).begin());
+}
+
+constexpr std::size_t touch_width = 9, slave_width = 18; // of a node on facets
 
 // A facet's key has more bits than a double keeps.
 constexpr std::uint64_t half_key = 0xffffffffU;
@@ -57,15 +82,10 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
       behind_row.number(node.is_behind ? 1. : 0.).vector(node.behind_at);
     writer.write_rows("behind", behind_width, node_keys, behind);
   }
-  if (!is_explicit_)
-    return;
-  std::vector<std::uint64_t> facet_keys;
-  std::vector<double> areas;
-  for (const auto &facet : facets_) {
-    facet_keys.push_back(facet.key);
-    areas.insert(areas.end(), facet.shallow_areas.begin(), facet.shallow_areas.end());
-  }
-  writer.write_rows("shallow areas", areas_width, facet_keys, areas);
+  if (is_explicit_)
+    save_areas(writer, "shallow areas", facets_, &Facet::shallow_areas);
+  else if (pair_.has_friction())
+    save_areas(writer, "friction areas", facets_, &Facet::friction_areas);
 }
 
 void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
@@ -94,14 +114,10 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
       row.vector(nodes_[i].behind_at);
     }
   }
-  if (is_explicit_ && reader.has("shallow areas")) {
-    std::vector<std::uint64_t> facet_keys;
-    for (const auto &facet : facets_)
-      facet_keys.push_back(facet.key);
-    const std::vector<double> areas = reader.read_rows("shallow areas", areas_width, facet_keys);
-    for (std::size_t f = 0; f < facets_.size(); ++f)
-      std::copy_n(&areas[areas_width * f], areas_width, facets_[f].shallow_areas.begin());
-  }
+  if (is_explicit_)
+    load_areas(reader, "shallow areas", facets_, &Facet::shallow_areas);
+  else if (pair_.has_friction())
+    load_areas(reader, "friction areas", facets_, &Facet::friction_areas);
   if (!pair_.has_friction() || !reader.has("friction")) // a law that is new begins without traction
     return;
   const std::vector<double> friction = reader.read_rows("friction", friction_width, node_keys);
@@ -141,8 +157,10 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
   }
   friction_ = friction_n_;
   remember_positions();
-  for (auto &facet : facets_)
+  for (auto &facet : facets_) {
     facet.shallow_areas.fill(not_touching);
+    facet.friction_areas.fill(0.);
+  }
 }
 
 void RigidContact::begin(const Placement &placement, const Vector &displacements) {
@@ -213,7 +231,7 @@ void FacetContact::save(StateWriter &writer) const {
     history_row.number(history.is_active ? 1. : 0.);
     store(history.frame, history_row);
     history_row.number(history.tangential[0]).number(history.tangential[1]);
-    history_row.number(history.slip).number(history.slip_rate);
+    history_row.number(history.slip).number(history.slip_rate).number(history.area);
   }
   writer.write("start",
                {has_started_ ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0., allowed_part_});
@@ -282,6 +300,7 @@ void FacetContact::load(const StateReader &reader) {
     history.tangential[1] = row.number();
     history.slip = row.number();
     history.slip_rate = row.number();
+    history.area = row.number();
   }
   base_ = history_ = history_n_;
 }

@@ -289,22 +289,27 @@ SlaveMotion FacetContact::compute_motion(const std::size_t s, const double durat
   return mean;
 }
 
-double FacetContact::released_energy(const std::size_t s, const double duration) const {
-  const SlaveHistory &history_n = history_n_[s];
-  SlaveMotion motion{};
-  if (settings_.has_trapezoidal_works && touched_n_[s].exists()) {
-    const unsigned int facet = touched_n_[s].facet, node = slaves_[s].node;
-    const FacetCorners corners_n = corners_of(search_.facets()[facet], positions_n_);
-    motion = compute_slave_motion(corners_n, moved_.corners(facet),
-                                  PlanedFacet(corners_n).project(positions_n_[node], {}).weights,
-                                  positions_n_[node], positions_[node], duration);
-  }
-  double area = 0.;
+SlaveMotion FacetContact::compute_motion_after_contact(const std::size_t s, const double duration) const {
+  if (!touched_n_[s].exists())
+    return {};
+  const unsigned int facet = touched_n_[s].facet, node = slaves_[s].node;
+  const FacetCorners corners_n = corners_of(search_.facets()[facet], positions_n_);
+  return compute_slave_motion(corners_n, moved_.corners(facet),
+                              PlanedFacet(corners_n).project(positions_n_[node], {}).weights,
+                              positions_n_[node], positions_[node], duration);
+}
+
+void FacetContact::account_for_friction(const std::size_t s, const SlaveMotion &motion) {
+  const FrictionRule rule{stiffness_[s].tangential, start_weight_, lifts_n_.empty(), lifts_.empty()};
+  const FrictionAccount account = compute_friction_account(history_n_[s], history_[s], motion, rule);
+  double n_own = 0., n_facets = 0.;
   search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
-    if (f < exchange_.n_own_facets())
-      area += moved_.areas(f).share(corner_of(search_.facets()[f], slaves_[s].node), history_n.frame.n);
+    n_facets += 1.;
+    n_own += f < exchange_.n_own_facets() ? 1. : 0.;
   });
-  return area * compute_trapezoidal_dissipation(history_n, history_[s], motion, stiffness_[s].tangential);
+  const double part = n_own / n_facets;
+  states_[s].dissipation = part * account.dissipated(history_n_[s].area, history_[s].area);
+  states_[s].damping = part * history_[s].area * account.damping;
 }
 
 template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
@@ -338,14 +343,13 @@ template <class Facet, class Law> void FacetContact::evaluate(const Law &law, co
       const SlaveMotion motion = compute_motion(s, duration);
       state.traction = compute_slave_traction(law, stiffness_[s], contact.normal, contact.gap, motion,
                                               base_[s], history_[s]);
-      if (settings_.has_trapezoidal_works)
-        state.traction.dissipation =
-            compute_trapezoidal_dissipation(history_n_[s], history_[s], motion, stiffness_[s].tangential);
+      history_[s].area = state.area;
+      account_for_friction(s, motion);
     } else {
       history_[s] = SlaveHistory();
       history_[s].slip = history_n_[s].slip;
-      if (history_n_[s].is_active && lifts_.empty()) // what augmentation holds is no stretch of a spring
-        state.released = released_energy(s, duration);
+      if (history_n_[s].is_active)
+        account_for_friction(s, compute_motion_after_contact(s, duration));
     }
     visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
       if (share.slave_facet == FacetShare::none)
@@ -489,7 +493,8 @@ FacetContactLoad FacetContact::compute_load() const {
   FacetContactLoad load;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    load.dissipation += state.released;
+    load.dissipation += state.dissipation;
+    load.damping += state.damping;
     if (!state.presses())
       continue;
     visit_forces(s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
@@ -519,7 +524,6 @@ FacetContactLoad FacetContact::compute_load() const {
                                          : 0.5 * state.own_area * stiffness_[s].normal *
                                                (state.contact.gap + augmentation(s)) *
                                                (state.contact.gap + augmentation(s));
-    load.dissipation += state.own_area * state.traction.dissipation;
     load.area += state.own_area;
     load.n_touching += 1.;
     const FacetCorners corners = moved_.corners(state.touched.facet);
@@ -530,14 +534,14 @@ FacetContactLoad FacetContact::compute_load() const {
     load.deepest_relative = std::max(load.deepest_relative, depth / size);
   }
   add_edges(load);
-  std::array<double, 17> sums{load.stored_energy, load.dissipation, load.area, load.n_touching,
-                              load.absolute_force};
+  std::array<double, 18> sums{load.stored_energy, load.dissipation,    load.area,
+                              load.n_touching,    load.absolute_force, load.damping};
   std::array<double, 2> largest{load.deepest, load.deepest_relative};
   const std::array<Tensor<1, 3> *, 4> vectors{&load.force, &load.moment, &load.residual_force,
                                               &load.residual_moment};
   for (unsigned int v = 0; v < vectors.size(); ++v)
     for (unsigned int i = 0; i < 3; ++i)
-      sums[5 + 3 * v + i] = (*vectors[v])[i];
+      sums[6 + 3 * v + i] = (*vectors[v])[i];
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator_);
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, communicator_);
   load.stored_energy = sums[0];
@@ -545,9 +549,10 @@ FacetContactLoad FacetContact::compute_load() const {
   load.area = sums[2];
   load.n_touching = sums[3];
   load.absolute_force = sums[4];
+  load.damping = sums[5];
   for (unsigned int v = 0; v < vectors.size(); ++v)
     for (unsigned int i = 0; i < 3; ++i)
-      (*vectors[v])[i] = sums[5 + 3 * v + i];
+      (*vectors[v])[i] = sums[6 + 3 * v + i];
   load.deepest = largest[0];
   load.deepest_relative = largest[1];
   return load;
@@ -565,7 +570,7 @@ double FacetContact::largest_spring() const {
 double FacetContact::local_dissipation() const {
   double dissipation = 0.;
   for (const auto &state : states_)
-    dissipation += state.own_area * state.traction.dissipation + state.released;
+    dissipation += state.dissipation;
   return dissipation;
 }
 

@@ -290,16 +290,15 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
     if (touches)
       apply_friction(law, node, state, fades ? &fading : nullptr, history_n, *history);
     else {
-      if (history_n.is_active && pair_.penetration_tolerance == 0.) { // its spring lets go
-        const auto [t_q, t_r] = history_n.tangential;
+      if (history_n.is_active) { // its spring lets go
         state.normal = placement_.rotation * projection.normal;
-        state.tangential_energy = 0.5 * (t_q * t_q + t_r * t_r) / node.stiffness.tangential;
-        if (is_explicit_) { // which lets it do work for half of the step yet
-          const Tensor<1, 3> held =
-              placement_.rotation * (dealii::transpose(placement_n_.rotation) *
-                                     (t_q * history_n.frame.q + t_r * history_n.frame.r));
-          state.tangential_energy -= 0.5 * (held * (position - placement_.to_space(history_n.tool_position)));
-        }
+        const auto along = [&](const Tensor<1, 3> &axis) {
+          return (placement_.rotation * (dealii::transpose(placement_n_.rotation) * axis)) *
+                 (position - placement_.to_space(history_n.tool_position));
+        };
+        state.friction = compute_friction_account(
+            {history_n.tangential, {}, {along(history_n.frame.q), along(history_n.frame.r)}, false},
+            friction_rule(node));
       }
       history->is_active = false;
       history->tangential = {};
@@ -377,14 +376,8 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
   state.slip_increment = fraction * std::hypot(t.slip[0], t.slip[1]);
   state.tangential_energy = 0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) /
                             node.stiffness.tangential;
-  if (is_explicit_) { // what the trapezoidal rule takes from the motion, and the spring has not stored
-    const auto &before = history_n.tangential;
-    state.dissipation = 0.5 * (before[0] * before[0] + before[1] * before[1]) / node.stiffness.tangential -
-                        state.tangential_energy;
-    for (unsigned int c = 0; c < 2; ++c)
-      state.dissipation -= 0.5 * (before[c] + t.tangential[c]) * increment.value[c];
-  } else
-    state.dissipation = -fraction * (t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]);
+  state.friction = compute_friction_account({history_n.tangential, t.tangential, increment.value, true},
+                                            friction_rule(node));
   history.slip = history_n.slip + state.slip_increment;
   history.slip_rate =
       increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
@@ -472,7 +465,7 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
         area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
   });
-  add_released(load);
+  add_friction(load);
   return load;
 }
 
@@ -765,6 +758,11 @@ void RigidContact::commit() {
   base_.clear();
   friction_n_ = friction_;
   remember_positions();
+  if (!friction_.empty() && !is_explicit_)
+    for (auto &facet : facets_) {
+      const FacetStates states = states_of(facet);
+      facet.friction_areas = touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
+    }
   if (is_explicit_) // not before what springs held is released
     for (auto &facet : facets_)
       for (unsigned int a = 0; a < 4; ++a)
@@ -860,7 +858,8 @@ Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, co
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
   load.stored_energy += energy_on(facet, corner, area, springs);
-  load.dissipation += counted * state.dissipation;
+  if (is_explicit_)
+    load.dissipation += state.friction.dissipated(counted, counted);
   load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
   return force;
 }
@@ -870,15 +869,39 @@ ContactLoad RigidContact::local_load() const {
   for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
     add_to_load(load, facet, corner, area);
   });
-  add_released(load);
+  add_friction(load);
   return load;
+}
+
+FrictionRule RigidContact::friction_rule(const Node &node) const {
+  // What augmented tractions hold is no stretch of a spring.
+  const bool stores = pair_.penetration_tolerance == 0.;
+  return {node.stiffness.tangential, start_weight_, stores, stores};
+}
+
+void RigidContact::add_friction(ContactLoad &load) const {
+  if (friction_.empty())
+    return;
+  if (is_explicit_) {
+    add_released(load);
+    return;
+  }
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    const std::array<double, 4> areas =
+        touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
+    for (unsigned int a = 0; a < 4; ++a) {
+      load.dissipation += states[a]->friction.dissipated(facet.friction_areas[a], areas[a]);
+      load.damping += areas[a] * states[a]->friction.damping;
+    }
+  }
 }
 
 void RigidContact::add_released(ContactLoad &load) const {
   const auto is_released = [](const NodeState &state) {
-    return state.status == ContactStatus::open && state.tangential_energy != 0.;
+    return state.status == ContactStatus::open && state.friction.dissipation_n != 0.;
   };
-  if (friction_.empty() || std::none_of(states_.begin(), states_.end(), is_released))
+  if (std::none_of(states_.begin(), states_.end(), is_released))
     return;
   for (const auto &facet : facets_) {
     const FacetStates states = states_of(facet);
@@ -894,7 +917,7 @@ void RigidContact::add_released(ContactLoad &load) const {
     for (unsigned int a = 0; a < 4; ++a)
       if (is_released(*states[a]))
         load.dissipation +=
-            energy_on(facet, a, areas[a], springs_of(facet.nodes[a], states[a]->tangential_energy));
+            energy_on(facet, a, areas[a], springs_of(facet.nodes[a], states[a]->friction.dissipation_n));
   }
 }
 

@@ -30,20 +30,17 @@ template SlaveMotionOf<Derivative> compute_slave_motion(const FacetCorners &,
                                                         const Tensor<1, 3, Derivative> &,
                                                         const Tensor<1, 3, Derivative> &, double);
 
-double compute_trapezoidal_dissipation(const SlaveHistory &history_n, const SlaveHistory &history,
-                                       const SlaveMotion &motion, const double tangential_stiffness) {
+FrictionAccount compute_friction_account(const SlaveHistory &history_n, const SlaveHistory &history,
+                                         const SlaveMotion &motion, const FrictionRule &rule) {
   // A frame of the last step turns with the facet; onto which normal makes no difference to what is along it.
   const Tensor<1, 3> q = history.is_active ? history.frame.q : motion.rotation * history_n.frame.q,
                      r = history.is_active ? history.frame.r : motion.rotation * history_n.frame.r;
-  const std::array<double, 2> slid{motion.displacement * q, motion.displacement * r};
-  double dissipation = 0.;
-  for (unsigned int i = 0; i < 2; ++i) {
-    const double before = history_n.is_active ? history_n.tangential[i] : 0.,
-                 now = history.is_active ? history.tangential[i] : 0.;
-    dissipation -=
-        0.5 * (before + now) * slid[i] + 0.5 * (now * now - before * before) / tangential_stiffness;
-  }
-  return dissipation;
+  FrictionStep step{{}, {}, {motion.displacement * q, motion.displacement * r}, history.is_active};
+  if (history_n.is_active)
+    step.traction_n = history_n.tangential;
+  if (history.is_active)
+    step.traction = history.tangential;
+  return compute_friction_account(step, rule);
 }
 
 } // namespace billet

@@ -444,13 +444,16 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
 void QuasiStatic::start_step(const double t) {
   time_ = t;
   duration_ = t - state_.time;
-  for (auto &contact : body_contacts_)
+  for (auto &contact : body_contacts_) {
     contact->start_step(state_.time, t);
+    contact->set_start_weight(contact_before());
+  }
   if (motion_)
     motion_->start_step(state_.time, t, u_n_, offsets_n_);
   for (auto &contact : contacts_) {
     const std::size_t tool = contact.tool();
     contact.start_step(state_.placements[tool], place(tool, t, offsets_[tool]), t - state_.time);
+    contact.set_start_weight(contact_before());
     contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(t));
   }
 }
@@ -493,6 +496,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (report.converged) {
     append(report.diagnostics, check_penalties());
     append(report.diagnostics, check_round_off(report.force));
+    append(report.diagnostics, contact_losses_.watch(largest_energy_, state_.time));
   }
   return report;
 }

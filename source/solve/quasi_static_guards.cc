@@ -13,7 +13,6 @@
 namespace billet {
 
 DiagnosticList QuasiStatic::check_penalties() {
-  constexpr double much_taken = 0.05; // of the largest energy
   DiagnosticList messages;
   const double displacement = u_n_.linfty_norm();
   const double work = state_.energies.total();
@@ -47,16 +46,6 @@ DiagnosticList QuasiStatic::check_penalties() {
     messages.push_back(Diagnostic(diagnostic::round_off_limits_forces, text.str())
                            .time(time_)
                            .measure("part of the forces", part));
-  }
-  if (largest_energy_ > 0. && contact_taken_ > much_taken * largest_energy_) {
-    const double part = contact_taken_ / largest_energy_;
-    std::ostringstream text;
-    text.precision(2);
-    text << "Contact has removed " << 100. * part
-         << " % of the largest energy so far, because the steps do not resolve how it opens and closes";
-    messages.push_back(Diagnostic(diagnostic::contact_dissipates, text.str())
-                           .time(time_)
-                           .measure("part of the energy", part));
   }
   return messages;
 }

@@ -105,13 +105,14 @@ constexpr double may_make = 0.005;
 
 } // namespace
 
-double QuasiStatic::contact_loss(const double t) const {
+QuasiStatic::ContactLoss QuasiStatic::contact_loss(const double t) const {
   const double before = contact_before();
   Vector mean = contact_forces_, increment = trial_;
   mean *= 1. - before;
   mean.add(before, contact_forces_n_);
   increment -= u_n_;
-  double loss = mean * increment + state_.energies.contact;
+  ContactLoss loss;
+  loss.total = mean * increment + state_.energies.contact;
   std::vector<ContactLoad> loads(scene_.tools().size());
   for (const auto &contact : contacts_)
     loads[contact.tool()] += contact.compute_load();
@@ -120,15 +121,17 @@ double QuasiStatic::contact_loss(const double t) const {
       continue;
     const ContactLoad &load = loads[i], &load_n = state_.tool_loads[i];
     const Placement to = place(i, t, offsets_[i]);
-    loss += ((1. - before) * load.force + before * load_n.force) *
-                (to.translation - state_.placements[i].translation) +
-            ((1. - before) * load.moment + before * load_n.moment) * scene_.tools()[i].rotation_axis() *
-                (to.rotation_angle - state_.placements[i].rotation_angle) -
-            load.stored_energy - load.dissipation;
+    loss.total += ((1. - before) * load.force + before * load_n.force) *
+                      (to.translation - state_.placements[i].translation) +
+                  ((1. - before) * load.moment + before * load_n.moment) * scene_.tools()[i].rotation_axis() *
+                      (to.rotation_angle - state_.placements[i].rotation_angle) -
+                  load.stored_energy - load.dissipation;
+    loss.friction += load.damping;
   }
   for (const auto &contact : body_contacts_) {
     const ContactLoad load = contact->compute_load();
-    loss -= load.stored_energy + load.dissipation;
+    loss.total -= load.stored_energy + load.dissipation;
+    loss.friction += load.damping;
   }
   return loss;
 }
@@ -156,7 +159,7 @@ bool QuasiStatic::contact_makes_energy(const double t, NewtonReport &report) {
   // As it is shown: what is there counts half, so that energy from nowhere does not hide itself.
   largest_energy_ = std::max(
       {largest_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
-  report.makes_energy = contact_balance_ + contact_loss(t) < -may_make * largest_energy_;
+  report.makes_energy = contact_balance_ + contact_loss(t).total < -may_make * largest_energy_;
   if (report.makes_energy) {
     report.converged = false;
     report.failure = "contact makes energy in the step";
@@ -164,14 +167,18 @@ bool QuasiStatic::contact_makes_energy(const double t, NewtonReport &report) {
   return report.makes_energy;
 }
 
-void QuasiStatic::book_contact(const double loss) {
+void QuasiStatic::book_contact(const ContactLoss &loss) {
   double taken = 0.;
-  if (motion_->damps_contact())
-    taken = std::max(0., loss);
-  else
-    taken = std::max(0., contact_balance_ + loss - may_make * largest_energy_);
-  contact_balance_ += loss - taken;
-  contact_taken_ += taken;
+  if (motion_->damps_contact()) {
+    taken = std::max(0., loss.total);
+    const double by_friction = std::min(taken, loss.friction);
+    contact_losses_.add(ContactLosses::friction, by_friction);
+    contact_losses_.add(ContactLosses::impacts, taken - by_friction);
+  } else {
+    taken = std::max(0., contact_balance_ + loss.total - may_make * largest_energy_);
+    contact_losses_.add(ContactLosses::crossings, taken);
+  }
+  contact_balance_ += loss.total - taken;
   state_.energies.numerical += taken;
 }
 

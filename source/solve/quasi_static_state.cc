@@ -41,8 +41,9 @@ void QuasiStatic::save(StateWriter &writer) const {
   if (motion_) {
     writer.write("kinetic energy", {state_.energies.kinetic});
     save_nodal(writer, "contact forces", nodes, contact_forces_n_);
-    writer.write("contact balance",
-                 {contact_balance_, contact_taken_, largest_energy_, motion_->damps_contact() ? 1. : 0.});
+    writer.write("contact balance", {contact_balance_, contact_losses_.total(), largest_energy_,
+                                     motion_->damps_contact() ? 1. : 0.});
+    writer.write("contact losses", contact_losses_.save());
     motion_->save(writer, nodes);
   }
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
@@ -144,7 +145,8 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
       load_nodal(reader, "contact forces", nodes, contact_forces_n_);
       const std::vector<double> balance = reader.read("contact balance");
       contact_balance_ = balance.at(0);
-      contact_taken_ = balance.at(1);
+      if (reader.has("contact losses"))
+        contact_losses_.load(reader.read("contact losses"));
       largest_energy_ = balance.at(2);
       if (balance.at(3) != 0.)
         motion_->damp_contact(contact_forces_n_); // the next step begins with that anew

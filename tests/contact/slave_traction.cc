@@ -237,19 +237,20 @@ void check_slip_rate() {
 }
 
 /// A node that comes down on a facet at rest, sticks, slides this way and that under a changing pressure and
-/// lifts: the trapezoidal work of its tangential tractions is what friction dissipates, since nothing is
-/// stored before and after.
-void check_trapezoidal_dissipation() {
+/// lifts: the work of its tangential tractions is what friction dissipates and damps, since nothing is stored
+/// before and after. The area changes with each step.
+void check_account(const double start_weight, const std::string &rule_name) {
+  const FrictionRule rule{stiffness.tangential, start_weight};
   const Coulomb law{0.6};
   Random random;
-  WorstError balance, still, steady;
+  WorstError balance, still, steady, negative;
   for (unsigned int sample = 0; sample < 50; ++sample) {
     Pair pair{random_facet(random, 1., 0.), {}, {}};
     const Tensor<1, 3> n = PlanedFacet(pair.corners).project(pair.corners[0], {}).normal;
     const Tensor<1, 3> start = point_on(random, pair.corners);
     pair.x = start + 0.001 * n;
-    Tensor<1, 3> traction_n;
-    double work = 0., dissipated = 0., largest = 0.;
+    Tensor<1, 3> force_n;
+    double work = 0., dissipated = 0., damped = 0., largest = 0., area_n = 0.;
     constexpr unsigned int n_steps = 30;
     for (unsigned int k = 1; k <= n_steps; ++k) {
       const SlaveHistory history_n = pair.history;
@@ -265,14 +266,19 @@ void check_trapezoidal_dissipation() {
         traction = t.traction - t.pressure * n;
       } else
         pair.history = SlaveHistory();
-      const double now =
-          compute_trapezoidal_dissipation(history_n, pair.history, motion, stiffness.tangential);
-      dissipated += now;
-      work -= 0.5 * (traction_n + traction) * (x - x_n);
+      const FrictionAccount account = compute_friction_account(history_n, pair.history, motion, rule);
+      const double area = depth > 0. ? random(0.5, 2.) : 0.;
+      dissipated += account.dissipated(area_n, area);
+      damped += area * account.damping;
+      // With the area of the start, which changes what the spring holds by itself.
+      negative.add(std::max(0., -account.dissipated(1., 1.)));
+      work -= (start_weight * force_n + (1. - start_weight) * area * traction) * (x - x_n);
       largest = std::max(largest, std::abs(work));
-      traction_n = traction;
+      force_n = area * traction;
+      area_n = area;
     }
-    balance.add(std::abs(dissipated - work) / largest);
+    balance.add(std::abs(dissipated + damped - work) / largest);
+    still.add(start_weight == 0.5 ? std::abs(damped) : std::max(0., -damped));
 
     // Moved as one rigid body it dissipates nothing; sliding steadily, what the return map says.
     Pair turned = make_pair(random);
@@ -286,11 +292,12 @@ void check_trapezoidal_dissipation() {
     const FacetProjection p = PlanedFacet(corners).project(x, {});
     turned.step(Coulomb{100.}, corners, x, 0.);
     const SlaveMotion rigid = compute_slave_motion(corners_n, corners, p.weights, x_n, x, 0.);
-    still.add(
-        std::abs(compute_trapezoidal_dissipation(history_n, turned.history, rigid, stiffness.tangential)));
+    still.add(std::abs(compute_friction_account(history_n, turned.history, rigid, rule).dissipated(1., 1.)));
   }
-  check("trapezoidal dissipation: what tractions do from touching to lifting", balance.value(), 1e-12);
-  check("trapezoidal dissipation: none in a rigid motion", still.value(), 1e-11);
+  check(rule_name + " account: what tractions do from touching to lifting", balance.value(), 1e-12);
+  check(rule_name + " account: nothing in a rigid motion", still.value(), 1e-11);
+  if (start_weight == 0.)
+    check(rule_name + " account: friction makes no energy", negative.value(), 1e-12);
 
   Pair pair{random_facet(random, 1., 0.), {}, {}};
   const Tensor<1, 3> n = PlanedFacet(pair.corners).project(pair.corners[0], {}).normal;
@@ -303,12 +310,11 @@ void check_trapezoidal_dissipation() {
     const SlaveMotion motion = compute_slave_motion(pair.corners, pair.corners, p.weights, x_n, x, 0.);
     const SlaveTraction t = pair.step(law, pair.corners, x, 0.);
     if (k > 10)
-      steady.add(
-          std::abs(compute_trapezoidal_dissipation(history_n, pair.history, motion, stiffness.tangential) /
-                       t.dissipation -
-                   1.));
+      steady.add(std::abs(compute_friction_account(history_n, pair.history, motion, rule).dissipated(1., 1.) /
+                              t.dissipation -
+                          1.));
   }
-  check("trapezoidal dissipation: that of the return map where the traction stays", steady.value(), 1e-10);
+  check(rule_name + " account: that of the return map where the traction stays", steady.value(), 1e-10);
 }
 
 } // namespace
@@ -321,6 +327,7 @@ int main() {
   check_friction();
   check_entry();
   check_slip_rate();
-  check_trapezoidal_dissipation();
+  check_account(0.5, "trapezoidal");
+  check_account(0., "end value's");
   return billet::testing::exit_code();
 }

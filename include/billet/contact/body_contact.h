@@ -39,6 +39,8 @@ public:
   /// The next update() is at time t, after a step from t_n on: bodies that start in each other part as the
   /// scene says.
   void start_step(double t_n, double t);
+  /// As FacetContact's.
+  void set_start_weight(const double weight) { contact_->set_start_weight(weight); }
   /// Of the augmented Lagrangian, as FacetContact's. The error is on this rank, relative to what the pair
   /// asks for; 0 if it asks for none.
   void restart() { contact_->restart(); }

@@ -19,6 +19,7 @@ struct ContactLoad {
   double area = 0.; ///< current area in contact [length²]
   double stored_energy = 0.; ///< in the penalty springs [energy]
   double dissipation = 0.;   ///< by friction in this step [energy]
+  double damping = 0.;       ///< of its springs in this step, by FrictionAccount [energy]
   double deepest = 0.;       ///< largest penetration [length]
 
   ContactLoad &operator+=(const ContactLoad &other);

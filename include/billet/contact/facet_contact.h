@@ -72,8 +72,6 @@ struct FacetContactSettings {
   /// How often a node may change facet or status in one step's iterations; one that did so more often stays
   /// with its facet as long as it touches that. 0: as often as it likes, and nobody counts.
   unsigned int most_changes = 0;
-  /// Works are those of the trapezoidal rule, and so is what friction dissipates.
-  bool has_trapezoidal_works = false;
 };
 
 /// What contact between surfaces does in one step, over all ranks.
@@ -82,6 +80,7 @@ struct FacetContactLoad {
   dealii::Tensor<1, 3> moment;          ///< the same about the origin [force length]
   double stored_energy = 0.;            ///< in the penalty springs [energy]
   double dissipation = 0.;              ///< by friction in this step [energy]
+  double damping = 0.;                  ///< of its springs in this step, by FrictionAccount [energy]
   double area = 0.;                     ///< of slaves in contact, of both passes [length²]
   double n_touching = 0.;               ///< slave nodes; one that several ranks have counts on each
   double deepest = 0.;                  ///< largest penetration [length]
@@ -151,6 +150,9 @@ public:
 
   /// After add_forces().
   FacetContactLoad compute_load() const;
+
+  /// θ of FrictionRule, by which friction is accounted for: ½ unless it is set.
+  void set_start_weight(const double weight) { start_weight_ = weight; }
 
   /// By friction in this step, of this rank [energy].
   double local_dissipation() const;
@@ -242,8 +244,8 @@ private:
     double own_area = 0.; ///< of this rank's facets
     double area = 0.;     ///< of all
     bool rests = false;   ///< touches without pressing
-    /// Of a node that has let go, what its tangential spring held on this rank's facets [energy].
-    double released = 0.;
+    // By friction in this step, this rank's part [energy]:
+    double dissipation = 0., damping = 0.;
 
     bool presses() const { return touched.exists() && (contact.gap < 0. || rests); }
   };
@@ -304,9 +306,11 @@ private:
   /// Whether slave s was before this facet by no more than `on_it` at the start of the step, or behind it.
   bool is_resting(const TouchedFacet &below, std::size_t s, double on_it) const;
   SlaveMotion compute_motion(std::size_t s, double duration) const;
-  /// Of slave s, which does not press, what its friction's spring held at the start of the step, less, by the
-  /// trapezoidal rule, what that has done for half of it [energy].
-  double released_energy(std::size_t s, double duration) const;
+  /// That of slave s, which does not press, against the facet that it touched at the start of the step.
+  SlaveMotion compute_motion_after_contact(std::size_t s, double duration) const;
+  /// Takes note of what friction has dissipated at slave s. Of a node that several ranks have, each takes the
+  /// part of its facets, by their number.
+  void account_for_friction(std::size_t s, const SlaveMotion &motion);
   /// The nodes on whose positions the forces of slave s depend, itself first.
   std::vector<unsigned int> collect_nodes(std::size_t s, bool with_own_facets) const;
   template <class Law>
@@ -360,7 +364,8 @@ private:
   };
   std::vector<Augmentation> last_augmentations_; ///< of slaves, in this step
   double stiffening_ = 1.;                       ///< of all penalties, by stiffen()
-  std::vector<double> initial_depths_;           ///< of slaves; empty if none is allowed
+  double start_weight_ = 0.5;
+  std::vector<double> initial_depths_; ///< of slaves; empty if none is allowed
   double allowed_part_ = 1., allowed_part_n_ = 1.;
   bool has_lifts_ = false; ///< augment() has been called
   /// The same of nodes with ghosts, for overlaps: what depths allow, and what augmentation lifts by.

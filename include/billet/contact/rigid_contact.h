@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_RIGID_CONTACT_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/contact/friction_account.h"
 #include "billet/diagnostics.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
@@ -54,6 +55,8 @@ public:
   void start_step(const Placement &from, const Placement &to, double duration);
   /// The part of the initial penetration that counts as none at the end of the step.
   void set_allowed_part(const double part) { allowed_part_ = part; }
+  /// θ of FrictionRule, by which friction is accounted for: ½ unless it is set.
+  void set_start_weight(const double weight) { start_weight_ = weight; }
   /// Changes where it moves to.
   void set_placement(const Placement &to) { placement_ = to; }
 
@@ -210,8 +213,8 @@ private:
     dealii::Tensor<1, 3> traction;
     dealii::Tensor<2, 3> tangent; ///< −∂traction/∂x
     double slip_increment = 0.;
-    double dissipation = 0.;       ///< per area, in this step
-    double tangential_energy = 0.; ///< per area; of a node that has lifted off, what its spring held before
+    FrictionAccount friction;      ///< of this step
+    double tangential_energy = 0.; ///< per area
     double share = 1.;             ///< s, of the normal penalty
     double fading_stiffness = 0.;  ///< beside that of the penalties [stress/length]
     bool is_behind = false;        ///< has missed the tool's surface, ...
@@ -238,6 +241,7 @@ private:
   struct Facet {
     std::array<unsigned int, 4> nodes;
     std::uint64_t key;
+    std::array<double, 4> friction_areas; ///< of corners that touch, at the start of the step
     /// Of explicit scenes: each corner's area in the last step in which its node was not deep, or in its
     /// first one; not_touching where it does not touch.
     std::array<double, 4> shallow_areas;
@@ -277,6 +281,7 @@ private:
   template <class Law>
   void apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
                       const FrictionHistory &history_n, FrictionHistory &history) const;
+  FrictionRule friction_rule(const Node &node) const;
   static Fading fade(const RigidSurface::Border &border, double width, double penalty, double gap);
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
@@ -309,7 +314,8 @@ private:
   /// −Σ_a ê_a ∂A_a/∂x_b (M36), ê what areas as they are weigh of the stored energy e: with these, normal
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
   void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
-  /// Counts what the tangential springs of nodes held that have lifted off in this step as dissipated.
+  /// Adds what friction has dissipated. In explicit scenes, only that of nodes that have lifted off.
+  void add_friction(ContactLoad &load) const;
   void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
@@ -338,6 +344,7 @@ private:
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
+  double start_weight_ = 0.5;
   double tool_reach_ = 0.;
   double tool_width_ = 0.;             ///< the second of its bounding box's extents [length]
   double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]

@@ -2,6 +2,7 @@
 #ifndef BILLET_CONTACT_SLAVE_TRACTION_H
 #define BILLET_CONTACT_SLAVE_TRACTION_H
 
+#include "billet/contact/friction_account.h"
 #include "billet/contact/traction.h"
 #include "billet/geometry/derivative.h"
 #include "billet/geometry/facet_projection.h"
@@ -20,6 +21,7 @@ struct SlaveHistory {
   std::array<double, 2> tangential{}; ///< traction on the frame's q and r [stress]
   double slip = 0.;                   ///< length of the path slipped [length]
   double slip_rate = 0.;              ///< [length/time]
+  double area = 0.;                   ///< that the traction acts on [length²]
 };
 
 /// How a slave node and the facet that it touches moved over a step.
@@ -47,7 +49,7 @@ template <class Number> struct SlaveTractionOf {
   double pressure = 0.;                  ///< [stress]
   dealii::Tensor<1, 3, Number> traction; ///< on the slave node [stress]
   double slip = 0.;                      ///< in this step [length]
-  double dissipation = 0.;               ///< by friction in this step [energy/length²]
+  double dissipation = 0.;               ///< of the return map in this step, −t·γ [energy/length²]
   double stored_energy = 0.;             ///< in the penalty springs [energy/length²]
 };
 using SlaveTraction = SlaveTractionOf<double>;
@@ -138,16 +140,14 @@ SlaveTractionOf<Number> compute_slave_traction(const Law &law, const ContactStif
     if (tangent != nullptr)
       *tangent = to_space(frame, t);
     const double slip_rate = increment.per_time > 0. ? result.slip * increment.per_time : history_n.slip_rate;
-    history = {true, frame, t.tangential, history_n.slip + result.slip, slip_rate};
+    history = {true, frame, t.tangential, history_n.slip + result.slip, slip_rate, 0.};
   }
   return result;
 }
 
-/// What the trapezoidal rule takes from the motion of a step, and the tangential spring does not store, eq.
-/// (E4) of doc/theory.md, D = −½ (t_n + t)·Δg_t − ½ (|t|² − |t_n|²)/k_t, t_n and t being 0 where the node did
-/// not touch, or does not any longer: friction, as works of central differences see it [energy/length²].
-double compute_trapezoidal_dissipation(const SlaveHistory &history_n, const SlaveHistory &history,
-                                       const SlaveMotion &motion, double tangential_stiffness);
+/// Between the states of a slave node at both ends of a step; a node that is out of contact has no traction.
+FrictionAccount compute_friction_account(const SlaveHistory &history_n, const SlaveHistory &history,
+                                         const SlaveMotion &motion, const FrictionRule &rule);
 
 } // namespace billet
 

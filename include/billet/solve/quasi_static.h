@@ -5,6 +5,7 @@
 #include "billet/contact/body_contact.h"
 #include "billet/contact/rigid_contact.h"
 #include "billet/forces/internal_forces.h"
+#include "billet/solve/contact_losses.h"
 #include "billet/solve/error_control.h"
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
@@ -160,16 +161,21 @@ private:
   double contact_weight() const { return motion_ ? motion_->contact_weight() : 1.; }
   /// Of the contact forces at the start of a step in their mean.
   double contact_before() const { return motion_ && motion_->damps_contact() ? 0. : 0.5; }
-  /// What contact takes in the step at its end, less what springs then store and friction dissipates; < 0: it
-  /// makes energy. Collective.
-  double contact_loss(double t) const;
+  /// What contact takes in a step, less what springs then store and friction dissipates; < 0: it makes
+  /// energy.
+  struct ContactLoss {
+    double total = 0.;
+    double friction = 0.; ///< of that, by the springs of friction
+  };
+  /// Of the step at its end. Collective.
+  ContactLoss contact_loss(double t) const;
   /// Once damped by (I6) steps stay so until contacts have opened.
   void choose_contact_damping();
   void damp_contact();
   /// Whether nodes go through a tool: then the step fails. Collective.
   bool goes_through_tool(NewtonReport &report) const;
   bool contact_makes_energy(double t, NewtonReport &report);
-  void book_contact(double loss);
+  void book_contact(const ContactLoss &loss);
 
   bool assemble_tangent(const TangentSystem &system, double yield_slack = 0.);
   /// The nodes as they stand in the trial state.
@@ -317,9 +323,11 @@ private:
   Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
   Vector contact_forces_, contact_forces_n_; ///< −F_c
   Vector bare_forces_n_; ///< what the integrator takes for F_n: support_forces_n_, or without contact
-  // Of dynamic scenes: what contact has taken and not yet given back; what the integrator took of it; the
-  // largest energy so far.
-  double contact_balance_ = 0., contact_taken_ = 0., largest_energy_ = 0.;
+  // Of dynamic scenes: what contact has taken and not yet given back; what is lost of it; the largest energy
+  // so far.
+  double contact_balance_ = 0.;
+  ContactLosses contact_losses_;
+  double largest_energy_ = 0.;
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
   bool contact_bears_ = false;      ///< at the last residual
   unsigned int n_in_round_off_ = 0; ///< of the last accepted steps, those that are lost in it

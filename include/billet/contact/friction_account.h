@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FRICTION_ACCOUNT_H
+#define BILLET_CONTACT_FRICTION_ACCOUNT_H
+
+#include <array>
+
+namespace billet {
+
+/// How works of a step weigh the tractions at its ends, and what the tangential springs of a node store.
+struct FrictionRule {
+  double stiffness;          ///< k_t [stress/length]
+  double start_weight = 0.5; ///< θ: ½ is the trapezoidal rule, 0 the value at the end of the step
+  /// Whether the springs store energy, at the start and at the end: what augmentation holds is no stretch.
+  bool stores_n = true, stores = true;
+};
+
+/// Tangential state of a node over a step, on two axes that turn with what it touches.
+struct FrictionStep {
+  std::array<double, 2> traction_n; ///< 0 where the node did not touch
+  std::array<double, 2> traction;   ///< 0 where it does not touch any longer
+  std::array<double, 2> motion;     ///< Δg_t of the whole step, relative to what it touches, or has left
+  bool touches;                     ///< at the end
+};
+
+/// What a node's friction takes from the motion in a step, eq. (E4) of doc/theory.md, with A the area of the
+/// node and Ψ = |t|²/(2 k_t):
+///   W = −(θ A_n t_n + (1 − θ) A t)·Δg_t = D + L + A Ψ − A_n Ψ_n.
+/// For θ = ½, L = 0: all that is not stored is dissipated. For θ = 0, D = −A t·γ is what the return map
+/// dissipates over the slip γ = Δg_t + (t − t_n)/k_t, and L = A |t − t_n|²/(2 k_t) is what the end value
+/// takes besides; a node that leaves dissipates what its spring held. If springs store nothing, L = 0.
+struct FrictionAccount {
+  // Parts of D and L per area at the start and at the end of the step [energy/length²].
+  double dissipation_n = 0., dissipation = 0.;
+  double damping = 0.;
+
+  double dissipated(const double area_n, const double area) const {
+    return area_n * dissipation_n + area * dissipation;
+  }
+};
+
+FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule);
+
+} // namespace billet
+
+#endif

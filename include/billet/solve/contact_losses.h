@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_CONTACT_LOSSES_H
+#define BILLET_SOLVE_CONTACT_LOSSES_H
+
+#include "billet/diagnostics.h"
+
+#include <array>
+#include <vector>
+
+namespace billet {
+
+/// Energy that contact has removed from a scene of implicit dynamics beside friction, by cause.
+class ContactLosses {
+public:
+  enum Cause {
+    impacts,   ///< steps damped by (I6): springs that close, open or change their length within a step
+    friction,  ///< the tangential springs in such steps, (E4) with θ = 0
+    crossings, ///< undamped steps: nodes that enter or leave within a step, areas and facets that change
+  };
+
+  void add(const Cause cause, const double energy) { energies_[cause] += energy; }
+  double of(const Cause cause) const { return energies_[cause]; }
+  double total() const;
+
+  /// A message, if the total is much of the largest energy, and again where it is twice as much.
+  DiagnosticList watch(double largest_energy, double time);
+
+  std::vector<double> save() const;
+  void load(const std::vector<double> &numbers);
+
+private:
+  std::array<double, 3> energies_{};
+  double reported_ = 0.; ///< part of the largest energy
+};
+
+} // namespace billet
+
+#endif

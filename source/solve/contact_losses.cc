@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/contact_losses.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+constexpr double much = 0.05; // of the largest energy
+
+/// What a cause is called in messages, and how a user avoids it.
+struct Description {
+  const char *name, *advice;
+};
+constexpr std::array<Description, 3> descriptions{
+    {{"impacts within a step, which are damped",
+      "Where bodies should bounce, reduce 'Error tolerance', 'Largest step' or 'Normal penalty'"},
+     {"springs of friction in damped steps", "Reduce 'Largest step' or 'Tangential penalty'"},
+     {"nodes that enter or leave contact within a step, and contact areas that change",
+      "Reduce 'Largest step' or 'Normal penalty'"}}};
+
+} // namespace
+
+double ContactLosses::total() const { return std::accumulate(energies_.begin(), energies_.end(), 0.); }
+
+DiagnosticList ContactLosses::watch(const double largest_energy, const double time) {
+  if (!(largest_energy > 0.))
+    return {};
+  const double part = total() / largest_energy;
+  if (part <= std::max(much, 2. * reported_))
+    return {};
+  reported_ = part;
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [this](const std::size_t a, const std::size_t b) { return energies_[a] > energies_[b]; });
+  std::ostringstream what;
+  what.precision(2);
+  what << "Contact has removed " << 100. * part << " % of the largest energy so far";
+  constexpr double small = 0.05; // of the total: not worth a word
+  for (const std::size_t cause : order)
+    if (cause == order[0] || energies_[cause] > small * total())
+      what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / largest_energy << " % by "
+           << descriptions[cause].name;
+  return {Diagnostic(diagnostic::contact_dissipates, what.str())
+              .time(time)
+              .measure("part of the largest energy", part)
+              .value("by impacts", energies_[impacts] / largest_energy)
+              .value("by friction springs", energies_[friction] / largest_energy)
+              .value("by crossings", energies_[crossings] / largest_energy)
+              .advice(descriptions[order[0]].advice)};
+}
+
+std::vector<double> ContactLosses::save() const {
+  return {energies_[impacts], energies_[friction], energies_[crossings], reported_};
+}
+
+void ContactLosses::load(const std::vector<double> &numbers) {
+  std::copy_n(numbers.begin(), energies_.size(), energies_.begin());
+  reported_ = numbers.at(energies_.size());
+}
+
+} // namespace billet

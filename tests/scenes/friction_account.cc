@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What friction dissipates in implicit dynamics is the energy that bodies lose by it, also where they hop: a
+// block that slides or spins to rest, one on a slope, one on an elastic slab; by each method.
+#include "implicit_run.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdlib>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+constexpr double mass = 5e-4, weight = 50. * mass, friction = 0.3;
+
+struct Result {
+  double dissipated, lost, kinetic, numerical, drift; ///< energies at the end
+  double way;                                         ///< of the block along x
+};
+
+Result run(const parameters::Scene &scene, const std::string &name) {
+  SceneRun run(scene);
+  const SolutionState &state = run.problem.state();
+  const double initial = state.energies.kinetic;
+  run.finish();
+  const EnergyLedger &energies = state.energies;
+  const Result result{
+      energies.friction, initial + energies.external - energies.kinetic - energies.elastic - energies.contact,
+      energies.kinetic,  energies.numerical,
+      energies.drift(),  testing::mean_of_body(run, state.displacements)[0]};
+  if (std::getenv("SHOW") != nullptr)
+    std::cout << name << " friction " << result.dissipated << " lost " << result.lost << " kinetic "
+              << result.kinetic << " numerical " << result.numerical << " drift " << result.drift << " way "
+              << result.way << " iterations " << run.n_iterations << std::endl;
+  check(name + ": friction takes what is lost", std::abs(result.dissipated / result.lost - 1.), 0.02);
+  return result;
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const parameters::Scene block = testing::read_test_scene("friction_account.prm");
+  using Set = std::function<void(parameters::Scene &)>;
+  const std::vector<std::pair<std::string, Set>> methods{
+      {"Newmark", testing::set_newmark},
+      {"HHT", [](parameters::Scene &scene) { testing::set_hht(scene, -0.05); }},
+      {"generalised-alpha", [](parameters::Scene &scene) { testing::set_generalised(scene, 0.8); }}};
+  for (const auto &[name, set] : methods) {
+    parameters::Scene scene = block;
+    set(scene);
+    const Result slides = run(scene, name + ", sliding");
+    check("  all of the energy", std::abs(slides.dissipated / (0.5 * mass) - 1.), 0.02);
+    check("  until it rests", slides.kinetic / (0.5 * mass), 1e-3);
+    check("  after v²/(2 μ g)", std::abs(slides.way / (0.5 * mass / (friction * weight)) - 1.), 0.03);
+
+    // Down a slope: the force of friction over the way.
+    scene.bodies[0].initial_velocity.value = {"0", "0", "0"};
+    scene.bodies[0].loads[0].acceleration.value = {"35", "0", "-50"};
+    scene.time_stepping.end_time = 0.05;
+    const Result slope = run(scene, name + ", on a slope");
+    check("  μ N over its way", std::abs(slope.dissipated / (friction * weight * slope.way) - 1.), 0.02);
+  }
+
+  parameters::Scene top = block;
+  testing::set_generalised(top, 0.8);
+  top.bodies[0].initial_velocity.value = {"-19*y", "19*x", "0"};
+  top.time_stepping.end_time = 0.3;
+  run(top, "spinning");
+
+  parameters::Scene bodies = testing::read_test_scene("friction_account_of_bodies.prm");
+  const Result on_slab = run(bodies, "on an elastic slab");
+  check("  all of the energy", std::abs(on_slab.dissipated / (0.5 * mass) - 1.), 0.02);
+  return testing::exit_code();
+}
