@@ -499,6 +499,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   time_ = t;
   of_penetration_.reset();
   tool_failure_.clear();
+  path_failure_.clear();
   offsets_ = offsets_n_;
   std::vector<std::size_t> pressing;
   for (std::size_t i = 0; i < scene_.tools().size(); ++i)
@@ -507,7 +508,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   choose_unknown_tools(pressing);
   const bool extrapolates =
       scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;
-  const bool needs_no_solution =
+  bool needs_no_solution =
       motion_
           ? extrapolates && extrapolate_motion(t)
           : follow_probe(t) || (previous_step > 0. &&
@@ -515,8 +516,18 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   NewtonIteration linear_step{};
   if (motion_)
     motion_->start_step(state_.time, t, u_n_, offsets_n_);
-  const bool has_guess = needs_no_solution || follow_tangent(t, linear_step);
+  bool has_guess = needs_no_solution || follow_tangent(t, linear_step);
   start_step(t);
+  if (has_guess && needs_no_solution && !motion_ &&
+      goes_through(false, report)) { // the tangent knows contact
+    report = NewtonReport();
+    needs_no_solution = false;
+    has_guess = follow_tangent(t, linear_step);
+    start_step(t);
+  }
+  if (has_guess && goes_through(false, report))
+    return report;
+  path_failure_.clear();
   if (!has_guess) {
     report.failure = !tool_failure_.empty()        ? tool_failure_
                      : !linear_->failure().empty() ? linear_->failure()
@@ -566,7 +577,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
       }
     }
     if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) || goes_through_tool(report) ||
-        contact_makes_energy(t, report))
+        goes_through(true, report) || contact_makes_energy(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();
@@ -590,6 +601,8 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
   NewtonReport report = solve_newton(*this, settings, x_n, x);
   if (!tool_failure_.empty() && !report.converged)
     report.failure = tool_failure_;
+  else if (!path_failure_.empty() && !report.converged && report.failure.empty())
+    report.failure = "the correction is useless: " + path_failure_;
   set_trial(x);
   displacements = trial_;
   offsets = offsets_;

@@ -132,6 +132,11 @@ public:
   /// thinner than two facets, the only ones that are as thin as that. After update() and before commit();
   /// false in the first step after load().
   bool lets_nodes_through() const;
+  /// The part of a motion of the body's nodes (displacements, ghosted) and of the tool that takes no node of
+  /// this rank through the tool, or so deep into it that it would soon come out on another side (M42).
+  /// Motions that are small against facets are let pass, unless `is_thorough`. In contact/tool_paths.cc.
+  double find_free_part(const Vector &from, const Placement &tool_from, const Vector &to,
+                        const Placement &tool_to, bool is_thorough) const;
   /// What to say then.
   std::string describe_thin_tool() const;
   /// Whether that is looked for, on all ranks alike.

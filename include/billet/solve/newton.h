@@ -23,6 +23,10 @@ public:
   /// dx = K⁻¹ residual, so that |residual − K dx| <= relative_tolerance |residual| where the solver is
   /// iterative.
   virtual bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) = 0;
+  /// The largest part of a correction that may be taken from x; 0 where it must not be taken at all.
+  virtual double max_step_length(const Epetra_Vector & /*x*/, const Epetra_Vector & /*direction*/) {
+    return 1.;
+  }
   /// What a residual is small against, at the last x [force].
   virtual double force_scale() const = 0;
   /// The residual of an exact solution, from round-off of displacements alone [force].

@@ -128,6 +128,7 @@ public:
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
   bool compute_tangent(const Epetra_Vector &x) override;
   bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
+  double max_step_length(const Epetra_Vector &x, const Epetra_Vector &direction) override;
   double force_scale() const override { return force_scale_; }
   double round_off_force() const override {
     return round_off_force_ + (motion_ ? motion_->round_off_force() : 0.);
@@ -169,6 +170,16 @@ private:
   void damp_contact();
   /// Whether nodes go through a tool: then the step fails. Collective.
   bool goes_through_tool(NewtonReport &report) const;
+  // Nodes that would go through tools or bodies, in solve/quasi_static_paths.cc.
+  /// At the end of the step, with the offsets as they are.
+  std::vector<Placement> placements_now() const;
+  /// The part of the motion from these displacements (ghosted) and placements to `to`, and the placements of
+  /// now, in which no node goes through anything. Says who would, in path_failure_. Collective.
+  double find_free_part(const Vector &from, const std::vector<Placement> &tools_from, const Vector &to,
+                        bool is_thorough);
+  /// Whether nodes go through anything on their ways from the start of the step to the trial state: then the
+  /// step fails. Collective.
+  bool goes_through(bool is_thorough, NewtonReport &report);
   bool contact_makes_energy(double t, NewtonReport &report);
   void book_contact(double loss);
 
@@ -353,6 +364,7 @@ private:
   double told_round_off_ = 0.;  ///< part of the forces
   bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
+  std::string path_failure_; ///< which nodes would go through what
   std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
   std::vector<std::size_t> slipping_tools_;         ///< at the end of the last accepted step
   std::vector<std::size_t> unknown_tools_;          ///< those whose offset is unknown in this step
