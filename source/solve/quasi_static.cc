@@ -461,6 +461,11 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   std::string softened;
   choose_contact_damping();
   NewtonReport report = attempt_step(t, previous_step);
+  constexpr unsigned int max_raises = 6; // each by 2 at least, by less than 100 in all
+  for (unsigned int n = 0; report.penetrates && n < max_raises; ++n) {
+    raise_penalties(raises_, report);
+    report.append_anew(attempt_step(t, previous_step));
+  }
   if (report.makes_energy) { // once more, so that it does not
     damp_contact();
     report.append_anew(attempt_step(t, previous_step));
@@ -506,6 +511,8 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     if (scene_.tools()[i].is_driven() && !fading_forces_[i])
       pressing.push_back(i);
   choose_unknown_tools(pressing);
+  if (turns_too_far(t, report))
+    return report;
   const bool extrapolates =
       scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;
   bool needs_no_solution =
@@ -577,7 +584,8 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
       }
     }
     if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) || goes_through_tool(report) ||
-        goes_through(true, report) || contact_makes_energy(t, report))
+        goes_through(true, report) || turns_too_far(t, report) || penetrates(report) ||
+        contact_makes_energy(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();

@@ -59,6 +59,7 @@ public:
   double tangential_stiffening_left() const { return most_tangential_stiffening_ / contact_->stiffening(); }
   /// As RigidContact::penetration().
   Penetration penetration() const { return contact_->penetration(); }
+  double excessive_penetration() const { return contact_->excessive_penetration(); }
   const std::string &name() const { return pair_.name; }
   /// The part of the motion from these displacements to those (ghosted) in which no node of either body goes
   /// through the other's facets, see FacetPaths. Collective.

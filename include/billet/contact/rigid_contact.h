@@ -128,6 +128,10 @@ public:
   bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
   /// How deep this rank's nodes are.
   Penetration penetration() const;
+  /// The same, as part of what is little enough: a tenth of a facet, and 0.4 of the element behind the node.
+  double excessive_penetration() const;
+  /// Whether a node of this rank touches the tool, at the last update().
+  bool has_touching_nodes() const;
   /// Whether a node of this rank has gone through the tool, from side to side, in the step, (M38): of tools
   /// thinner than two facets, the only ones that are as thin as that. After update() and before commit();
   /// false in the first step after load().
@@ -194,6 +198,7 @@ private:
     dealii::Point<3> reference;
     ContactStiffness stiffness;
     double size;            ///< of the facets around it
+    double reach;           ///< how deep it may be, as part of these facets and of the elements below them
     double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts

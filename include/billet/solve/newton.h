@@ -48,6 +48,7 @@ struct NewtonReport {
   double force = 0.;         ///< |R| / force scale at the end
   std::string failure;       ///< why it did not converge
   bool makes_energy = false; ///< of the step: it converged, but contact makes energy in it
+  bool penetrates = false;   ///< of the step: it converged, but penalties let nodes in too deep
   /// Contact's round-off leaves more of the forces than it may: residuals come no nearer to their tolerance.
   bool is_lost_in_round_off = false;
   bool goes_round = false;   ///< it did not converge: go_round()
@@ -64,6 +65,7 @@ struct NewtonReport {
     converged = next.converged;
     failure = next.failure;
     makes_energy = next.makes_energy;
+    penetrates = next.penetrates;
     is_lost_in_round_off = next.is_lost_in_round_off;
     goes_round = next.goes_round;
     is_explained = next.is_explained;

@@ -180,6 +180,19 @@ private:
   /// Whether nodes go through anything on their ways from the start of the step to the trial state: then the
   /// step fails. Collective.
   bool goes_through(bool is_thorough, NewtonReport &report);
+  /// Whether a tool that touches with friction turns by so much from the start of the step to its end that
+  /// slip has no direction: then the step fails. Collective.
+  bool turns_too_far(double t, NewtonReport &report) const;
+  /// Of each contact, tools first, by how much its penalty should be raised, at the end of the step: 1 is not
+  /// at all. Statics only. Collective.
+  std::vector<double> raises_of_penalties() const;
+  /// Whether one of them is above 1: then the step is to be repeated.
+  bool penetrates(NewtonReport &report);
+  /// Does that, at the start of the step: the springs that are compressed there are given the energy that
+  /// stiffer ones hold, and start the step with their forces.
+  void raise_penalties(const std::vector<double> &factors, NewtonReport &report);
+  /// Computes all forces at the start of the step.
+  void evaluate_start();
   bool contact_makes_energy(double t, NewtonReport &report);
   void book_contact(double loss);
 
@@ -364,8 +377,9 @@ private:
   double told_round_off_ = 0.;  ///< part of the forces
   bool has_lost_pace_ = false;  ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
-  std::string path_failure_; ///< which nodes would go through what
-  std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
+  std::string path_failure_;   ///< which nodes would go through what
+  std::vector<double> raises_; ///< what a step that penetrates asks for
+  std::string body_failure_;   ///< why there is no next step: tools were removed that a body needs
   std::vector<std::size_t> slipping_tools_;         ///< at the end of the last accepted step
   std::vector<std::size_t> unknown_tools_;          ///< those whose offset is unknown in this step
   std::unique_ptr<Epetra_Map> map_;                 ///< of displacements and unknown offsets
