@@ -83,7 +83,7 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         node.dofs = boundary.dofs[a];
         node.reference = boundary.corners[a];
         node.size = sizes.at(node.dofs[0]);
-        node.reach = 0.1 * node.size;
+        node.reach = 0.2 * node.size;
         node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, node.size),
                           pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
         const double room = enough_penalty * young_modulus / (node.size * node.stiffness.normal);

@@ -128,7 +128,7 @@ public:
   bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
   /// How deep this rank's nodes are.
   Penetration penetration() const;
-  /// The same, as part of what is little enough: a tenth of a facet, and 0.4 of the element behind the node.
+  /// The same, as part of what is little enough: a fifth of a facet, and 0.4 of the element behind the node.
   double excessive_penetration() const;
   /// Whether a node of this rank touches the tool, at the last update().
   bool has_touching_nodes() const;
