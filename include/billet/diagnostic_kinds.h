@@ -109,6 +109,12 @@ inline const DiagnosticKind penalty_reduced(
     "A penalty was reduced to 10 E/h, since Newton's method failed; augmentation enforces the constraint.",
     "");
 
+inline const DiagnosticKind
+    penalty_raised("penalty-raised", Severity::note,
+                   "A penalty was raised, since nodes penetrated by more than a tenth of a facet, or 0.4 of "
+                   "an element's thickness; the step was repeated.",
+                   "Set 'Normal penalty' to that value from the start");
+
 inline const DiagnosticKind contact_dissipates(
     "contact-dissipates", Severity::warning,
     "Contact has removed much energy beside friction, because the time steps do not resolve how it opens "

@@ -77,6 +77,8 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   const auto stiffness = compute_stiffness(scene);
   settings.touching_gap *= std::min(1., most_stiffening_);
   contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, stiffness, sizes_);
+  if (!scene.parameters().is_explicit())
+    paths_ = std::make_unique<FacetPaths>(communicator, settings.partners, keys_, facets_, depths_);
 }
 
 void BodyContact::collect(const NodeKeys &keys) {
@@ -96,6 +98,8 @@ void BodyContact::collect(const NodeKeys &keys) {
       // from beside the facet, rather than through it, is not to be thrown out from the depth.
       facet.reach = std::min(0.1 * std::sqrt(areas_.back()), 0.4 * boundary.thickness);
       least_reach_ = std::min(least_reach_, facet.reach);
+      constexpr double part_of_facet = 0.4; // all methods find nodes there, and no element is as thin
+      depths_.push_back(part_of_facet * std::min(std::sqrt(areas_.back()), boundary.thickness));
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
             index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes_.size()));
@@ -309,13 +313,20 @@ void BodyContact::load(const StateReader &reader) {
 
 void BodyContact::begin(const NodalVectors &displacements) { positions_n_ = positions_at(displacements); }
 
-void BodyContact::begin(const Vector &displacements) {
-  positions_n_.assign(local_nodes_.size(), Tensor<1, 3>());
+FacetContact::Positions BodyContact::positions_at(const Vector &displacements) const {
+  FacetContact::Positions positions(local_nodes_.size());
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
-    positions_n_[i] = get_vector(nodes_.positions().data(), local_nodes_[i]);
+    positions[i] = get_vector(nodes_.positions().data(), local_nodes_[i]);
     for (unsigned int c = 0; c < 3; ++c)
-      positions_n_[i][c] += displacements(nodes_.dofs(local_nodes_[i])[c]);
+      positions[i][c] += displacements(nodes_.dofs(local_nodes_[i])[c]);
   }
+  return positions;
+}
+
+void BodyContact::begin(const Vector &displacements) { positions_n_ = positions_at(displacements); }
+
+double BodyContact::find_free_part(const Vector &from, const Vector &to, const bool is_thorough) {
+  return paths_->find_free_part(positions_at(from), positions_at(to), is_thorough);
 }
 
 std::vector<double> BodyContact::first_dofs() const {

@@ -683,6 +683,15 @@ Penetration FacetContact::penetration() const {
   return deepest;
 }
 
+double FacetContact::excessive_penetration() const {
+  double largest = 0.;
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    if (states_[s].presses() && states_[s].traction.pressure > 0.)
+      largest = std::max(largest, std::abs(states_[s].contact.gap + augmentation(s)) /
+                                      search_.facets()[states_[s].touched.facet].reach);
+  return largest;
+}
+
 double FacetContact::augmentation_error() const {
   double worst = penetration().of_facet;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {

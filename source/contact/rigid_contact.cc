@@ -89,6 +89,7 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         node.dofs = boundary.dofs[a];
         node.reference = boundary.corners[a];
         node.size = sizes.at(node.dofs[0]);
+        node.reach = 0.2 * node.size;
         node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, node.size),
                           pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
         const double room = enough_penalty * young_modulus / (node.size * node.stiffness.normal);
@@ -101,6 +102,8 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         nodes_.push_back(node);
       }
       facet.nodes[a] = found.first->second;
+      Node &corner = nodes_[facet.nodes[a]];
+      corner.reach = std::min(corner.reach, 0.4 * boundary.thickness);
     }
     facets_.push_back(facet);
   }
@@ -808,6 +811,19 @@ Penetration RigidContact::penetration() const {
     if (states_[i].pressure > 0. && states_[i].share == 1.)
       deepest.add(std::abs(states_[i].gap + nodes_[i].lift), nodes_[i].size);
   return deepest;
+}
+
+double RigidContact::excessive_penetration() const {
+  double largest = 0.;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (states_[i].pressure > 0. && states_[i].share == 1.)
+      largest = std::max(largest, std::abs(states_[i].gap + nodes_[i].lift) / nodes_[i].reach);
+  return largest;
+}
+
+bool RigidContact::has_touching_nodes() const {
+  return std::any_of(states_.begin(), states_.end(),
+                     [](const NodeState &state) { return state.status != ContactStatus::open; });
 }
 
 double RigidContact::augmentation_error() const {

@@ -109,6 +109,9 @@ public:
   RCP<NOX::Abstract::Group> clone(NOX::CopyType type) const override { return rcp(new Group(*this, type)); }
 
   double scale() const { return scale_; }
+  double max_step_length(const NOX::Abstract::Vector &direction) const {
+    return problem_->max_step_length(x_->getEpetraVector(), epetra(direction));
+  }
 
 private:
   void copy_flags(const Group &other) {
@@ -137,7 +140,9 @@ public:
   bool compute(NOX::Abstract::Group &group, double &step, const NOX::Abstract::Vector &direction,
                const NOX::Solver::Generic &solver) override {
     const NOX::Abstract::Group &old = solver.getPreviousSolutionGroup();
-    step = 1.;
+    step = dynamic_cast<const Group &>(old).max_step_length(direction);
+    if (!(step > 0.))
+      return false;
     if (!evaluate(group, step, direction, old)) {
       for (unsigned int cut = 0; cut < most_cuts_; ++cut) {
         step *= 0.5;

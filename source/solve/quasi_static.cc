@@ -464,6 +464,11 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   DiagnosticList messages;
   choose_contact_damping();
   NewtonReport report = attempt_step(t, previous_step);
+  constexpr unsigned int max_raises = 6; // each by 2 at least, by less than 100 in all
+  for (unsigned int n = 0; report.penetrates && n < max_raises; ++n) {
+    raise_penalties(raises_, report);
+    report.append_anew(attempt_step(t, previous_step));
+  }
   if (report.makes_energy) { // once more, so that it does not
     damp_contact();
     report.append_anew(attempt_step(t, previous_step));
@@ -506,15 +511,18 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   time_ = t;
   of_penetration_.reset();
   tool_failure_.clear();
+  path_failure_.clear();
   offsets_ = offsets_n_;
   std::vector<std::size_t> pressing;
   for (std::size_t i = 0; i < scene_.tools().size(); ++i)
     if (scene_.tools()[i].is_driven() && !fading_forces_[i])
       pressing.push_back(i);
   choose_unknown_tools(pressing);
+  if (turns_too_far(t, report))
+    return report;
   const bool extrapolates =
       scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;
-  const bool needs_no_solution =
+  bool needs_no_solution =
       motion_
           ? extrapolates && extrapolate_motion(t)
           : follow_probe(t) || (previous_step > 0. &&
@@ -522,8 +530,18 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   NewtonIteration linear_step{};
   if (motion_)
     motion_->start_step(state_.time, t, u_n_, offsets_n_);
-  const bool has_guess = needs_no_solution || follow_tangent(t, linear_step);
+  bool has_guess = needs_no_solution || follow_tangent(t, linear_step);
   start_step(t);
+  if (has_guess && needs_no_solution && !motion_ &&
+      goes_through(false, report)) { // the tangent knows contact
+    report = NewtonReport();
+    needs_no_solution = false;
+    has_guess = follow_tangent(t, linear_step);
+    start_step(t);
+  }
+  if (has_guess && goes_through(false, report))
+    return report;
+  path_failure_.clear();
   if (!has_guess) {
     report.failure = !tool_failure_.empty()        ? tool_failure_
                      : !linear_->failure().empty() ? linear_->failure()
@@ -573,6 +591,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
       }
     }
     if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) || goes_through_tool(report) ||
+        goes_through(true, report) || turns_too_far(t, report) || penetrates(report) ||
         contact_makes_energy(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
@@ -597,6 +616,8 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
   NewtonReport report = solve_newton(*this, settings, x_n, x);
   if (!tool_failure_.empty() && !report.converged)
     report.failure = tool_failure_;
+  else if (!path_failure_.empty() && !report.converged && report.failure.empty())
+    report.failure = "the correction is useless: " + path_failure_;
   set_trial(x);
   displacements = trial_;
   offsets = offsets_;

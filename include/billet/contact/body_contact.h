@@ -4,6 +4,7 @@
 
 #include "billet/contact/contact_load.h"
 #include "billet/contact/facet_contact.h"
+#include "billet/contact/facet_paths.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
@@ -60,7 +61,11 @@ public:
   double tangential_stiffening_left() const { return most_tangential_stiffening_ / contact_->stiffening(); }
   /// As RigidContact::penetration().
   Penetration penetration() const { return contact_->penetration(); }
+  double excessive_penetration() const { return contact_->excessive_penetration(); }
   const std::string &name() const { return pair_.name; }
+  /// The part of the motion from these displacements to those (ghosted) in which no node of either body goes
+  /// through the other's facets, see FacetPaths. Collective.
+  double find_free_part(const Vector &from, const Vector &to, bool is_thorough);
 
   /// A sentence about nodes that keep changing facet or status; empty if there are none. Collective.
   std::string describe_restless() const;
@@ -117,6 +122,7 @@ public:
 private:
   void collect(const NodeKeys &keys);
   FacetContact::Positions positions_at(const NodalVectors &displacements) const;
+  FacetContact::Positions positions_at(const Vector &displacements) const;
   std::vector<ContactStiffness> compute_stiffness(const Scene &scene);
   template <class DisplacementOf> void update(const DisplacementOf &displacement_of, double duration);
   /// Of surface nodes and ghosts. Collective.
@@ -132,12 +138,14 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it
   std::vector<SurfaceFacet> facets_;
-  std::vector<double> areas_;                                    ///< of the undeformed facets
+  std::vector<double> areas_;  ///< of the undeformed facets
+  std::vector<double> depths_; ///< that nodes must not exceed on their ways, by facet
   double least_reach_ = std::numeric_limits<double>::infinity(); ///< of this rank's facets
   /// Until penalties, the normal and the tangential ones, are 10 E/h.
   double most_stiffening_ = std::numeric_limits<double>::infinity(),
          most_tangential_stiffening_ = std::numeric_limits<double>::infinity();
   std::unique_ptr<FacetContact> contact_;
+  std::unique_ptr<FacetPaths> paths_; ///< of implicit scenes
   FacetContact::Positions positions_n_, positions_;
   FacetContact::Positions forces_; ///< of one step, as row_sums_
   std::vector<double> row_sums_;

@@ -198,6 +198,8 @@ public:
   double stiffening() const { return stiffening_; } ///< so far
   /// How deep this rank's nodes are.
   Penetration penetration() const;
+  /// The same, as part of the reach of the facets that they touch.
+  double excessive_penetration() const;
 
   /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
   template <class Visit> void visit_touching(const Visit &visit) const {

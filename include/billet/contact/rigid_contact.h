@@ -132,10 +132,19 @@ public:
   bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
   /// How deep this rank's nodes are.
   Penetration penetration() const;
+  /// The same, as part of what is little enough: a fifth of a facet, and 0.4 of the element behind the node.
+  double excessive_penetration() const;
+  /// Whether a node of this rank touches the tool, at the last update().
+  bool has_touching_nodes() const;
   /// Whether a node of this rank has gone through the tool, from side to side, in the step, (M38): of tools
   /// thinner than two facets, the only ones that are as thin as that. After update() and before commit();
   /// false in the first step after load().
   bool lets_nodes_through() const;
+  /// The part of a motion of the body's nodes (displacements, ghosted) and of the tool that takes no node of
+  /// this rank through the tool, or so deep into it that it would soon come out on another side (M42).
+  /// Motions that are small against facets are let pass, unless `is_thorough`. In contact/tool_paths.cc.
+  double find_free_part(const Vector &from, const Placement &tool_from, const Vector &to,
+                        const Placement &tool_to, bool is_thorough) const;
   /// What to say then.
   std::string describe_thin_tool() const;
   /// Whether that is looked for, on all ranks alike.
@@ -193,6 +202,7 @@ private:
     dealii::Point<3> reference;
     ContactStiffness stiffness;
     double size;            ///< of the facets around it
+    double reach;           ///< how deep it may be, as part of these facets and of the elements below them
     double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts

@@ -23,6 +23,10 @@ public:
   /// dx = K⁻¹ residual, so that |residual − K dx| <= relative_tolerance |residual| where the solver is
   /// iterative.
   virtual bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) = 0;
+  /// The largest part of a correction that may be taken from x; 0 where it must not be taken at all.
+  virtual double max_step_length(const Epetra_Vector & /*x*/, const Epetra_Vector & /*direction*/) {
+    return 1.;
+  }
   /// What a residual is small against, at the last x [force].
   virtual double force_scale() const = 0;
   /// The residual of an exact solution, from round-off of displacements alone [force].
@@ -44,6 +48,7 @@ struct NewtonReport {
   double force = 0.;         ///< |R| / force scale at the end
   std::string failure;       ///< why it did not converge
   bool makes_energy = false; ///< of the step: it converged, but contact makes energy in it
+  bool penetrates = false;   ///< of the step: it converged, but penalties let nodes in too deep
   /// Contact's round-off leaves more of the forces than it may: residuals come no nearer to their tolerance.
   bool is_lost_in_round_off = false;
   bool goes_round = false;   ///< it did not converge: go_round()
@@ -59,6 +64,7 @@ struct NewtonReport {
     converged = next.converged;
     failure = next.failure;
     makes_energy = next.makes_energy;
+    penetrates = next.penetrates;
     is_lost_in_round_off = next.is_lost_in_round_off;
     goes_round = next.goes_round;
     is_explained = next.is_explained;

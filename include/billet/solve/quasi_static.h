@@ -128,6 +128,7 @@ public:
   bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
   bool compute_tangent(const Epetra_Vector &x) override;
   bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
+  double max_step_length(const Epetra_Vector &x, const Epetra_Vector &direction) override;
   double force_scale() const override { return force_scale_; }
   double round_off_force() const override {
     return round_off_force_ + (motion_ ? motion_->round_off_force() : 0.);
@@ -174,6 +175,29 @@ private:
   void damp_contact();
   /// Whether nodes go through a tool: then the step fails. Collective.
   bool goes_through_tool(NewtonReport &report) const;
+  // Nodes that would go through tools or bodies, in solve/quasi_static_paths.cc.
+  /// At the end of the step, with the offsets as they are.
+  std::vector<Placement> placements_now() const;
+  /// The part of the motion from these displacements (ghosted) and placements to `to`, and the placements of
+  /// now, in which no node goes through anything. Says who would, in path_failure_. Collective.
+  double find_free_part(const Vector &from, const std::vector<Placement> &tools_from, const Vector &to,
+                        bool is_thorough);
+  /// Whether nodes go through anything on their ways from the start of the step to the trial state: then the
+  /// step fails. Collective.
+  bool goes_through(bool is_thorough, NewtonReport &report);
+  /// Whether a tool that touches with friction turns by so much from the start of the step to its end that
+  /// slip has no direction: then the step fails. Collective.
+  bool turns_too_far(double t, NewtonReport &report) const;
+  /// Of each contact, tools first, by how much its penalty should be raised, at the end of the step: 1 is not
+  /// at all. Statics only. Collective.
+  std::vector<double> raises_of_penalties() const;
+  /// Whether one of them is above 1: then the step is to be repeated.
+  bool penetrates(NewtonReport &report);
+  /// Does that, at the start of the step: the springs that are compressed there are given the energy that
+  /// stiffer ones hold, and start the step with their forces.
+  void raise_penalties(const std::vector<double> &factors, NewtonReport &report);
+  /// Computes all forces at the start of the step.
+  void evaluate_start();
   bool contact_makes_energy(double t, NewtonReport &report);
   void book_contact(const ContactLoss &loss);
 
@@ -355,7 +379,9 @@ private:
       tool_pair_energies_;     ///< in the springs of each pair with a tool, at the last step's end
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
   std::string tool_failure_;
-  std::string body_failure_; ///< why there is no next step: tools were removed that a body needs
+  std::string path_failure_;   ///< which nodes would go through what
+  std::vector<double> raises_; ///< what a step that penetrates asks for
+  std::string body_failure_;   ///< why there is no next step: tools were removed that a body needs
   std::vector<std::size_t> slipping_tools_;         ///< at the end of the last accepted step
   std::vector<std::size_t> unknown_tools_;          ///< those whose offset is unknown in this step
   std::unique_ptr<Epetra_Map> map_;                 ///< of displacements and unknown offsets

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How far nodes and tools may move until nodes have gone through a tool.
+#include "billet/contact/crossing.h"
+#include "billet/contact/rigid_contact.h"
+
+#include <deal.II/physics/transformations.h>
+
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+/// Near the tool, and in it, ways go on by this part of the facets around the node. What is thinner is
+/// (M38)'s.
+constexpr double fine = 0.125;
+
+/// A rigid tool between two placements.
+class MovingTool {
+public:
+  MovingTool(const Tensor<1, 3> &axis, const Placement &from, const Placement &to)
+      : axis_(axis), from_(from), to_(to), turns_(from.rotation_angle != to.rotation_angle) {}
+
+  Placement at(const double part) const {
+    Placement placement = to_;
+    placement.translation = (1. - part) * from_.translation + part * to_.translation;
+    if (turns_) {
+      placement.rotation_angle = (1. - part) * from_.rotation_angle + part * to_.rotation_angle;
+      placement.rotation =
+          dealii::Physics::Transformations::Rotations::rotation_matrix_3d(axis_, placement.rotation_angle);
+    }
+    return placement;
+  }
+  /// Bounds the way of a point that moves in a straight line, relative to the tool.
+  double bound_way(const Tensor<1, 3> &x_from, const Tensor<1, 3> &x_to) const {
+    const double arm = std::max((x_from - from_.moved_centre()).norm(), (x_to - to_.moved_centre()).norm());
+    return (x_to - x_from - (to_.translation - from_.translation)).norm() +
+           std::abs(to_.rotation_angle - from_.rotation_angle) * arm;
+  }
+
+private:
+  Tensor<1, 3> axis_;
+  const Placement &from_, &to_;
+  bool turns_;
+};
+
+SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const Placement &placement,
+                   const Tensor<1, 3> &x, const double shallow) {
+  using Side = SurfaceSide::Side;
+  const Tensor<1, 3> X = placement.to_tool(x);
+  const auto here = surface.project(X, patch);
+  SurfaceSide result{Side::beyond, std::abs(here.gap), {}, false};
+  if (!here.exists) { // but a border that is only round-off away is none
+    if (here.beyond <= 1e-3 * shallow)
+      result.side = here.is_behind ? Side::behind : Side::front;
+    return result;
+  }
+  result.side = here.gap < 0. ? Side::behind : Side::front;
+  result.normal = placement.rotation * here.normal;
+  if (result.side == Side::behind && result.distance > shallow) {
+    // Twice as deep, is the same point of the surface still the nearest one, or nearly so?
+    constexpr double nearly = 0.6;
+    const auto deeper = surface.project(X - result.distance * here.normal, here.patch);
+    result.is_too_deep = deeper.exists && deeper.gap > -2. * nearly * result.distance;
+  }
+  return result;
+}
+
+} // namespace
+
+double RigidContact::find_free_part(const Vector &from, const Placement &tool_from, const Vector &to,
+                                    const Placement &tool_to, const bool is_thorough) const {
+  if (is_removed_)
+    return 1.;
+  const MovingTool tool(tool_.rotation_axis(), tool_from, tool_to);
+  const RigidSurface &surface = tool_.surface();
+  double part = 1.;
+  for (const auto &node : nodes_) {
+    Tensor<1, 3> x_from = node.reference, x_to = node.reference;
+    for (unsigned int c = 0; c < 3; ++c) {
+      x_from[c] += from(node.dofs[c]);
+      x_to[c] += to(node.dofs[c]);
+    }
+    const double resolution = fine * node.size, length = tool.bound_way(x_from, x_to);
+    if (node.is_behind || !(length > (is_thorough ? 0. : resolution)) || !std::isfinite(length) ||
+        surface.bounding_box().distance_square(tool_from.to_tool(x_from)) > length * length)
+      continue;
+    part = std::min(part, billet::find_free_part(
+                              [&](const double s) {
+                                return locate(surface, node.patch, tool.at(s), (1. - s) * x_from + s * x_to,
+                                              0.5 * resolution);
+                              },
+                              length, resolution));
+  }
+  return part;
+}
+
+} // namespace billet

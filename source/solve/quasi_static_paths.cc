@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Nodes that would go through tools or bodies: in a step's first guess, in a correction, in a whole step.
+#include "billet/diagnostic_kinds.h"
+#include "billet/solve/quasi_static.h"
+
+#include <Epetra_Vector.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace billet {
+
+std::vector<Placement> QuasiStatic::placements_now() const {
+  std::vector<Placement> placements;
+  for (std::size_t tool = 0; tool < scene_.tools().size(); ++tool)
+    placements.push_back(place(tool, time_, offsets_[tool]));
+  return placements;
+}
+
+double QuasiStatic::find_free_part(const Vector &from, const std::vector<Placement> &tools_from,
+                                   const Vector &to, const bool is_thorough) {
+  const std::vector<Placement> tools_to = placements_now();
+  std::vector<double> parts;
+  for (const auto &contact : contacts_)
+    parts.push_back(
+        contact.find_free_part(from, tools_from[contact.tool()], to, tools_to[contact.tool()], is_thorough));
+  if (!parts.empty())
+    dealii::Utilities::MPI::min(parts, discretization_.communicator(), parts);
+  for (const auto &contact : body_contacts_)
+    parts.push_back(contact->find_free_part(from, to, is_thorough));
+  const auto least = std::min_element(parts.begin(), parts.end());
+  if (least == parts.end() || *least == 1.)
+    return 1.;
+  const auto which = static_cast<std::size_t>(least - parts.begin());
+  if (which < contacts_.size())
+    path_failure_ = "nodes of contact pair '" + scene_.pairs()[contacts_[which].pair()].name +
+                    "' would go through tool '" + scene_.tools()[contacts_[which].tool()].name() + "'";
+  else
+    path_failure_ = "nodes of contact pair '" + body_contacts_[which - contacts_.size()]->name() +
+                    "' would go through the other body";
+  return *least;
+}
+
+double QuasiStatic::max_step_length(const Epetra_Vector &x, const Epetra_Vector &direction) {
+  if (contacts_.empty() && body_contacts_.empty())
+    return 1.;
+  set_trial(x);
+  const Vector from = trial_ghosted_;
+  const std::vector<Placement> tools_from = placements_now();
+  Epetra_Vector end(x);
+  end.Update(1., direction, 1.);
+  set_trial(end);
+  const double part = find_free_part(from, tools_from, trial_ghosted_, false);
+  constexpr double least = 1e-3; // so short a correction is none
+  return part < least ? 0. : part;
+}
+
+bool QuasiStatic::goes_through(const bool is_thorough, NewtonReport &report) {
+  trial_ghosted_ = trial_;
+  if (find_free_part(state_.displacements, state_.placements, trial_ghosted_, is_thorough) == 1.)
+    return false;
+  report.converged = false;
+  report.is_explained = true;
+  report.failure = path_failure_ +
+                   ", or deeper into it than contact follows them. Try a smaller 'Smallest step', a larger "
+                   "'Normal penalty' or smaller facets";
+  return true;
+}
+
+bool QuasiStatic::turns_too_far(const double t, NewtonReport &report) const {
+  // By the chord of an arc of 15 degrees the moment of friction is 0.9 % too small.
+  constexpr double largest = M_PI / 12., rounding = 1e-9;
+  for (const auto &contact : contacts_) {
+    const std::size_t tool = contact.tool();
+    const double angle =
+        std::abs(place(tool, t, offsets_[tool]).rotation_angle - state_.placements[tool].rotation_angle);
+    if (fading_forces_[tool] || !scene_.pairs()[contact.pair()].has_friction() ||
+        angle <= largest * (1. + rounding) ||
+        !(state_.tool_loads[tool].area > 0. || !all_ranks(!contact.has_touching_nodes())))
+      continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "tool '" << scene_.tools()[tool].name() << "' turns by " << angle * 180. / M_PI
+         << " degrees in the step, and friction needs steps of at most " << largest * 180. / M_PI
+         << ". Try a smaller "
+         << (scene_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed
+                 ? "'Initial step'"
+                 : "'Smallest step'");
+    report.converged = false;
+    report.is_explained = true;
+    report.failure = text.str();
+    return true;
+  }
+  return false;
+}
+
+std::vector<double> QuasiStatic::raises_of_penalties() const {
+  constexpr double most = 100.; // times 10 E/h
+  constexpr double least_raise = 2., largest_raise = 10., worth_it = 1.01;
+  std::vector<double> factors =
+      of_contacts([](const auto &contact) { return contact.excessive_penetration(); });
+  dealii::Utilities::MPI::max(factors, discretization_.communicator(), factors);
+  const std::vector<double> room = stiffening_left();
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const bool is_tool = i < contacts_.size();
+    const double tolerance = is_tool ? scene_.pairs()[contacts_[i].pair()].penetration_tolerance
+                                     : scene_.body_pairs()[i - contacts_.size()].penetration_tolerance;
+    const bool is_too_much = !motion_ && tolerance == 0. && factors[i] > 1.;
+    const double raise = std::min(std::clamp(2. * factors[i], least_raise, largest_raise), most * room[i]);
+    factors[i] = is_too_much && raise > worth_it ? raise : 1.;
+  }
+  return factors;
+}
+
+bool QuasiStatic::penetrates(NewtonReport &report) {
+  if (is_probing_)
+    return false;
+  raises_ = raises_of_penalties();
+  if (std::none_of(raises_.begin(), raises_.end(), [](const double raise) { return raise > 1.; }))
+    return false;
+  report.converged = false;
+  report.penetrates = true;
+  report.failure = "nodes penetrate too deep";
+  return true;
+}
+
+void QuasiStatic::evaluate_start() {
+  const double t_n = state_.time;
+  for (auto &contact : contacts_) {
+    const Placement &now = state_.placements[contact.tool()];
+    contact.start_step(now, now, 0.);
+    contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(t_n));
+    contact.restart();
+  }
+  for (auto &contact : body_contacts_) {
+    contact->start_step(t_n, t_n);
+    contact->restart();
+  }
+  duration_ = 0.;
+  time_ = t_n;
+  offsets_ = offsets_n_;
+  choose_unknown_tools({});
+  Epetra_Vector x = unknowns(), ignored(x);
+  compute_residual(x, ignored);
+}
+
+void QuasiStatic::raise_penalties(const std::vector<double> &factors, NewtonReport &report) {
+  const auto stored_energies = [&] {
+    std::vector<double> energies;
+    for (auto &contact : contacts_)
+      energies.push_back(contact.compute_load().stored_energy);
+    for (auto &contact : body_contacts_)
+      energies.push_back(contact->compute_load().stored_energy);
+    return energies;
+  };
+  evaluate_start();
+  const std::vector<double> before = stored_energies();
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (!(factors[i] > 1.))
+      continue;
+    stiffen(i, factors[i]);
+    const std::string &name = i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
+                                                   : body_contacts_[i - contacts_.size()]->name();
+    std::ostringstream text;
+    text.precision(3);
+    text << "The penalty of the pair was raised " << factors[i]
+         << " times, since nodes penetrated too deep with it";
+    report.diagnostics.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
+                                     .pair(name)
+                                     .time(state_.time)
+                                     .value("factor", factors[i]));
+  }
+  spring_round_off_ = find_spring_round_off();
+  evaluate_start();
+  const std::vector<double> after = stored_energies();
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const double given = after[i] - before[i];
+    state_.energies.contact += given;
+    state_.energies.external += given;
+    if (i < contacts_.size()) {
+      tool_pair_energies_[i] += given;
+      const std::size_t tool = contacts_[i].tool();
+      state_.tool_loads[tool] = ContactLoad();
+      for (const auto &contact : contacts_)
+        if (contact.tool() == tool)
+          state_.tool_loads[tool] += contact.compute_load();
+    } else
+      state_.body_pair_loads[i - contacts_.size()].stored_energy += given;
+  }
+  support_forces_n_ = support_forces_;
+  contact_forces_n_ = contact_forces_;
+  probe_.reset();
+}
+
+} // namespace billet
