@@ -130,7 +130,8 @@ double QuasiStatic::contact_loss(const double t) const {
     const ContactLoad load = contact->compute_load();
     loss -= load.stored_energy + load.dissipation;
   }
-  return loss;
+  const StepWorks works = compute_step_works();
+  return loss + works.ramp + (motion_ ? 0. : works.touching);
 }
 
 void QuasiStatic::choose_contact_damping() {
