@@ -210,6 +210,13 @@ inline const DiagnosticKind target_error_expensive("target-error-expensive", Sev
 
 // --- solution --------------------------------------------------------------------------------------------
 
+inline const DiagnosticKind
+    unsupported_body("unsupported-body", Severity::warning,
+                     "A body in a static scene touches others without a force, and could move away freely. "
+                     "Its shape is right; "
+                     "its place is arbitrary.",
+                     "Hold it by a support or a symmetry plane, or end the run before it is unloaded");
+
 inline const DiagnosticKind exact_tangent(
     "exact-tangent", Severity::note,
     "Newton's method failed with the chosen 'Contact tangent'; the exact one is used from here on.", "");

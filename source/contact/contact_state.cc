@@ -20,6 +20,7 @@ void restore(RowReader &row, Frame &frame) {
   row.vector(frame.spin);
 }
 
+constexpr std::size_t pressed_width = 8;                  // of a node that may press
 constexpr std::size_t gap_width = 4, friction_width = 20; // of a node on a tool
 constexpr std::size_t behind_width = 4;                   // of a node that may be behind a tool
 constexpr std::size_t areas_width = 4;                    // of a facet
@@ -71,6 +72,13 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   }
   writer.write("removed", {is_removed_ ? 1. : 0.});
   writer.write("allowed part", {allowed_part_});
+  if (!pressed_n_.empty()) {
+    std::vector<double> pressed;
+    RowWriter row(pressed);
+    for (const auto &node : pressed_n_)
+      row.number(node.pressure).number(node.depth).vector(node.normal).vector(node.position);
+    writer.write_rows("pressed", pressed_width, node_keys, pressed);
+  }
   writer.write("stiffening", {stiffening_});
   writer.write_rows("gaps", gap_width, node_keys, gaps);
   if (pair_.has_friction())
@@ -91,13 +99,25 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
 void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
   if (reader.number("removed") != 0.)
     remove_tool();
-  allowed_part_ = reader.number("allowed part");
+  allowed_part_ = allowed_part_n_ = reader.number("allowed part");
   positions_on_thin_tool_.clear();
   if (reader.has("stiffening"))
     stiffen(reader.number("stiffening") / stiffening_);
   std::vector<std::uint64_t> node_keys;
   for (const auto &node : nodes_)
     node_keys.push_back(keys(node.dofs[0]));
+  if (!reader.has("pressed"))
+    pressed_n_.clear();
+  if (!pressed_n_.empty()) {
+    const std::vector<double> pressed = reader.read_rows("pressed", pressed_width, node_keys);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      RowReader row(&pressed[pressed_width * i]);
+      pressed_n_[i].pressure = row.number();
+      pressed_n_[i].depth = row.number();
+      row.vector(pressed_n_[i].normal);
+      row.vector(pressed_n_[i].position);
+    }
+  }
   const std::vector<double> gaps = reader.read_rows("gaps", gap_width, node_keys);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     RowReader row(&gaps[gap_width * i]);
@@ -157,6 +177,7 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
   }
   friction_ = friction_n_;
   remember_positions();
+  remember_pressures();
   for (auto &facet : facets_) {
     facet.shallow_areas.fill(not_touching);
     facet.friction_areas.fill(0.);
@@ -237,6 +258,10 @@ void FacetContact::save(StateWriter &writer) const {
                {has_started_ ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0., allowed_part_});
   writer.write("stiffening", {stiffening_});
   writer.write_rows("touched", touch_width, keys, touches);
+  std::vector<double> pressed;
+  for (const auto &slave : pressed_n_)
+    RowWriter(pressed).number(slave.pressure).number(slave.depth);
+  writer.write_rows("pressed", 2, keys, pressed);
   if (edges_)
     write_list(writer, "edges", dealii::Utilities::MPI::this_mpi_process(communicator_), edges_->offsets());
   if (is_augmented || has_depths)
@@ -269,6 +294,11 @@ void FacetContact::load(const StateReader &reader) {
   if (edges_ && reader.has("edges"))
     for (unsigned int rank = 0; rank < reader.n_ranks(); ++rank)
       edges_->add_offsets(read_list(reader, "edges", rank));
+  if (reader.has("pressed")) {
+    const std::vector<double> pressed = reader.read_rows("pressed", 2, keys, &is_known);
+    for (std::size_t s = 0; s < slaves_.size(); ++s)
+      pressed_n_[s] = {pressed[2 * s], pressed[2 * s + 1]};
+  }
   const std::vector<double> start = reader.read("start");
   const bool is_augmented = start.at(1) != 0., has_depths = start.at(2) != 0.;
   has_started_ = start.at(0) != 0.;

@@ -41,6 +41,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
   }
   MPI_Allreduce(MPI_IN_PLACE, &largest_reach_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
   touched_n_.resize(slaves_.size());
+  pressed_n_.resize(slaves_.size());
   states_.resize(slaves_.size());
   if (!std::holds_alternative<Frictionless>(settings.friction))
     history_n_.resize(slaves_.size());
@@ -574,10 +575,49 @@ double FacetContact::local_dissipation() const {
   return dissipation;
 }
 
+StepWorks FacetContact::compute_step_works(const double weight) const {
+  StepWorks works;
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    const SlaveState &state = states_[s];
+    const PressureHistory &before = pressed_n_[s];
+    const double ramp_depth =
+        initial_depths_.empty() ? 0. : (allowed_part_n_ - allowed_part_) * initial_depths_[s];
+    const unsigned int node = slaves_[s].node;
+    if (state.presses() && state.traction.pressure > 0.) {
+      const double depth = std::max(0., -(state.contact.gap + augmentation(s)));
+      const double closing = ramp_depth - compute_motion(s, duration_).displacement * state.contact.normal;
+      works.add(before.pressure * state.own_area, state.traction.pressure * state.own_area, before.depth,
+                depth, closing, ramp_depth, weight);
+    } else if (before.pressure > 0. && touched_n_[s].exists()) {
+      const unsigned int facet = touched_n_[s].facet;
+      const FacetCorners corners_n = corners_of(search_.facets()[facet], positions_n_);
+      const SlaveMotion motion = compute_slave_motion(
+          corners_n, moved_.corners(facet), PlanedFacet(corners_n).project(positions_n_[node], {}).weights,
+          positions_n_[node], positions_[node], duration_);
+      const Tensor<1, 3> normal = motion.rotation * touched_n_[s].projection.normal;
+      double area = 0.;
+      search_.visit_around(node, [&](const unsigned int f) {
+        if (f < exchange_.n_own_facets())
+          area += moved_.areas(f).share(corner_of(search_.facets()[f], node), normal);
+      });
+      works.add(before.pressure * area, 0., before.depth, 0., ramp_depth - motion.displacement * normal,
+                ramp_depth, weight);
+    }
+  }
+  works.touching = dealii::Utilities::MPI::sum(works.touching, communicator_);
+  works.ramp = dealii::Utilities::MPI::sum(works.ramp, communicator_);
+  return works;
+}
+
 void FacetContact::commit() {
   has_started_ = true;
-  for (std::size_t s = 0; s < slaves_.size(); ++s)
-    touched_n_[s] = states_[s].touched;
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    const SlaveState &state = states_[s];
+    touched_n_[s] = state.touched;
+    pressed_n_[s] = {};
+    if (state.presses() && state.traction.pressure > 0.)
+      pressed_n_[s] = {state.traction.pressure, std::max(0., -(state.contact.gap + augmentation(s)))};
+  }
   base_ = history_n_ = history_;
   for (std::size_t s = 0; s < lifts_.size(); ++s) // what leaves the facet begins without when it comes back
     if (!states_[s].presses())

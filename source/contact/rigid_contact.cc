@@ -70,6 +70,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
   friction_ = friction_n_;
   measure_tool();
   remember_positions();
+  remember_pressures();
   memory_.set(nodes_.size() * (sizeof(Node) + sizeof(NodeState)) + facets_.size() * sizeof(Facet));
   friction_memory_.set(2 * friction_.size() * sizeof(FrictionHistory));
 }
@@ -766,11 +767,74 @@ void RigidContact::commit() {
       const FacetStates states = states_of(facet);
       facet.friction_areas = touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
     }
+  remember_pressures();
   if (is_explicit_) // not before what springs held is released
     for (auto &facet : facets_)
       for (unsigned int a = 0; a < 4; ++a)
         if (states_[facet.nodes[a]].status == ContactStatus::open)
           facet.shallow_areas[a] = not_touching;
+}
+
+void RigidContact::remember_pressures() {
+  allowed_part_n_ = allowed_part_;
+  if (is_explicit_)
+    return;
+  pressed_n_.resize(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const NodeState &state = states_[i];
+    PressureHistory &history = pressed_n_[i];
+    history.pressure = state.pressure;
+    // What augmented tractions hold is no depth.
+    history.depth = state.pressure > 0. ? std::max(0., -(state.gap + nodes_[i].lift)) : 0.;
+    history.normal = dealii::transpose(placement_.rotation) * state.normal;
+    history.position = placement_.to_tool(state.position);
+  }
+}
+
+template <class NormalOf> std::vector<double> RigidContact::areas_along(const NormalOf &normal_of) const {
+  std::vector<double> areas(nodes_.size(), 0.);
+  for (const auto &facet : facets_) {
+    const FacetStates states = states_of(facet);
+    for (const auto &point : facet_points()) {
+      const Tensor<1, 3> area_vector =
+          point.area_vector([&](const unsigned int a) { return states[a]->position; });
+      for (unsigned int a = 0; a < 4; ++a)
+        areas[facet.nodes[a]] += point.N[a] * std::max(0., -(area_vector * normal_of(facet.nodes[a])));
+    }
+  }
+  return areas;
+}
+
+StepWorks RigidContact::compute_step_works(const double weight) const {
+  StepWorks works;
+  const bool has_moved =
+      !is_removed_ && !pressed_n_.empty() &&
+      std::any_of(states_.begin(), states_.end(), [this](const NodeState &state) {
+        const auto i = static_cast<std::size_t>(&state - states_.data());
+        return (state.pressure > 0.) != (pressed_n_[i].pressure > 0.) ||
+               (state.pressure > 0. && allowed_part_ != allowed_part_n_ && nodes_[i].initial_depth > 0.);
+      });
+  if (has_moved) {
+    const auto normal_of = [&](const std::size_t i) {
+      return states_[i].pressure > 0. ? states_[i].normal : placement_.rotation * pressed_n_[i].normal;
+    };
+    const std::vector<double> areas = areas_along(normal_of);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const NodeState &state = states_[i];
+      const PressureHistory &before = pressed_n_[i];
+      if (!(state.pressure > 0.) && !(before.pressure > 0.))
+        continue;
+      const double ramp_depth = (allowed_part_n_ - allowed_part_) * nodes_[i].initial_depth;
+      const double closing =
+          ramp_depth - normal_of(i) * (state.position - placement_.to_space(before.position));
+      const double depth = state.pressure > 0. ? std::max(0., -(state.gap + nodes_[i].lift)) : 0.;
+      works.add(before.pressure * areas[i], state.pressure * areas[i], before.depth, depth, closing,
+                ramp_depth, weight);
+    }
+  }
+  works.touching = dealii::Utilities::MPI::sum(works.touching, communicator_);
+  works.ramp = dealii::Utilities::MPI::sum(works.ramp, communicator_);
+  return works;
 }
 
 void RigidContact::restart() {

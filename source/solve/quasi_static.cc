@@ -66,7 +66,8 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     build_matrix();
 
   trial_ = u_n_ = last_increment_ = support_forces_ = support_forces_n_ = contact_forces_ =
-      contact_forces_n_ = bare_forces_n_ = discretization.make_owned_vector();
+      contact_forces_n_ = bare_forces_n_ = internal_forces_ = internal_forces_n_ =
+          discretization.make_owned_vector();
   trial_ghosted_ = state_.displacements = discretization.make_ghosted_vector();
   raw_internal_ = discretization.make_additive_vector();
   raw_contact_ = discretization.make_additive_vector();
@@ -94,6 +95,8 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   });
   state_.displacements = u_n_;
   choose_unknown_tools({});
+  if (!scene.parameters().is_dynamic())
+    prepare_support_check();
   if (scene.parameters().is_dynamic())
     motion_ = std::make_unique<ImplicitMotion>(scene_, discretization_, supports_);
   if (scene.parameters().restart.is_wanted()) // load() does the rest
@@ -215,6 +218,7 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
   raw_contact_.compress(dealii::VectorOperation::add);
 
   support_forces_ = raw_internal_;
+  internal_forces_ = support_forces_;
   force_scale_ = support_forces_.l2_norm();
   Vector total = support_forces_;
   contact_forces_ = raw_contact_;
@@ -492,7 +496,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     else if (!report.is_explained) {
       for (const auto &contact : body_contacts_)
         report.failure += contact->describe_restless();
-      report.failure += describe_slipping_tools() + describe_residual();
+      report.failure += describe_slipping_tools() + describe_sliding() + describe_residual();
     }
   }
   report.linear_iterations = linear_->take_iterations();
@@ -592,7 +596,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     }
     if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) || goes_through_tool(report) ||
         goes_through(true, report) || turns_too_far(t, report) || penetrates(report) ||
-        contact_makes_energy(t, report))
+        contact_makes_energy(t, report) || loses_energy(t, report) || loses_bodies(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();
@@ -625,6 +629,7 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
 }
 
 void QuasiStatic::commit(const double t) {
+  const StepWorks works = compute_step_works();
   if (motion_)
     book_contact(contact_loss(t));
   has_lost_pace_ = false;
@@ -656,7 +661,11 @@ void QuasiStatic::commit(const double t) {
   if (motion_)
     motion_->commit(u_n_, last_increment_, mean_forces, state_.energies);
   else
-    state_.energies.external += mean_forces * last_increment_;
+    state_.energies.external += mean_forces * last_increment_ + works.touching;
+  state_.energies.external += works.ramp;
+  internal_forces_n_ += internal_forces_;
+  const double internal_work = 0.5 * (internal_forces_n_ * last_increment_);
+  internal_forces_n_ = internal_forces_;
   support_forces_n_ = support_forces_;
   contact_forces_n_ = contact_forces_;
 
@@ -696,9 +705,19 @@ void QuasiStatic::commit(const double t) {
   state_.time = t;
   state_.displacements = u_n_;
   const auto energies = internal_.compute_energies(state_.displacements);
+  if (!motion_) { // what the trapezoidal rule misses where elements begin to yield, (Q5)
+    const EnergyLedger &before = state_.energies;
+    const double dissipated = std::abs(energies.plastic - before.plastic);
+    const double missed = energies.elastic + energies.plastic + energies.hourglass - before.elastic -
+                          before.plastic - before.hourglass - internal_work;
+    state_.energies.external += std::clamp(missed, -dissipated, dissipated);
+  }
   state_.energies.elastic = energies.elastic;
   state_.energies.plastic = energies.plastic;
   state_.energies.hourglass = energies.hourglass;
+  if (!motion_)
+    largest_energy_ = std::max({largest_energy_, 0.5 * std::abs(state_.energies.total()),
+                                std::abs(state_.energies.initial + state_.energies.external)});
   remove_tools(t);
   if (motion_)
     motion_->update_state(state_);
@@ -890,9 +909,9 @@ void QuasiStatic::remove_tools(const double t) {
     state_.energies.external -= state_.tool_loads[i].stored_energy;
     state_.energies.contact -= state_.tool_loads[i].stored_energy;
     has_lost_pace_ = true;
+    contact_forces_n_ -= *fading_forces_[i]; // it is contact no more
     if (motion_) {
       state_.energies.external -= motion_->remove_tool(i);
-      contact_forces_n_ -= *fading_forces_[i]; // it is contact no more
       const double jump = 1. - fading(t, i);
       support_forces_n_.add(-jump, *fading_forces_[i]);
       forces_jump = forces_jump || jump > 0.;

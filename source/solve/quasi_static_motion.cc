@@ -133,7 +133,8 @@ QuasiStatic::ContactLoss QuasiStatic::contact_loss(const double t) const {
     loss.total -= load.stored_energy + load.dissipation;
     loss.friction += load.damping;
   }
-  return loss;
+  const StepWorks works = compute_step_works();
+  return loss + works.ramp + (motion_ ? 0. : works.touching);
 }
 
 void QuasiStatic::choose_contact_damping() {

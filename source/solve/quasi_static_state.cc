@@ -30,6 +30,13 @@ void QuasiStatic::save(StateWriter &writer) const {
   save_nodal(writer, "support forces", nodes, support_forces_n_);
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
+  if (!motion_) {
+    save_nodal(writer, "contact forces", nodes, contact_forces_n_);
+    save_nodal(writer, "internal forces", nodes, internal_forces_n_);
+    writer.write("largest energy", {largest_energy_});
+  }
+  if (!body_frames_.empty())
+    writer.write("free modes", {static_cast<double>(support_.n_free)});
   if (tangent_ != scene_.contact_tangent())
     writer.write("exact tangent", {1.});
   if (probe_ && probe_->time > state_.time)
@@ -151,6 +158,11 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
       if (balance.at(3) != 0.)
         motion_->damp_contact(contact_forces_n_); // the next step begins with that anew
     }
+    if (!motion_ && reader.has("internal forces")) {
+      load_nodal(reader, "contact forces", nodes, contact_forces_n_);
+      load_nodal(reader, "internal forces", nodes, internal_forces_n_);
+      largest_energy_ = reader.number("largest energy");
+    }
     if (report.is_exact && reader.has("probe"))
       reader.in("probe", [&] {
         probe_ =
@@ -173,6 +185,12 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
   }
   if (!report.is_exact)
     balance(report);
+  if (!body_frames_.empty()) {
+    if (report.is_exact && reader.has("free modes"))
+      support_.n_free = static_cast<std::size_t>(reader.number("free modes"));
+    else if (!report.is_exact)
+      support_ = find_support();
+  }
   if (motion_)
     load_motion(reader, report);
   else if (!report.is_exact) {
@@ -277,6 +295,7 @@ void QuasiStatic::balance(RestartReport &report) {
   lasting_scale_ = std::max(lasting_scale_, 1e-3 * force_scale_);
   support_forces_n_ = support_forces_;
   contact_forces_n_ = contact_forces_;
+  internal_forces_n_ = internal_forces_;
   std::fill(state_.tool_loads.begin(), state_.tool_loads.end(), ContactLoad());
   state_.energies.contact = 0.;
   for (const auto &contact : contacts_)

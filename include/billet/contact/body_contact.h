@@ -83,6 +83,16 @@ public:
   /// itself.
   void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const;
 
+  /// Calls visit(SupportingPoint, body of the point, body that it touches) for what touches on this rank;
+  /// nothing of a body that touches itself.
+  template <class Visit> void visit_supporting(const Visit &visit) const {
+    if (pair_.bodies[0] != pair_.bodies[1])
+      contact_->visit_supporting(
+          [&](const SupportingPoint &point, const unsigned int of, const unsigned int on) {
+            visit(point, pair_.bodies[of], pair_.bodies[on]);
+          });
+  }
+
   /// If the scene allows the undeformed bodies to be in each other, takes note of how deep they are, after
   /// update(). Collective.
   void allow_overlap();
@@ -100,6 +110,9 @@ public:
   void add_crossings(Crossings &crossings) const { contact_->add_crossings(crossings); }
   /// By friction in this step, of this rank [energy].
   double local_dissipation() const { return contact_->local_dissipation(); }
+
+  /// As RigidContact's.
+  StepWorks compute_step_works(const double weight) const { return contact_->compute_step_works(weight); }
 
   /// Of this rank's nodes that are slaves.
   std::vector<ContactNodeReport> report() const;

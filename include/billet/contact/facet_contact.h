@@ -7,6 +7,8 @@
 #include "billet/contact/facet_overlaps.h"
 #include "billet/contact/facet_sharing.h"
 #include "billet/contact/slave_traction.h"
+#include "billet/contact/step_works.h"
+#include "billet/contact/supporting_point.h"
 #include "billet/contact/surface_exchange.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/state.h"
@@ -156,6 +158,8 @@ public:
 
   /// By friction in this step, of this rank [energy].
   double local_dissipation() const;
+  /// As RigidContact's, of slaves. Collective.
+  StepWorks compute_step_works(double weight) const;
 
   /// Doubles of history on this rank.
   /// Of this rank's nodes, the largest penalty times the facets' size squared [force/length].
@@ -207,6 +211,25 @@ public:
       if (states_[s].presses())
         visit(positions_[slaves_[s].node], states_[s].contact.normal, slaves_[s].surface,
               search_.facets()[states_[s].touched.facet].surface);
+  }
+
+  /// The same of slaves and crossing edges as visit(SupportingPoint, surface of the point, surface of what it
+  /// touches).
+  template <class Visit> void visit_supporting(const Visit &visit) const {
+    const bool has_friction = !std::holds_alternative<Frictionless>(settings_.friction);
+    for (std::size_t s = 0; s < slaves_.size(); ++s)
+      if (states_[s].presses())
+        visit(make_supporting_point(positions_[slaves_[s].node], states_[s].contact.normal, has_friction,
+                                    states_[s].traction.status, states_[s].traction.traction),
+              slaves_[s].surface, search_.facets()[states_[s].touched.facet].surface);
+    for (const auto &crossing : crossings_)
+      if (crossing.counted_gap() < 0.) {
+        dealii::Tensor<1, 3> position;
+        for (unsigned int i = 0; i < 2; ++i)
+          position += crossing.weights[i] * positions_[crossing.nodes[i]];
+        visit(make_supporting_point(position, crossing.normal, false, ContactStatus::slip, {}),
+              crossing.surfaces[0], crossing.surfaces[1]);
+      }
   }
 
   /// State of a slave node, for output.
@@ -350,6 +373,12 @@ private:
   Positions positions_n_, positions_;       ///< with ghosts
   MovedFacets moved_{search_, positions_};
   std::vector<TouchedFacet> touched_n_;
+  /// Of slaves at the start of the step, for compute_step_works().
+  struct PressureHistory {
+    double pressure = 0.; ///< [stress]
+    double depth = 0.;    ///< [length]
+  };
+  std::vector<PressureHistory> pressed_n_;
   std::vector<unsigned int> n_changes_;      ///< of slaves, if they are counted
   std::vector<std::uint64_t> seen_;          ///< the same: facet and status at the last add_forces()
   bool is_rebuilt_ = false;                  ///< lists were made anew for the last add_forces()

@@ -4,6 +4,8 @@
 
 #include "billet/contact/contact_load.h"
 #include "billet/contact/friction_account.h"
+#include "billet/contact/step_works.h"
+#include "billet/contact/supporting_point.h"
 #include "billet/diagnostics.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
@@ -102,6 +104,13 @@ public:
   /// Adds what the tool does where it touches a node of this rank, at the last update(); none if it is
   /// removed.
   void add_resistances(std::vector<Resistance> &resistances) const;
+  /// Calls visit(SupportingPoint) for each node of this rank that touches the tool at the last update().
+  template <class Visit> void visit_supporting(const Visit &visit) const {
+    for (const auto &state : states_)
+      if (state.status != ContactStatus::open)
+        visit(make_supporting_point(state.position, state.normal, pair_.has_friction(), state.status,
+                                    state.traction));
+  }
 
   /// The state of the last update() becomes the start of the next step.
   void commit();
@@ -158,6 +167,10 @@ public:
   ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }
   /// What the facets of this rank contribute to it.
   ContactLoad local_load() const;
+
+  /// Of schemes with a matrix, after update() and before commit(); on all ranks. `weight` is that of the
+  /// forces at the end of the step in the mean forces.
+  StepWorks compute_step_works(double weight) const;
 
   // The same for schemes without a matrix, after bind():
 
@@ -281,6 +294,10 @@ private:
   DiagnosticList check_small_tool() const;
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
+  /// Notes the pressures of the last update() for the works of the next step.
+  void remember_pressures();
+  /// The area that the facets of this rank give to each node, as seen along these normals.
+  template <class NormalOf> std::vector<double> areas_along(const NormalOf &normal_of) const;
   /// Whether a node there has missed the tool's surface.
   bool misses(const Node &node, const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &on_tool,
               const RigidSurface::Projection &projection) const;
@@ -345,6 +362,14 @@ private:
   std::vector<Node> nodes_;
   std::vector<NodeState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
+  /// Of nodes at the start of the step, in the tool's coordinates, for compute_step_works().
+  struct PressureHistory {
+    double pressure = 0.; ///< [stress]
+    double depth = 0.;    ///< [length]
+    dealii::Tensor<1, 3> normal, position;
+  };
+  std::vector<PressureHistory> pressed_n_; ///< none in explicit scenes
+  double allowed_part_n_ = 1.;             ///< at the start of the step
   std::vector<std::array<double, 2>>
       base_; ///< what this step's friction starts from: that of friction_n_, or augmented
   std::vector<Facet> facets_;

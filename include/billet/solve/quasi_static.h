@@ -11,7 +11,9 @@
 #include "billet/solve/newton.h"
 #include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
+#include "billet/solve/rigid_body_support.h"
 #include "billet/solve/solution.h"
+#include "billet/solve/step_energy.h"
 #include "billet/solve/tangent_solver.h"
 #include "billet/usage.h"
 
@@ -317,6 +319,23 @@ private:
   std::string describe_freedom(std::size_t body, const std::set<std::string> &removed) const;
   /// Bodies that others may hold have to be held, or to touch them, at the start.
   void check_freedom() const;
+  // Whether the state of a static step that has converged may be the next one, in
+  // solve/quasi_static_support.cc. All collective.
+  void prepare_support_check();
+  /// What holds the bodies at the trial state.
+  RigidBodySupport::Result find_support(const std::vector<bool> &unloaded_bodies = {}) const;
+  /// Notes which bodies contact presses, and warns of those that nothing presses any more and that may lift
+  /// off.
+  void watch_unloaded_bodies(const RigidBodySupport::Result &found, double t, NewtonReport &report);
+  /// Whether a body loses its support, or bodies are thrown out of the scene: then the step fails.
+  bool loses_bodies(double t, NewtonReport &report);
+  bool moves_too_far(double t, NewtonReport &report) const;
+  /// Of a failed step: bodies that slid on all that they touched at the end of the last one.
+  std::string describe_sliding() const;
+  /// Of all pairs in the step, before commit(). Collective.
+  StepWorks compute_step_works() const;
+  /// Whether contact makes or loses so much energy that a static step has to be cut.
+  bool loses_energy(double t, NewtonReport &report);
   // Of load(), in solve/quasi_static_state.cc:
   void load_tools(StateReader &reader);
   void load_contacts(StateReader &reader);
@@ -343,9 +362,10 @@ private:
   std::unique_ptr<TangentSolver> linear_;
 
   Vector trial_, trial_ghosted_, u_n_, last_increment_;
-  Vector raw_internal_, raw_contact_;        ///< additive
-  Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
-  Vector contact_forces_, contact_forces_n_; ///< −F_c
+  Vector raw_internal_, raw_contact_;          ///< additive
+  Vector support_forces_, support_forces_n_;   ///< residual before constraints: what the supports exert
+  Vector contact_forces_, contact_forces_n_;   ///< −F_c
+  Vector internal_forces_, internal_forces_n_; ///< of static scenes
   Vector bare_forces_n_; ///< what the integrator takes for F_n: support_forces_n_, or without contact
   // Of dynamic scenes: what contact has taken and not yet given back; what is lost of it; the largest energy
   // so far.
@@ -392,6 +412,17 @@ private:
   std::vector<std::unique_ptr<Vector>> fading_forces_; ///< residual of a removed tool's forces, as they were
   std::unique_ptr<Vector> imbalance_; ///< residual at a restart, on dofs that are free; or none
   double imbalance_begin_ = 0., imbalance_end_ = 0.; ///< when it begins to fade, and has gone
+  /// Of static scenes, none if supports alone hold all bodies.
+  std::vector<RigidBodySupport::Body> body_frames_;
+  struct SupportedNode {
+    std::size_t body;
+    dealii::Tensor<1, 3> position, normal; ///< undeformed
+    std::array<DofIndex, 3> dofs;
+  };
+  std::vector<SupportedNode> supported_nodes_;
+  std::vector<double> most_stored_; ///< in the springs of all contacts of each body, so far [energy]
+  StepEnergy step_energy_;
+  RigidBodySupport::Result support_; ///< at the end of the last accepted step
   SolutionState state_;
 };
 

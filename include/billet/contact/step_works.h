@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_STEP_WORKS_H
+#define BILLET_CONTACT_STEP_WORKS_H
+
+#include <algorithm>
+
+namespace billet {
+
+/// Works of a contact pair in a step beyond forces times motions.
+struct StepWorks {
+  /// Of the pressure on nodes that enter or leave within the step: what the trapezoidal rule counts falsely,
+  /// (Q2) [energy].
+  double touching = 0.;
+  /// Of the ramp by which an initial penetration begins to count, (Q3): it loads springs without a motion
+  /// [energy].
+  double ramp = 0.;
+
+  StepWorks &operator+=(const StepWorks &other) {
+    touching += other.touching;
+    ramp += other.ramp;
+    return *this;
+  }
+
+  /// Adds those of a node of which the pressure has the forces `force_n` and `force` at the ends of the step,
+  /// and the depths `depth_n` and `depth`, both 0 where it does not press. `closing` is how far it has come
+  /// closer to the surface along the normal in the step, `ramp_depth` the part of that which is the ramp's.
+  /// `weight` is that of the force at the end in the mean force.
+  void add(const double force_n, const double force, const double depth_n, const double depth,
+           const double closing, const double ramp_depth, const double weight) {
+    ramp += (weight * force + (1. - weight) * force_n) * ramp_depth;
+    // A gap is at most what the node has moved: one that comes from elsewhere has not closed it.
+    if (force_n == 0. && force > 0.)
+      touching -= 0.5 * force * std::max(0., closing - depth);
+    else if (force_n > 0. && force == 0.)
+      touching += 0.5 * force_n * std::max(0., -closing - depth_n);
+  }
+};
+
+} // namespace billet
+
+#endif

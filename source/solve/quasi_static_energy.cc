@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The energy balance of steps.
+#include "billet/diagnostic_kinds.h"
+#include "billet/solve/quasi_static.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+namespace billet {
+
+StepWorks QuasiStatic::compute_step_works() const {
+  StepWorks works;
+  const double weight = 1. - contact_before();
+  for (const auto &contact : contacts_)
+    works += contact.compute_step_works(weight);
+  for (const auto &contact : body_contacts_)
+    works += contact->compute_step_works(weight);
+  return works;
+}
+
+bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
+  if (motion_ || (contacts_.empty() && body_contacts_.empty()))
+    return false;
+  Vector increment = trial_, mean = internal_forces_;
+  increment -= u_n_;
+  mean += internal_forces_n_;
+  const double internal_work = 0.5 * (mean * increment);
+  mean = contact_forces_;
+  mean += contact_forces_n_;
+  const double contact_work = 0.5 * (mean * increment);
+  const StepEnergy::Works works{contact_loss(t), std::max(std::abs(internal_work), std::abs(contact_work)),
+                                largest_energy_};
+  const double floor = round_off_force_ * discretization_.radius();
+  const StepEnergy::Verdict verdict = step_energy_.judge(state_.time, t - state_.time, works, floor);
+  if (std::getenv("BILLET_DEBUG") != nullptr)
+    std::fprintf(stderr, "E t %g loss %g touch %g own %g before %g floor %g parts %.4f %.4f verdict %d\n", t,
+                 works.imbalance, compute_step_works().touching, works.own, works.before, floor,
+                 works.imbalance / works.own, StepEnergy::part_of_all(works), static_cast<int>(verdict));
+  if (verdict == StepEnergy::Verdict::balanced)
+    return false;
+  const double percent = 100. * StepEnergy::part_of_all(works);
+  std::ostringstream text;
+  text.precision(3);
+  text << "contact " << (works.imbalance > 0. ? "loses" : "makes") << " energy in the step to time " << t
+       << ": " << percent << " % of all work so far";
+  if (verdict == StepEnergy::Verdict::jump) {
+    report.diagnostics.push_back(Diagnostic(diagnostic::energy_imbalance, text.str())
+                                     .time(t)
+                                     .measure("part of all work [%]", percent)
+                                     .advice("Smaller steps do not change this: the bodies jump, as when one "
+                                             "slips off another, or have passed through each other. Check "
+                                             "the field output at this time; 'Scheme = implicit dynamics' "
+                                             "resolves jumps"));
+    return false;
+  }
+  text << ", more than the allowed " << 100. * StepEnergy::max_part
+       << " %. The solution jumped to another branch, or bodies passed through each other. Reduce 'Largest "
+          "step' or the penalty, or use a finer mesh where they touch";
+  report.converged = false;
+  report.is_explained = true;
+  report.failure = text.str();
+  return true;
+}
+
+} // namespace billet

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/rigid_body_support.h"
+
+#include "billet/geometry/frame.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace billet {
+
+using dealii::Tensor;
+using Rows = std::vector<std::vector<double>>;
+
+namespace {
+
+double dot(const std::vector<double> &a, const std::vector<double> &b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+}
+
+/// A combination of the orthonormal `basis` that none of the rows resists, r z >= 0 for all; none if there is
+/// no such one but 0. By Farkas' lemma: all motions are resisted if minus the sum of the rows is among Σ λ_i
+/// r_i with λ_i >= 0, and the rows span the basis; else what is left over is such a motion. By coordinate
+/// descent.
+std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows &all_rows) {
+  const std::size_t n = basis.size();
+  if (n == 0)
+    return {};
+  const auto combine = [&](const std::vector<double> &factors) {
+    std::vector<double> motion(basis.front().size(), 0.);
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = 0; i < motion.size(); ++i)
+        motion[i] += factors[k] * basis[k][i];
+    return motion;
+  };
+  constexpr double none = 1e-6; // of a row, that are unit vectors or less
+  Rows rows;
+  for (const auto &row : all_rows) {
+    std::vector<double> part;
+    for (const auto &motion : basis)
+      part.push_back(dot(row, motion));
+    if (dot(part, part) > none * none)
+      rows.push_back(std::move(part));
+  }
+  // What no row touches is free whatever the signs.
+  dealii::LAPACKFullMatrix<double> gram(n, n);
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t l = 0; l < n; ++l) {
+      double sum = 0.;
+      for (const auto &row : rows)
+        sum += row[k] * row[l];
+      gram(k, l) = sum;
+    }
+  dealii::Vector<double> values(n);
+  dealii::FullMatrix<double> vectors(n, n);
+  gram.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(),
+                                     0., values, vectors);
+  std::vector<double> factors(n);
+  if (rows.empty() || values[0] <= 1e-10 * values[n - 1]) {
+    for (std::size_t k = 0; k < n; ++k)
+      factors[k] = rows.empty() ? (k == 0 ? 1. : 0.) : vectors(k, 0);
+    return combine(factors);
+  }
+  std::vector<double> rest(n, 0.), weights(rows.size(), 0.);
+  for (const auto &row : rows)
+    for (std::size_t k = 0; k < n; ++k)
+      rest[k] += row[k];
+  const double whole = std::sqrt(dot(rest, rest));
+  double size = 0.;
+  for (const auto &row : rows)
+    size += dot(row, row);
+  constexpr double small = 1e-2;
+  constexpr unsigned int n_sweeps = 1000;
+  const auto is_small = [&] {
+    const double left = std::sqrt(dot(rest, rest));
+    return left <= small * whole || left <= none * std::sqrt(size);
+  };
+  for (unsigned int sweep = 0; sweep < n_sweeps && !is_small(); ++sweep)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double change = std::max(-weights[i], -dot(rows[i], rest) / dot(rows[i], rows[i]));
+      weights[i] += change;
+      for (std::size_t k = 0; k < n; ++k)
+        rest[k] += change * rows[i][k];
+    }
+  if (is_small())
+    return {};
+  const double left = std::sqrt(dot(rest, rest));
+  for (std::size_t k = 0; k < n; ++k)
+    factors[k] = rest[k] / left;
+  return combine(factors);
+}
+
+/// Takes `motion`'s direction out of the orthonormal `basis`, which holds it, and makes the rest orthonormal.
+void deflate(const std::vector<double> &motion, Rows &basis) {
+  Rows left;
+  std::vector<std::vector<double>> known{motion};
+  const double size = std::sqrt(dot(motion, motion));
+  for (double &component : known.front())
+    component /= size;
+  std::vector<std::size_t> order(basis.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](const std::size_t a, const std::size_t b) {
+    return std::abs(dot(basis[a], motion)) < std::abs(dot(basis[b], motion));
+  });
+  for (const std::size_t k : order) {
+    if (left.size() + 1 == basis.size())
+      break;
+    std::vector<double> vector = basis[k];
+    for (const auto &other : known) {
+      const double along = dot(vector, other);
+      for (std::size_t i = 0; i < vector.size(); ++i)
+        vector[i] -= along * other[i];
+    }
+    const double norm = std::sqrt(dot(vector, vector));
+    for (double &component : vector)
+      component /= norm;
+    known.push_back(vector);
+    left.push_back(vector);
+  }
+  basis = std::move(left);
+}
+
+} // namespace
+
+RigidBodySupport::RigidBodySupport(const MPI_Comm communicator, std::vector<Body> bodies,
+                                   const std::size_t n_tools)
+    : communicator_(communicator), bodies_(std::move(bodies)), n_tools_(n_tools), gram_(n() * n(), 0.) {}
+
+void RigidBodySupport::add(const Tensor<1, 3> &position, const Tensor<1, 3> &direction, const Side &side,
+                           const double sign, Row &row) const {
+  if (side.body) {
+    const Body &body = bodies_[*side.body];
+    const Tensor<1, 3> turn = dealii::cross_product_3d((position - body.centre) / body.size, direction);
+    for (unsigned int i = 0; i < 3; ++i) {
+      row[6 * *side.body + i] += sign * direction[i];
+      row[6 * *side.body + 3 + i] += sign * turn[i];
+    }
+  }
+  if (side.tool)
+    row[6 * bodies_.size() + *side.tool] += sign * (direction * side.tool_velocity);
+}
+
+void RigidBodySupport::add_both_ways(const Row &row) {
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (row[i] != 0.)
+      for (std::size_t j = 0; j < row.size(); ++j)
+        gram_[i * row.size() + j] += row[i] * row[j];
+}
+
+void RigidBodySupport::add_support(const std::size_t body, const Tensor<1, 3> &position,
+                                   const Tensor<1, 3> &normal) {
+  Row row(n(), 0.);
+  add(position, normal, {body, {}, {}}, 1., row);
+  add_both_ways(row);
+}
+
+RigidBodySupport::Row RigidBodySupport::row_of(const Tensor<1, 3> &position, const Tensor<1, 3> &direction,
+                                               const Side &of, const Side &on) const {
+  Row row(n(), 0.);
+  add(position, direction, of, 1., row);
+  add(position, direction, on, -1., row);
+  return row;
+}
+
+void RigidBodySupport::add_contact(const SupportingPoint &point, const Side &of, const Side &on) {
+  add_both_ways(row_of(point.position, point.normal, of, on));
+  if (point.friction == SupportingPoint::Friction::none)
+    return;
+  const bool slips = point.friction == SupportingPoint::Friction::slips;
+  const Frame frame = Frame::from_normal(point.normal);
+  const Tensor<1, 3> along = slips ? point.slip : frame.q;
+  const Tensor<1, 3> across = slips ? dealii::cross_product_3d(point.normal, along) : frame.r;
+  add_both_ways(row_of(point.position, across, of, on));
+  const Row row = row_of(point.position, along, of, on);
+  if (slips)
+    one_way_.insert(one_way_.end(), row.begin(), row.end());
+  else
+    add_both_ways(row);
+}
+
+void RigidBodySupport::add_unloaded_contact(const SupportingPoint &point, const Side &of, const Side &on) {
+  const Row row = row_of(point.position, point.normal, of, on);
+  one_way_.insert(one_way_.end(), row.begin(), row.end());
+}
+
+RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
+  Mode mode{0, {}};
+  double largest = 0.;
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const double square = std::inner_product(&motion[6 * body], &motion[6 * body] + 6, &motion[6 * body], 0.);
+    if (square > largest) {
+      largest = square;
+      mode.body = body;
+    }
+  }
+  double most = 0.; // of its components, whose sign is +
+  for (unsigned int i = 0; i < 6; ++i)
+    if (std::abs(motion[6 * mode.body + i]) > (1. + 1e-6) * std::abs(most))
+      most = motion[6 * mode.body + i];
+  const auto component = [&](const unsigned int i) {
+    constexpr double none = 1e-2;
+    const double value = motion[6 * mode.body + i] / (std::sqrt(largest) * (most < 0. ? -1. : 1.));
+    return std::abs(value) < none ? 0. : value;
+  };
+  mode.motion = {Tensor<1, 3>({component(0), component(1), component(2)}),
+                 Tensor<1, 3>({component(3), component(4), component(5)})};
+  return mode;
+}
+
+RigidBodySupport::Result RigidBodySupport::find() const {
+  const std::size_t size = n(), n_of_bodies = 6 * bodies_.size();
+  std::vector<double> gram(gram_);
+  dealii::Utilities::MPI::sum(gram_, communicator_, gram);
+  dealii::LAPACKFullMatrix<double> matrix(size, size);
+  double largest = 0.;
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j < size; ++j) {
+      matrix(i, j) = gram[i * size + j];
+      largest = std::max(largest, i == j ? gram[i * size + j] : 0.);
+    }
+  dealii::Vector<double> values(size);
+  dealii::FullMatrix<double> vectors(size, size);
+  matrix.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(),
+                                       std::numeric_limits<double>::max(), 0., values, vectors);
+  // Of modes that differ in the motion of tools only one counts.
+  constexpr double none = 1e-10, alike = 1e-3;
+  Rows basis, bodies;
+  for (std::size_t k = 0; k < size && (largest == 0. || values[k] <= none * largest); ++k) {
+    Row motion(size), of_bodies;
+    for (std::size_t i = 0; i < size; ++i)
+      motion[i] = vectors(i, k);
+    of_bodies.assign(motion.begin(), motion.begin() + static_cast<std::ptrdiff_t>(n_of_bodies));
+    for (const auto &other : bodies) {
+      const double along = dot(of_bodies, other);
+      for (std::size_t i = 0; i < n_of_bodies; ++i)
+        of_bodies[i] -= along * other[i];
+    }
+    const double left = std::sqrt(dot(of_bodies, of_bodies));
+    if (left <= alike)
+      continue;
+    for (double &component : of_bodies)
+      component /= left;
+    bodies.push_back(of_bodies);
+    basis.push_back(motion);
+  }
+  Result result;
+  if (basis.empty())
+    return result;
+  Rows one_way;
+  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator_, one_way_))
+    for (auto row = part.begin(); row != part.end(); row += static_cast<std::ptrdiff_t>(size))
+      one_way.emplace_back(row, row + static_cast<std::ptrdiff_t>(size));
+  result.sliding = mode_of(basis.front());
+  while (const auto motion = find_unresisted(basis, one_way)) {
+    if (!result.free)
+      result.free = mode_of(*motion);
+    ++result.n_free;
+    deflate(*motion, basis);
+  }
+  return result;
+}
+
+} // namespace billet

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/step_energy.h"
+
+#include <cmath>
+
+namespace billet {
+
+double StepEnergy::part_of_all(const Works &works) {
+  const double all = works.before + works.own;
+  return all > 0. ? std::abs(works.imbalance) / all : 0.;
+}
+
+StepEnergy::Verdict StepEnergy::judge(const double t_n, const double length, const Works &works,
+                                      const double floor) {
+  if (!(works.before + works.own > floor) || !(std::abs(works.imbalance) > max_part * works.own) ||
+      !(part_of_all(works) > max_part))
+    return Verdict::balanced;
+  if (rejected_at_ != t_n) {
+    rejected_at_ = t_n;
+    first_length_ = length;
+  }
+  constexpr double rounding = 1e-6;
+  return length <= least_cut * first_length_ * (1. + rounding) ? Verdict::jump : Verdict::rejected;
+}
+
+} // namespace billet

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Rigid-body modes of bodies that supports, contact, friction and driven tools leave free, (Q1): counts that
+// are known by hand.
+#include "billet/solve/rigid_body_support.h"
+
+#include "../testing.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using dealii::Tensor;
+using Friction = SupportingPoint::Friction;
+
+namespace {
+
+const Tensor<1, 3> x({1., 0., 0.}), y({0., 1., 0.}), z({0., 0., 1.});
+const RigidBodySupport::Side first{0, {}, {}}, second{1, {}, {}}, standing{};
+
+/// The corners of a face of the cube [-1, 1]³.
+std::vector<Tensor<1, 3>> corners(const Tensor<1, 3> &normal) {
+  std::vector<Tensor<1, 3>> result;
+  const Tensor<1, 3> a = std::abs(normal[2]) > 0.5 ? x : z, b = dealii::cross_product_3d(normal, a);
+  for (const double s : {-1., 1.})
+    for (const double t : {-1., 1.})
+      result.push_back(normal + s * a + t * b);
+  return result;
+}
+
+/// The cube touches something at the face with this outward normal.
+void touch(RigidBodySupport &support, const Tensor<1, 3> &face, const Friction friction,
+           const Tensor<1, 3> &slip = {}, const RigidBodySupport::Side &of = first,
+           const RigidBodySupport::Side &on = standing) {
+  for (const auto &corner : corners(face))
+    support.add_contact({corner, -face, friction, slip}, of, on);
+}
+
+RigidBodySupport one_cube(const std::size_t n_tools = 0) {
+  return {MPI_COMM_WORLD, {{Tensor<1, 3>(), 2.}}, n_tools};
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  { check("nothing touches: six modes", one_cube().find().n_free == 6); }
+  {
+    RigidBodySupport support = one_cube();
+    touch(support, -z, Friction::none);
+    check("without friction on a plane: three modes", support.find().n_free == 3);
+    touch(support, -x, Friction::none);
+    check("and on a wall: one", support.find().n_free == 1);
+    const auto free = support.find().free;
+    check("which is the slide along both", std::abs(free->motion.translation * y) > 0.99);
+    touch(support, y, Friction::none);
+    check("and on a third wall: none", support.find().n_free == 0);
+  }
+  {
+    RigidBodySupport support = one_cube();
+    touch(support, -z, Friction::sticks);
+    check("sticking on a plane: none", support.find().n_free == 0 && !support.find().sliding);
+  }
+  {
+    RigidBodySupport support = one_cube();
+    touch(support, -z, Friction::slips, x);
+    const auto found = support.find();
+    check("full sliding: the slide is free", found.n_free == 1 && found.free->motion.translation * x > 0.99);
+    support.add_contact({x - z, z, Friction::sticks, {}}, first, standing);
+    check("one node that sticks resists it", support.find().n_free == 0 && !support.find().sliding);
+  }
+  {
+    RigidBodySupport support = one_cube();
+    touch(support, -z, Friction::slips, x);
+    touch(support, z, Friction::slips, -x);
+    const auto found = support.find();
+    check("between two that slide apart: bounded by the slip, and told",
+          found.n_free == 0 && found.sliding && std::abs(found.sliding->motion.translation * x) > 0.99);
+    touch(support, z, Friction::slips, x);
+    check("the same all one way but for one: bounded, too", support.find().n_free == 0);
+  }
+  {
+    RigidBodySupport support = one_cube();
+    touch(support, -z, Friction::slips, x);
+    touch(support, -x, Friction::none);
+    check("dragged by a wall that pushes: supported", support.find().n_free == 0);
+  }
+  {
+    RigidBodySupport support = one_cube();
+    for (const auto &corner : corners(-z))
+      support.add_unloaded_contact({corner, z, Friction::sticks, {}}, first, standing);
+    const auto found = support.find();
+    check("what rests without a force slides, turns and lifts off", found.n_free > 3);
+    for (const auto &corner : corners(z))
+      support.add_unloaded_contact({corner, -z, Friction::sticks, {}}, first, standing);
+    check("between two planes it slides and turns", support.find().n_free == 3);
+  }
+  {
+    RigidBodySupport support = one_cube();
+    touch(support, -z, Friction::none);
+    support.add_support(0, -x, x);
+    support.add_support(0, -x - y, y);
+    check("a support at a point leaves the turn about it", support.find().n_free == 1);
+    support.add_support(0, x, y);
+    check("two hold it", support.find().n_free == 0);
+  }
+  {
+    // A punch that a force drives down presses the cube on nothing, then on a table.
+    RigidBodySupport support = one_cube(1);
+    const RigidBodySupport::Side punch{{}, 0, -z};
+    touch(support, z, Friction::sticks, {}, first, punch);
+    check("a tool that a force drives holds nothing along it", support.find().n_free == 1);
+    touch(support, -z, Friction::none);
+    check("but on a table it does", support.find().n_free == 0);
+  }
+  {
+    RigidBodySupport support(MPI_COMM_WORLD, {{Tensor<1, 3>(), 2.}, {2. * z, 2.}}, 0);
+    touch(support, -z, Friction::sticks);
+    check("a second body without contact: its six", support.find().n_free == 6);
+    touch(support, z, Friction::none, {}, first, second);
+    check("on the first without friction: three", support.find().n_free == 3);
+    check("and it is the second", support.find().free->body == 1);
+    touch(support, z, Friction::sticks, {}, first, second);
+    check("with friction: none", support.find().n_free == 0);
+  }
+  {
+    RigidBodySupport support(MPI_COMM_WORLD, {{Tensor<1, 3>(), 2.}, {2. * z, 2.}}, 0);
+    touch(support, z, Friction::sticks, {}, first, second);
+    check("two that hold each other: six in common", support.find().n_free == 6);
+  }
+  return billet::testing::exit_code();
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Works of contact in a step: nodes that enter and leave, (Q2), the ramp, (Q3), against closed forms of a
+// spring; and the verdicts on steps, (Q4).
+#include "billet/solve/step_energy.h"
+#include "billet/contact/step_works.h"
+
+#include "../testing.h"
+
+#include <cmath>
+
+using billet::StepEnergy;
+using billet::StepWorks;
+using billet::testing::check;
+using Verdict = StepEnergy::Verdict;
+
+int main() {
+  constexpr double k = 7., tolerance = 1e-14;
+  // A spring that a wall meets after a way of 3 and presses by 0.5, and back: trapezoidal work plus what
+  // StepWorks add is what it stores.
+  {
+    const double depth = 0.5, way = 3.5, force = k * depth;
+    StepWorks works;
+    works.add(0., force, 0., depth, way, 0., 0.5);
+    check("entering", std::abs(0.5 * force * way + works.touching - 0.5 * k * depth * depth), tolerance);
+    works = {};
+    works.add(force, 0., depth, 0., -way, 0., 0.5);
+    check("leaving", std::abs(-0.5 * force * way + works.touching + 0.5 * k * depth * depth), tolerance);
+    works = {};
+    works.add(0., force, 0., depth, 0.1, 0., 0.5);
+    check("from elsewhere: nothing is left out", works.touching == 0.);
+    works = {};
+    works.add(force, 0., depth, 0., 40., 0., 0.5);
+    check("out on the other side: nothing is left out", works.touching == 0.);
+    works = {};
+    works.add(force, 2. * force, depth, 2. * depth, depth, 0., 0.5);
+    check("pressed on: nothing", works.touching == 0. && works.ramp == 0.);
+  }
+  // A ramp presses a spring by 0.2 between standing bodies, in two steps, the second twice as long.
+  {
+    StepWorks works;
+    const double first = 0.2 / 3., second = 0.2;
+    works.add(0., k * first, 0., first, first, first, 0.5);
+    works.add(k * first, k * second, first, second, second - first, second - first, 0.5);
+    check("ramp", std::abs(works.ramp - 0.5 * k * second * second) + std::abs(works.touching), tolerance);
+  }
+  StepEnergy energy;
+  check("small beside all work", energy.judge(1., 0.1, {0.9, 1., 10.}, 0.) == Verdict::balanced);
+  check("small beside the step's", energy.judge(1., 0.1, {2., 10., 0.}, 0.) == Verdict::balanced);
+  check("below the floor", energy.judge(1., 0.1, {1., 1., 0.}, 2.) == Verdict::balanced);
+  check("out of balance", energy.judge(1., 0.1, {-1., 1., 1.}, 0.) == Verdict::rejected);
+  check("and cut", energy.judge(1., 0.1 / 16., {-1., 1., 1.}, 0.) == Verdict::rejected);
+  check("a jump", energy.judge(1., 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::jump);
+  check("the next step begins anew", energy.judge(1.1, 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::rejected);
+  check("nothing from nothing", energy.judge(2., 0.1, {0., 0., 0.}, 0.) == Verdict::balanced);
+  return billet::testing::exit_code();
+}
