@@ -153,8 +153,8 @@ void Progress::reject(const StepReport &report, const double from, const double 
     show_iterations(report.newton);
   stream_ << report.newton.note;
   stream_ << "       step from " << std::setprecision(6) << from << " to " << to << " failed ("
-          << report.newton.failure << ", residual " << std::setprecision(2) << report.newton.force << ")"
-          << std::endl;
+          << report.newton.failure << (report.newton.criteria.empty() ? "" : "; ") << report.newton.criteria
+          << ")" << std::endl;
 }
 
 void Progress::show_iterations(const NewtonReport &newton) {

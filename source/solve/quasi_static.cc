@@ -242,6 +242,7 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
     if (values.MyLength() + static_cast<int>(k) < residual.MyLength()) // on the rank that has it
       residual[values.MyLength() + static_cast<int>(k)] = excess;
   }
+  status_changes_ = find_status_changes();
   const bool is_finite = std::isfinite(force_scale_);
   force_scale_ = std::max(force_scale_, lasting_scale_);
   return is_finite;
@@ -249,7 +250,30 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
 
 bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
   set_trial(x);
-  return assemble_tangent({supports_.homogeneous(), matrix_});
+  const bool success = assemble_tangent({supports_.homogeneous(), matrix_});
+  linearised_ = slave_forces();
+  return success;
+}
+
+std::vector<std::vector<SlaveForce>> QuasiStatic::slave_forces() const {
+  std::vector<std::vector<SlaveForce>> forces;
+  for (const auto &contact : contacts_)
+    forces.push_back(contact.slave_forces());
+  for (const auto &contact : body_contacts_)
+    forces.push_back(contact->slave_forces());
+  return forces;
+}
+
+StatusChanges QuasiStatic::find_status_changes() const {
+  StatusChanges changes;
+  if (linearised_.empty()) // nothing can touch, or there has been no tangent
+    return changes;
+  const std::vector<std::vector<SlaveForce>> now = slave_forces();
+  for (std::size_t i = 0; i < now.size(); ++i)
+    changes.add(linearised_[i], now[i]);
+  std::vector<double> sums{changes.n, changes.force, changes.contact_force};
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  return {sums[0], sums[1], sums[2]};
 }
 
 NodalGeometry QuasiStatic::nodal_geometry() const {
@@ -460,11 +484,14 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     throw SolutionFailure(body_failure_);
   std::string softened;
   choose_contact_damping();
+  // What stalls with stiff penalties may converge by way of softer ones.
+  accepts_stalled_ = !has_stiff_contacts();
   NewtonReport report = attempt_step(t, previous_step);
   if (report.makes_energy) { // once more, so that it does not
     damp_contact();
     report.append_anew(attempt_step(t, previous_step));
   }
+  bool may_accept_stalled = report.is_stalled;
   if (!report.converged && !(softened = soften_augmented_contacts()).empty())
     report.append_anew(attempt_step(t, previous_step));
   if (!report.converged && !report.is_explained && !report.iterations.empty() && has_stiff_contacts()) {
@@ -473,6 +500,11 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     is_led_by_softer_ = false;
     if (report.converged)
       softened += tell_softer_penalties();
+    may_accept_stalled = may_accept_stalled || report.is_stalled;
+  }
+  if (!report.converged && !report.is_explained && may_accept_stalled && !accepts_stalled_) {
+    accepts_stalled_ = true;
+    report.append_anew(attempt_step(t, previous_step));
   }
   measures_penetration_ = false; // what is tried next may be no step to measure it in
   if (!report.converged) {
@@ -490,7 +522,9 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   report.linear_iterations = linear_->take_iterations();
   report.note = softened + linear_->take_note();
   if (report.converged)
-    report.note += watch_penalties() + tell_round_off(report.force);
+    report.note += watch_penalties() + (report.is_stalled ? "" : tell_round_off(report.force));
+  if (report.converged && report.is_stalled)
+    report.diagnostics.push_back(describe_stall(report));
   return report;
 }
 
@@ -584,10 +618,11 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
   parameters::Solver settings = scene_.parameters().solver;
   settings.force_tolerance *= accuracy_;
   settings.energy_tolerance *= accuracy_;
+  settings.displacement_tolerance *= accuracy_;
   constexpr unsigned int most_for_a_measurement = 8; // what it tells is not worth more
   if (is_probing_)
     settings.most_iterations = std::min(settings.most_iterations, most_for_a_measurement);
-  NewtonReport report = solve_newton(*this, settings, x_n, x);
+  NewtonReport report = solve_newton(*this, settings, x_n, x, accepts_stalled_);
   if (!tool_failure_.empty() && !report.converged)
     report.failure = tool_failure_;
   set_trial(x);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What users should know: penalties that are too soft for what presses, or too stiff for sixteen digits, and
 // where a step failed.
+#include "billet/diagnostic_kinds.h"
 #include "billet/solve/quasi_static.h"
 
 #include <Epetra_Vector.h>
@@ -43,7 +44,7 @@ std::string QuasiStatic::watch_penalties() {
   if (!has_told_stiff_ && force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
     note << "Round-off leaves " << contact_round_off_force() / force_scale_
          << " of the forces, more than 'Force tolerance' = " << tolerance
-         << " asks for, and is accepted up to " << most_round_off
+         << " asks for, and is accepted up to " << max_stalled_residual
          << ": try a softer penalty, with a 'Penetration tolerance' where that is "
             "too soft, or bodies nearer to the origin\n";
     has_told_stiff_ = true;
@@ -76,11 +77,24 @@ std::string QuasiStatic::stiffest_pairs() const {
 std::string QuasiStatic::describe_round_off(const double part) const {
   std::ostringstream text;
   text.precision(2);
-  text << "round-off leaves " << part << " of the forces, allowed is " << most_round_off
+  text << "round-off leaves " << part << " of the forces, allowed is " << max_stalled_residual
        << ": the penalty of contact pair " << stiffest_pairs()
        << " is too stiff for such small displacements and sixteen digits. Try a softer penalty, with a "
           "'Penetration tolerance' where that is too soft, or bodies nearer to the origin";
   return text.str();
+}
+
+Diagnostic QuasiStatic::describe_stall(const NewtonReport &report) const {
+  Diagnostic diagnostic(
+      diagnostic::stalled_step,
+      "A step was accepted although Newton's method no longer came nearer to equilibrium: " +
+          report.criteria);
+  return diagnostic.time(time_)
+      .measure("residual", report.measures.force)
+      .value("energy", report.measures.energy)
+      .value("correction", report.measures.correction)
+      .value("status changes", report.measures.n_status_changes)
+      .value("force of status changes", report.measures.status);
 }
 
 std::string QuasiStatic::tell_round_off(const double part) {

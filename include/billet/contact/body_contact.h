@@ -94,6 +94,8 @@ public:
   /// By friction in this step, of this rank [energy].
   double local_dissipation() const { return contact_->local_dissipation(); }
 
+  /// As RigidContact's.
+  std::vector<SlaveForce> slave_forces() const { return contact_->slave_forces(); }
   /// Of this rank's nodes that are slaves.
   std::vector<ContactNodeReport> report() const;
   std::size_t history_size() const { return contact_->history_size(); }

@@ -7,6 +7,7 @@
 #include "billet/contact/facet_overlaps.h"
 #include "billet/contact/facet_sharing.h"
 #include "billet/contact/slave_traction.h"
+#include "billet/contact/status_changes.h"
 #include "billet/contact/surface_exchange.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/state.h"
@@ -204,6 +205,9 @@ public:
         visit(positions_[slaves_[s].node], states_[s].contact.normal, slaves_[s].surface,
               search_.facets()[states_[s].touched.facet].surface);
   }
+
+  /// Returns the status of each slave of this rank and its traction times its area, after add_forces().
+  std::vector<SlaveForce> slave_forces() const;
 
   /// State of a slave node, for output.
   struct NodeReport {

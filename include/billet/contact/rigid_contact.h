@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_RIGID_CONTACT_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/contact/status_changes.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
@@ -166,6 +167,9 @@ public:
 
   /// Of every node at a facet of this rank; `area` is this rank's share.
   std::vector<ContactNodeReport> report() const;
+
+  /// Returns the status of each node at a facet of this rank and the force that it takes, after update().
+  std::vector<SlaveForce> slave_forces() const;
 
   /// Doubles of history on this rank.
   std::size_t history_size() const;
