@@ -21,12 +21,15 @@ from .scenes import make, nudged
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Said in the log of a run that comes to its end: what it makes doubtful, which is all but these.
-DOUBT = re.compile(r"^.*(the energies fail to balance by|its law is no longer stable|hourglass control has)\b.*$", re.MULTILINE)
+DOUBT = re.compile(r"^.*(the energies fail to balance by|stalled-step|its law is no longer stable|hourglass control has)\b.*$", re.MULTILINE)
 # What the log says that rounding leaves of the forces: as much of them need not balance.
 ROUND_OFF = re.compile(r"^Round-off leaves (\S+) of the forces", re.MULTILINE)
+# So a step that was accepted where its residual no longer fell.
+STALLED = re.compile(r"^warning\[stalled-step\]", re.MULTILINE)
 SOFT = re.compile(r"^Contact pair .* lets nodes .* deep.*: its penalty is soft", re.MULTILINE)
 DEEP = 0.1  # facet sizes
 BALANCES = ("residual of steps", "patch test", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
+STALLED_AT_MOST = 2.01e-2  # the program's limit
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
 JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")  # what outcomes depend on beside the program
 FORGETS = 10.0  # a symmetry may be off by as many times what a nudge makes of the motion
@@ -132,7 +135,7 @@ class Runner:
             found += invariants.believed(result, other) if case.count == "believed" else invariants.same(result, other, case.loose, case.count)
         log = (work / "stdout").read_text(errors="replace")
         # It is told once; later steps may leave more.
-        rounded = ROUND_OFF_AT_MOST if ROUND_OFF.search(log) else 0.0
+        rounded = STALLED_AT_MOST if STALLED.search(log) else ROUND_OFF_AT_MOST if ROUND_OFF.search(log) else 0.0
         found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f for f in found]
         numbers = {}
         if any(f.name in invariants.SYMMETRIES and not f.holds for f in found):
