@@ -26,7 +26,8 @@ inline parameters::Scene for_comparison(parameters::Scene scene) {
 class SceneRun {
 public:
   explicit SceneRun(const parameters::Scene &parameters)
-      : scene(for_comparison(parameters)), discretization(scene, MPI_COMM_WORLD), problem(scene, discretization),
+      : scene(for_comparison(parameters)), discretization(scene, MPI_COMM_WORLD),
+        problem(scene, discretization),
         control(parameters.time_stepping, parameters.output.interval, scene.stops()) {}
 
   /// One accepted step, with cuts if need be. Throws where that is impossible.
