@@ -190,8 +190,8 @@ std::string explain_failure(const parameters::Scene &parameters, const StepRepor
            << "'.";
   if (report.newton.is_lost_in_round_off || report.newton.is_explained)
     return message.str() + computed.str();
-  message << "; residual " << report.newton.force << " of the forces, allowed is "
-          << parameters.solver.force_tolerance << ". " << describe_limit_load(parameters);
+  message << (report.newton.criteria.empty() ? "" : "; ") << report.newton.criteria << ". "
+          << describe_limit_load(parameters);
   const bool goes_round = report.newton.goes_round && !parameters.pairs.empty();
   if (goes_round)
     message << "Nodes that touch and let go by turns, or stick and slip, do that: where a body snaps, or "

@@ -221,6 +221,12 @@ inline const DiagnosticKind exact_tangent(
     "exact-tangent", Severity::note,
     "Newton's method failed with the chosen 'Contact tangent'; the exact one is used from here on.", "");
 
+inline const DiagnosticKind stalled_step(
+    "stalled-step", Severity::warning,
+    "Newton's method could not reach its tolerances in a step, because of round-off or contact chatter. The "
+    "step was accepted with a residual of at most 2 % of the forces.",
+    "Compare the forces with those of a run with a smaller 'Largest step' or a lower 'Normal penalty'");
+
 inline const DiagnosticKind
     direct_solver("direct-solver", Severity::note,
                   "The iterative linear solver failed; a direct solver replaces it whenever that happens.",

@@ -746,6 +746,14 @@ double FacetContact::augmentation_error() const {
   return worst;
 }
 
+std::vector<SlaveForce> FacetContact::slave_forces() const {
+  std::vector<SlaveForce> result(slaves_.size());
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    if (states_[s].presses())
+      result[s] = {states_[s].traction.status, states_[s].own_area * states_[s].traction.traction};
+  return result;
+}
+
 std::vector<FacetContact::NodeReport> FacetContact::report() const {
   std::vector<NodeReport> reports(exchange_.n_own_nodes());
   for (std::size_t s = 0; s < slaves_.size(); ++s) {

@@ -452,6 +452,15 @@ template <class Add> void RigidContact::for_each_near(const Add &add) const {
   }
 }
 
+std::vector<SlaveForce> RigidContact::slave_forces() const {
+  std::vector<SlaveForce> result(states_.size());
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    result[i].status = states_[i].status;
+  for_each_area(
+      [&](const unsigned int i, const double area) { result[i].force += area * states_[i].traction; });
+  return result;
+}
+
 void RigidContact::add_forces(Vector &residual) const {
   for_each_area([&](const unsigned int i, const double area) {
     std::array<double, 3> values{};

@@ -130,8 +130,8 @@ void Progress::reject(const StepReport &report, const double from, const double 
   if (verbosity_ == Verbosity::iterations)
     show_iterations(report.newton);
   stream_ << "       step from " << std::setprecision(6) << from << " to " << to << " failed ("
-          << report.newton.failure << ", residual " << std::setprecision(2) << report.newton.force << ")"
-          << std::endl;
+          << report.newton.failure << (report.newton.criteria.empty() ? "" : "; ") << report.newton.criteria
+          << ")" << std::endl;
 }
 
 void Progress::show_iterations(const NewtonReport &newton) {

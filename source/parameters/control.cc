@@ -253,11 +253,19 @@ void Solver::declare(ParameterHandler &prm) {
                     "without any of them nothing but automatic is allowed. automatic: its symmetric part "
                     "where the matrix is symmetric otherwise, else "
                     "exact.");
-  prm.declare_entry("Force tolerance", "1e-6", Patterns::Double(),
-                    "Newton ends when the residual is below this part of the forces in the scene.");
-  prm.declare_entry("Energy tolerance", "1e-10", Patterns::Double(),
-                    "... and the work of the residual in the last correction is below this part of the "
-                    "forces' work in the step.");
+  prm.declare_entry(
+      "Force tolerance", "5e-3", Patterns::Double(),
+      "A step converges when the norm of the residual, over all nodes, is at most this part of the norm of "
+      "the nodal forces. In the last iteration, nodes that change their contact status may carry at most "
+      "this part of the contact force. For comparisons to many digits use 1e-6 or less.");
+  prm.declare_entry(
+      "Energy tolerance", "5e-5", Patterns::Double(),
+      "A step converges when the work of the residual along the last correction is at most this part of the "
+      "norm of the nodal forces times that of the step's displacements. For comparisons use 1e-10 or less.");
+  prm.declare_entry(
+      "Displacement tolerance", "1e-2", Patterns::Double(),
+      "A step converges when the last correction moves no node by more than this part of the largest "
+      "displacement in the step. A residual below 5e-6 of the forces needs no such check.");
   prm.declare_entry("Most iterations", "60", Patterns::Integer(0),
                     "A step that needs more has failed; it is given up earlier if at its pace it would.");
   prm.declare_entry("Most augmentations", "20", Patterns::Integer(0),
@@ -298,6 +306,7 @@ void Solver::parse(Reader &reader) {
   if (force_tolerance >= 1.)
     reader.reject("Force tolerance", "a number > 0 and < 1");
   energy_tolerance = reader.positive("Energy tolerance");
+  displacement_tolerance = reader.positive("Displacement tolerance");
   most_iterations = reader.count("Most iterations", 1);
   most_augmentations = reader.count("Most augmentations", 1);
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;

@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <vector>
 
 namespace billet {
@@ -71,6 +73,7 @@ public:
     if (!has_f_) {
       has_f_ = problem_->compute_residual(x_->getEpetraVector(), f_->getEpetraVector());
       scale_ = problem_->force_scale();
+      status_changes_ = problem_->status_changes();
     }
     return has_f_ ? NOX::Abstract::Group::Ok : NOX::Abstract::Group::Failed;
   }
@@ -112,6 +115,7 @@ public:
   double max_step_length(const NOX::Abstract::Vector &direction) const {
     return problem_->max_step_length(x_->getEpetraVector(), epetra(direction));
   }
+  const StatusChanges &status_changes() const { return status_changes_; }
 
 private:
   void copy_flags(const Group &other) {
@@ -119,12 +123,14 @@ private:
     has_tangent_ = other.has_tangent_;
     has_newton_ = other.has_newton_;
     scale_ = other.scale_;
+    status_changes_ = other.status_changes_;
   }
 
   NonlinearProblem *problem_;
   double force_tolerance_;
   RCP<NOX::Epetra::Vector> x_, f_, newton_;
   double scale_ = 0.;
+  StatusChanges status_changes_;
   bool has_f_ = false, has_tangent_ = false, has_newton_ = false;
 };
 
@@ -225,12 +231,13 @@ private:
   bool by_energy_;
 };
 
-/// Force and energy tolerance, and the limit on iterations; keeps the record of the iterations.
+/// The four criteria (M11), and the limit on iterations; keeps the record of the iterations.
 class Convergence final : public NOX::StatusTest::Generic {
 public:
   Convergence(const NonlinearProblem &problem, const parameters::Solver &settings, const Epetra_Vector &x_n,
-              NewtonReport &report)
-      : problem_(problem), settings_(settings), x_n_(x_n), report_(report) {}
+              const bool accepts_stalled, NewtonReport &report)
+      : problem_(problem), settings_(settings), x_n_(x_n), accepts_stalled_(accepts_stalled),
+        report_(report) {}
 
   NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic &solver,
                                           NOX::StatusTest::CheckType) override {
@@ -238,25 +245,8 @@ public:
     const auto n = static_cast<unsigned int>(solver.getNumIterations());
     const double norm = group.getNormF();
     const double scale = group.scale();
-    report_.force = scale > 0. ? norm / scale : 0.;
-    double residual_work = 0.;
-    if (n > 0) {
-      const auto &before = dynamic_cast<const Group &>(solver.getPreviousSolutionGroup());
-      Epetra_Vector correction(epetra(group.getX()));
-      correction.Update(-1., epetra(before.getX()), 1.);
-      epetra(group.getF()).Dot(correction, &residual_work);
-      double length = 0., full_length = 0.;
-      correction.Norm2(&length);
-      epetra(before.getNewton()).Norm2(&full_length);
-      const double before_scale = before.scale();
-      report_.iterations.push_back({before_scale > 0. ? before.getNormF() / before_scale : 0.,
-                                    std::abs(dot(before.getF(), before.getNewton())),
-                                    full_length > 0. ? length / full_length : 1.});
-    }
-    Epetra_Vector increment(epetra(group.getX()));
-    increment.Update(-1., x_n_, 1.);
-    double increment_norm = 0.;
-    increment.Norm2(&increment_norm);
+    const double residual_work = measure(solver, group, n);
+    const ConvergenceMeasures &measures = report_.measures;
 
     // But for what contact's round-off leaves.
     const bool stagnates = n > 0 && norm > slow_ * last_norm_;
@@ -264,11 +254,16 @@ public:
     const auto is_small = [&](const double contact_round_off) {
       // All that round-off may leave only where iterations no longer help.
       const double round_off = (stagnates ? 1. : certain_) * problem_.round_off_force() + contact_round_off;
-      return norm <= settings_.force_tolerance * scale + round_off &&
+      const bool is_exact = norm <= exact_residual * scale + round_off;
+      const bool has_settled = measures.has_correction &&
+                               measures.correction <= settings_.displacement_tolerance &&
+                               measures.status <= settings_.force_tolerance;
+      return norm <= settings_.force_tolerance * scale + round_off && (is_exact || has_settled) &&
              (n == 0 ||
-              std::abs(residual_work) <= (settings_.energy_tolerance * scale + round_off) * increment_norm);
+              std::abs(residual_work) <= (settings_.energy_tolerance * scale + round_off) * increment_);
     };
     const double contact = problem_.contact_round_off_force(), cap = most_round_off * scale;
+    const bool is_near = norm <= max_stalled_residual * scale;
     status_ = NOX::StatusTest::Unconverged;
     if (!std::isfinite(norm)) {
       report_.failure = "the residual is not a number";
@@ -276,16 +271,24 @@ public:
     } else if (is_small(std::min(contact, cap))) {
       status_ = NOX::StatusTest::Converged;
     } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > most_in_round_off_) {
-      report_.is_lost_in_round_off = true;
+      report_.is_stalled = is_near;
+      report_.is_lost_in_round_off = !is_near;
       status_ = NOX::StatusTest::Converged;
+    } else if (has_stalled(n) && is_near && measures.correction <= max_stalled_correction) {
+      report_.is_stalled = true;
+      status_ = accepts_stalled_ ? NOX::StatusTest::Converged : NOX::StatusTest::Failed;
+      if (!accepts_stalled_)
+        report_.failure = "after " + std::to_string(n) + " iterations the residual no longer falls";
     } else if (n >= settings_.most_iterations) {
       report_.failure = "no convergence in " + std::to_string(n) + " iterations";
       status_ = NOX::StatusTest::Failed;
-    } else if (is_hopeless(n)) {
+    } else if (is_hopeless(n) && !may_still_settle(n)) {
       report_.failure = "given up after " + std::to_string(n) + " iterations, since at their pace " +
                         std::to_string(settings_.most_iterations) + " will not do";
       status_ = NOX::StatusTest::Failed;
     }
+    if (report_.is_stalled || status_ == NOX::StatusTest::Failed)
+      report_.criteria = measures.describe(settings_);
     if (status_ == NOX::StatusTest::Failed && std::isfinite(norm) && go_round(report_.iterations)) {
       report_.goes_round = true;
       report_.failure = "after " + std::to_string(n) +
@@ -295,7 +298,8 @@ public:
     constexpr double by_much = 10.;
     largest_round_off_ = std::max(largest_round_off_, contact); // nodes may just have let go
     if (status_ == NOX::StatusTest::Failed)
-      report_.is_lost_in_round_off = largest_round_off_ > cap && norm <= by_much * largest_round_off_;
+      report_.is_lost_in_round_off =
+          !report_.is_stalled && largest_round_off_ > cap && norm <= by_much * largest_round_off_;
     return status_;
   }
   NOX::StatusTest::StatusType getStatus() const override { return status_; }
@@ -304,10 +308,62 @@ public:
   bool has_met_round_off() const { return n_in_round_off_ > 0; }
 
 private:
+  /// Sets the report's measures, and appends the iteration that led here. Returns R · δu.
+  double measure(const NOX::Solver::Generic &solver, const Group &group, const unsigned int n) {
+    const double norm = group.getNormF(), scale = group.scale();
+    ConvergenceMeasures &measures = report_.measures;
+    measures = {};
+    measures.force = report_.force = scale > 0. ? norm / scale : 0.;
+    const Epetra_Vector &x = epetra(group.getX());
+    Epetra_Vector increment(x);
+    increment.Update(-1., x_n_, 1.);
+    increment.Norm2(&increment_);
+    if (n == 0)
+      return 0.;
+    const auto &before = dynamic_cast<const Group &>(solver.getPreviousSolutionGroup());
+    const Epetra_Vector &newton = epetra(before.getNewton());
+    Epetra_Vector correction(x);
+    correction.Update(-1., epetra(before.getX()), 1.);
+    double residual_work = 0., length = 0., full_length = 0.;
+    epetra(group.getF()).Dot(correction, &residual_work);
+    correction.Norm2(&length);
+    newton.Norm2(&full_length);
+    const double before_scale = before.scale();
+    report_.iterations.push_back({before_scale > 0. ? before.getNormF() / before_scale : 0.,
+                                  std::abs(dot(before.getF(), before.getNewton())),
+                                  full_length > 0. ? length / full_length : 1.});
+    // Of a correction that was shortened, all counts: its length says nothing about how far there is to go.
+    double largest_correction = 0., largest_increment = 0., largest_displacement = 0.;
+    newton.NormInf(&largest_correction);
+    increment.NormInf(&largest_increment);
+    x.NormInf(&largest_displacement);
+    largest_increment = std::max(largest_increment, least_increment_ * largest_displacement);
+    measures.has_correction = true;
+    measures.correction = largest_increment > 0. ? largest_correction / largest_increment : 0.;
+    measures.energy = scale * increment_ > 0. ? std::abs(residual_work) / (scale * increment_) : 0.;
+    measures.status = group.status_changes().part();
+    measures.n_status_changes = group.status_changes().n;
+    return residual_work;
+  }
+  /// Whether the residual no longer falls.
+  bool has_stalled(const unsigned int n) const {
+    const bool is_last = n >= settings_.most_iterations;
+    return (n >= 2 * window_ && is_stagnant(report_.iterations, report_.force, window_)) ||
+           (is_last && n >= window_ && is_stagnant(report_.iterations, report_.force, window_ / 2));
+  }
+  /// Whether the residual has stalled, and comes near enough to balance now and then.
+  bool may_still_settle(const unsigned int n) const {
+    if (n >= 3 * window_ || !has_stalled(n))
+      return false;
+    for (unsigned int back = 1; back < window_; ++back)
+      if (report_.iterations[n - back].force <= max_stalled_residual)
+        return true;
+    return false;
+  }
   /// Whether, at the mean pace of the last iterations, the residual would miss its tolerance in those that
   /// are left.
   bool is_hopeless(const unsigned int n) const {
-    constexpr unsigned int window = 10;
+    constexpr unsigned int window = window_;
     if (n < 2 * window)
       return false;
     const double before = report_.iterations[n - window].force;
@@ -319,11 +375,15 @@ private:
   const NonlinearProblem &problem_;
   const parameters::Solver &settings_;
   const Epetra_Vector &x_n_;
+  const bool accepts_stalled_;
   NewtonReport &report_;
+  static constexpr unsigned int window_ = 10; // of iterations, to see whether they get nearer
+  // Of the largest displacement: smaller increments, as of a scene at rest, are no measure of corrections.
+  static constexpr double least_increment_ = 1e-3;
   static constexpr unsigned int most_in_round_off_ = 3; // tries to come out of it
   static constexpr double slow_ = 0.1;                  // of the last residual
   static constexpr double certain_ = 0.01;              // of the estimate of round-off: its last bit
-  double last_norm_ = 0.;
+  double last_norm_ = 0., increment_ = 0.;              // |Δu|
   unsigned int n_in_round_off_ = 0;
   double largest_round_off_ = 0.;
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
@@ -362,6 +422,39 @@ RCP<Teuchos::ParameterList> make_options(const parameters::Solver &settings) {
 
 } // namespace
 
+std::string ConvergenceMeasures::describe(const parameters::Solver &tolerances) const {
+  std::ostringstream text;
+  text.precision(2);
+  const auto add = [&](const char *what, const double value, const char *of_what, const double tolerance) {
+    if (value > tolerance)
+      text << (text.tellp() > 0 ? ", " : "") << what << value << of_what << " (tolerance " << tolerance
+           << ")";
+  };
+  text << "residual " << force << " of the forces (tolerance " << tolerances.force_tolerance << ")";
+  if (!has_correction)
+    return text.str();
+  add("energy ", energy, " of the step's work", tolerances.energy_tolerance);
+  add("correction ", correction, " of the step's increment", tolerances.displacement_tolerance);
+  if (n_status_changes > 0.)
+    text << ", " << n_status_changes << (n_status_changes == 1. ? " change" : " changes")
+         << " of contact status with " << status << " of the contact force (tolerance "
+         << tolerances.force_tolerance << ")";
+  return text.str();
+}
+
+bool is_stagnant(const std::vector<NewtonIteration> &iterations, const double last_force,
+                 const std::size_t window) {
+  constexpr double hardly_better = 0.7;
+  if (iterations.size() < 2 * window)
+    return false;
+  double before = std::numeric_limits<double>::infinity(), now = last_force;
+  for (std::size_t i = 0; i < iterations.size(); ++i) {
+    double &best = i + window <= iterations.size() ? before : now;
+    best = std::min(best, iterations[i].force);
+  }
+  return now > hardly_better * before;
+}
+
 bool go_round(const std::vector<NewtonIteration> &iterations) {
   constexpr std::size_t longest = 4, window = 2 * longest;
   constexpr double alike = 0.02, apart = 0.2;
@@ -383,14 +476,14 @@ bool go_round(const std::vector<NewtonIteration> &iterations) {
 }
 
 NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings,
-                          const Epetra_Vector &x_n, Epetra_Vector &x) {
+                          const Epetra_Vector &x_n, Epetra_Vector &x, const bool accepts_stalled) {
   NewtonReport report;
   const RCP<Group> group = rcp(new Group(problem, settings.force_tolerance, x));
   if (group->computeF() != NOX::Abstract::Group::Ok) {
     report.failure = "the step's first guess is not admissible (det F <= 0 or not a number)";
     return report;
   }
-  const RCP<Convergence> convergence = rcp(new Convergence(problem, settings, x_n, report));
+  const RCP<Convergence> convergence = rcp(new Convergence(problem, settings, x_n, accepts_stalled, report));
   try {
     const auto solver = NOX::Solver::buildSolver(group, convergence, make_options(settings));
     auto status = solver->getStatus();

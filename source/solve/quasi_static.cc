@@ -246,6 +246,7 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
     if (values.MyLength() + static_cast<int>(k) < residual.MyLength()) // on the rank that has it
       residual[values.MyLength() + static_cast<int>(k)] = excess;
   }
+  status_changes_ = find_status_changes();
   const bool is_finite = std::isfinite(force_scale_);
   force_scale_ = std::max(force_scale_, lasting_scale_);
   return is_finite;
@@ -253,7 +254,30 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
 
 bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
   set_trial(x);
-  return assemble_tangent({supports_.homogeneous(), matrix_});
+  const bool success = assemble_tangent({supports_.homogeneous(), matrix_});
+  linearised_ = slave_forces();
+  return success;
+}
+
+std::vector<std::vector<SlaveForce>> QuasiStatic::slave_forces() const {
+  std::vector<std::vector<SlaveForce>> forces;
+  for (const auto &contact : contacts_)
+    forces.push_back(contact.slave_forces());
+  for (const auto &contact : body_contacts_)
+    forces.push_back(contact->slave_forces());
+  return forces;
+}
+
+StatusChanges QuasiStatic::find_status_changes() const {
+  StatusChanges changes;
+  if (linearised_.empty()) // nothing can touch, or there has been no tangent
+    return changes;
+  const std::vector<std::vector<SlaveForce>> now = slave_forces();
+  for (std::size_t i = 0; i < now.size(); ++i)
+    changes.add(linearised_[i], now[i]);
+  std::vector<double> sums{changes.n, changes.force, changes.contact_force};
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  return {sums[0], sums[1], sums[2]};
 }
 
 NodalGeometry QuasiStatic::nodal_geometry() const {
@@ -467,6 +491,8 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     throw SolutionFailure(body_failure_);
   DiagnosticList messages;
   choose_contact_damping();
+  // What stalls with stiff penalties may converge by way of softer ones.
+  accepts_stalled_ = !has_stiff_contacts();
   NewtonReport report = attempt_step(t, previous_step);
   constexpr unsigned int max_raises = 6; // each by 2 at least, by less than 100 in all
   for (unsigned int n = 0; report.penetrates && n < max_raises; ++n) {
@@ -477,6 +503,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     damp_contact();
     report.append_anew(attempt_step(t, previous_step));
   }
+  bool may_accept_stalled = report.is_stalled;
   if (!report.converged && !(messages = soften_augmented_contacts()).empty())
     report.append_anew(attempt_step(t, previous_step));
   if (!report.converged && !report.is_explained && !report.iterations.empty() && has_stiff_contacts()) {
@@ -485,6 +512,11 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     is_led_by_softer_ = false;
     if (report.converged)
       messages.push_back(needs_softer_penalties());
+    may_accept_stalled = may_accept_stalled || report.is_stalled;
+  }
+  if (!report.converged && !report.is_explained && may_accept_stalled && !accepts_stalled_) {
+    accepts_stalled_ = true;
+    report.append_anew(attempt_step(t, previous_step));
   }
   measures_penetration_ = false; // what is tried next may be no step to measure it in
   if (!report.converged) {
@@ -504,7 +536,10 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   append(report.diagnostics, linear_->take_diagnostics());
   if (report.converged) {
     append(report.diagnostics, check_penalties());
-    append(report.diagnostics, check_round_off(report.force));
+    if (report.is_stalled)
+      report.diagnostics.push_back(describe_stall(report));
+    else
+      append(report.diagnostics, check_round_off(report.force));
     append(report.diagnostics, contact_losses_.watch(largest_energy_, state_.time));
   }
   return report;
@@ -614,10 +649,11 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
   parameters::Solver settings = scene_.parameters().solver;
   settings.force_tolerance *= accuracy_;
   settings.energy_tolerance *= accuracy_;
+  settings.displacement_tolerance *= accuracy_;
   constexpr unsigned int most_for_a_measurement = 8; // what it tells is not worth more
   if (is_probing_)
     settings.most_iterations = std::min(settings.most_iterations, most_for_a_measurement);
-  NewtonReport report = solve_newton(*this, settings, x_n, x);
+  NewtonReport report = solve_newton(*this, settings, x_n, x, accepts_stalled_);
   if (!tool_failure_.empty() && !report.converged)
     report.failure = tool_failure_;
   else if (!path_failure_.empty() && !report.converged && report.failure.empty())

@@ -42,7 +42,7 @@ DiagnosticList QuasiStatic::check_penalties() {
     std::ostringstream text;
     text.precision(2);
     text << "Round-off of contact's penalties leaves " << part << " of the forces, 'Force tolerance' is "
-         << tolerance << "; up to " << most_round_off << " is accepted";
+         << tolerance << "; up to " << max_stalled_residual << " is accepted";
     messages.push_back(Diagnostic(diagnostic::round_off_limits_forces, text.str())
                            .time(time_)
                            .measure("part of the forces", part));
@@ -68,11 +68,24 @@ std::string QuasiStatic::stiffest_pairs() const {
 std::string QuasiStatic::describe_round_off(const double part) const {
   std::ostringstream text;
   text.precision(2);
-  text << "round-off leaves " << part << " of the forces, allowed is " << most_round_off
+  text << "round-off leaves " << part << " of the forces, allowed is " << max_stalled_residual
        << ": the penalty of contact pair " << stiffest_pairs()
        << " is too stiff for such small displacements and sixteen digits. Try a softer penalty, with a "
           "'Penetration tolerance' where that is too soft, or bodies nearer to the origin";
   return text.str();
+}
+
+Diagnostic QuasiStatic::describe_stall(const NewtonReport &report) const {
+  Diagnostic diagnostic(
+      diagnostic::stalled_step,
+      "A step was accepted although Newton's method no longer came nearer to equilibrium: " +
+          report.criteria);
+  return diagnostic.time(time_)
+      .measure("residual", report.measures.force)
+      .value("energy", report.measures.energy)
+      .value("correction", report.measures.correction)
+      .value("status changes", report.measures.n_status_changes)
+      .value("force of status changes", report.measures.status);
 }
 
 DiagnosticList QuasiStatic::check_round_off(const double part) const {

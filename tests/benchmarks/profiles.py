@@ -16,7 +16,7 @@ PROFILED = {
     "Time stepping": ("Initial step", "Smallest step", "Largest step", "Error tolerance", "Few iterations", "Many iterations",
                       "Growth factor"),
     "Implicit dynamics": ("Error tolerance",),
-    "Solver": ("Force tolerance", "Energy tolerance", "Linear tolerance"),
+    "Solver": ("Force tolerance", "Energy tolerance", "Displacement tolerance", "Linear tolerance"),
     "Contact pairs": ("Penetration tolerance",),
     "Explicit dynamics": ("Contact resolution", "Safety factor"),
     "Bodies": ("Element", "Kinematics"),

@@ -90,7 +90,7 @@ my %every = (block => 'set Every steps = 1', impact => 'set Interval = 0.1e-3', 
   drop => 'set Every steps = 1', edge => 'set Interval = 20e-6');
 # With a target error, what was measured so far goes on, too.
 my %extra = (block => '', edge => '', impact => ' & Output: Interval = 0.1e-3', drop => ' & Target error = 1 % & Time stepping: End time = 0.1e-3 & + subsection Solver\n set Force tolerance = 1e-10\nend',
-  aimed => ' & Target error = 1 % & Time stepping: - Initial step & Time stepping: - Largest step');
+  aimed => ' & Target error = 1 % & Time stepping: - Initial step & Time stepping: - Largest step & Solver: - Force tolerance & Solver: - Energy tolerance');
 for my $which ('block', 'impact', 'aimed', 'drop', 'edge')
 {
   for my $ranks (1, @launcher ? 2 : ())
@@ -208,7 +208,7 @@ check 'quasi-static, then explicit, into the same folder', sub {
   runs(0, on(1, 'first.prm'));
   my ($last) = reverse sort glob 'both/checkpoint_*.h5';
   scene('then.prm', $block, 'Output: Folder = both & Output: Every steps = 0 & Material: Density = 1e-6 & Solver: delete'
-      . ' & Time stepping: Scheme = explicit & Time stepping: - Initial step & Time stepping: - Largest step'
+      . ' & Time stepping: Scheme = explicit & Time stepping: - Initial step & Time stepping: - Largest step & Solver: - Force tolerance & Solver: - Energy tolerance'
       . ' & Time stepping: End time = 1.0001');
   runs(0, on(1, '--restart', $last, 'then.prm'));
   my @kept = rows('both/history_until_1.csv');

@@ -81,8 +81,8 @@ template <class Run> void on_ranks(const unsigned int n, const Run &run) {
 class QuasiStaticRun {
 public:
   QuasiStaticRun(const parameters::Scene &parameters, const MPI_Comm communicator)
-      : scene(parameters), discretization(scene, communicator), problem(scene, discretization),
-        control(parameters.time_stepping, 0., scene.stops()) {}
+      : scene(for_comparison(parameters)), discretization(scene, communicator),
+        problem(scene, discretization), control(parameters.time_stepping, 0., scene.stops()) {}
 
   /// Until this time, all of whose steps it adds to the history.
   void run(const double until, History &history) {

@@ -114,6 +114,7 @@ public:
   /// As RigidContact's.
   StepWorks compute_step_works(const double weight) const { return contact_->compute_step_works(weight); }
 
+  std::vector<SlaveForce> slave_forces() const { return contact_->slave_forces(); }
   /// Of this rank's nodes that are slaves.
   std::vector<ContactNodeReport> report() const;
   std::size_t history_size() const { return contact_->history_size(); }

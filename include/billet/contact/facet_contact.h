@@ -9,6 +9,7 @@
 #include "billet/contact/slave_traction.h"
 #include "billet/contact/step_works.h"
 #include "billet/contact/supporting_point.h"
+#include "billet/contact/status_changes.h"
 #include "billet/contact/surface_exchange.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/state.h"
@@ -231,6 +232,8 @@ public:
               crossing.surfaces[0], crossing.surfaces[1]);
       }
   }
+  /// Returns the status of each slave of this rank and its traction times its area, after add_forces().
+  std::vector<SlaveForce> slave_forces() const;
 
   /// State of a slave node, for output.
   struct NodeReport {

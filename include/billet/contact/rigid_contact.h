@@ -7,6 +7,7 @@
 #include "billet/contact/step_works.h"
 #include "billet/contact/supporting_point.h"
 #include "billet/diagnostics.h"
+#include "billet/contact/status_changes.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
@@ -192,6 +193,9 @@ public:
 
   /// Of every node at a facet of this rank; `area` is this rank's share.
   std::vector<ContactNodeReport> report() const;
+
+  /// Returns the status of each node at a facet of this rank and the force that it takes, after update().
+  std::vector<SlaveForce> slave_forces() const;
 
   /// Doubles of history on this rank.
   std::size_t history_size() const;

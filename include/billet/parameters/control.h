@@ -86,7 +86,7 @@ struct Solver {
 
   ContactTangent contact_tangent;
   Located<MaterialTangent> material_tangent;
-  double force_tolerance, energy_tolerance;
+  double force_tolerance, energy_tolerance, displacement_tolerance;
   unsigned int most_iterations;
   unsigned int most_augmentations; ///< in a step
   LineSearch line_search;

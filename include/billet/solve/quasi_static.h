@@ -136,6 +136,7 @@ public:
     return round_off_force_ + (motion_ ? motion_->round_off_force() : 0.);
   }
   double contact_round_off_force() const override { return contact_bears_ ? spring_round_off_ : 0.; }
+  StatusChanges status_changes() const override { return status_changes_; }
 
 private:
   /// For the contacts as they are, or, after a restart, as they were when it was built last.
@@ -249,6 +250,10 @@ private:
       values.push_back(get(*contact));
     return values;
   }
+  /// Returns those of each contact of this rank, tools first.
+  std::vector<std::vector<SlaveForce>> slave_forces() const;
+  /// Compares the contacts with those at the last tangent. Collective.
+  StatusChanges find_status_changes() const;
   /// Of each contact, tools first, as part of what its pair asks for. Collective.
   std::vector<double> augmentation_errors() const;
   /// The largest of them. Collective.
@@ -276,6 +281,8 @@ private:
   /// A message if the step was accepted with this part of the forces, more than the tolerance, since
   /// round-off lets it come no nearer.
   DiagnosticList check_round_off(double part) const;
+  /// The warning about a step that was accepted although its iterations stalled.
+  Diagnostic describe_stall(const NewtonReport &report) const;
   /// Names of the pairs whose penalties make most of it. Collective.
   std::string stiffest_pairs() const;
   /// Messages about the penalties after a step. In solve/quasi_static_guards.cc.
@@ -373,8 +380,11 @@ private:
   ContactLosses contact_losses_;
   double largest_energy_ = 0.;
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
-  bool contact_bears_ = false;      ///< at the last residual
-  unsigned int n_in_round_off_ = 0; ///< of the last accepted steps, those that are lost in it
+  bool contact_bears_ = false;                      ///< at the last residual
+  std::vector<std::vector<SlaveForce>> linearised_; ///< slave_forces() at the last tangent
+  StatusChanges status_changes_;                    ///< between that and the last residual
+  bool accepts_stalled_ = false;                    ///< in the attempt that is made
+  unsigned int n_in_round_off_ = 0;                 ///< of the last accepted steps, those that are lost in it
 
   double time_ = 0.;     ///< end of the step that is tried
   double duration_ = 0.; ///< of that step; 0 while its first guess is made

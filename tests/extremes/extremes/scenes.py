@@ -178,6 +178,13 @@ def friction(k):
             "reference": 0.02 * k.young, "exponent": 0.7}
 
 
+def tolerances(k):
+    """Of Newton's method: for comparisons to many digits, unless the scene, its profile or its target error has others."""
+    if k.tolerance is not None:
+        return {"Force tolerance": k.tolerance, "Energy tolerance": number(max(k.tolerance, 1e-15))}
+    return {} if k.profile or k.target_error else {"Force tolerance": "1e-6", "Energy tolerance": "1e-10"}
+
+
 def statics(k, f, end=1.0, first=None, stops=()):
     t = {"End time": number(end * f.time), "Initial step": number((first or k.first_step) * f.time),
          "Largest step": number(k.largest_step * f.time), "Smallest step": number(1e-5 * f.time)}
@@ -186,10 +193,8 @@ def statics(k, f, end=1.0, first=None, stops=()):
     if stops:
         t["Stops"] = ", ".join(number(s * f.time) for s in stops)
     s = {name: value for name, value in {
-        "Contact tangent": k.tangent, "Force tolerance": k.tolerance, "Linear solver": k.solver, "Predictor": k.predictor,
-        "Line search": k.line_search, "Material tangent": k.material_tangent}.items() if value is not None}
-    if k.tolerance is not None:
-        s["Energy tolerance"] = number(max(k.tolerance, 1e-15))
+        "Contact tangent": k.tangent, "Linear solver": k.solver, "Predictor": k.predictor,
+        "Line search": k.line_search, "Material tangent": k.material_tangent, **tolerances(k)}.items() if value is not None}
     whole = {"Time stepping": t, "Solver": s, "Output": output()}
     return {**top(k), **whole}
 
@@ -219,7 +224,7 @@ def dynamics(k, f, scheme, end, rows=400):
             whole["Time stepping"].update({"Initial step": number(k.step * end * f.time), "Largest step": number(k.step * end * f.time)})
         x = {"Method": k.method, "Spectral radius": k.spectral_radius, "Error tolerance": k.error_tolerance, "Mass": k.mass}
         whole["Implicit dynamics"] = {a: b for a, b in x.items() if b is not None}
-        whole["Solver"] = {a: b for a, b in {"Contact tangent": k.tangent, "Force tolerance": k.tolerance,
+        whole["Solver"] = {a: b for a, b in {"Contact tangent": k.tangent, **tolerances(k),
                                              "Linear solver": k.solver, "Material tangent": k.material_tangent}.items() if b is not None}
         whole["Output"] = output()
     return whole
