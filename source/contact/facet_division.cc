@@ -74,9 +74,9 @@ bool FacetDivision::is_seen(const double spacing, const double length) const {
       bool is_met = false;
       for (unsigned int corner = turned; corner < 8 && !is_met; corner += 2)
         // Of thin tools only some depths are inside.
-        for (unsigned int quarter = 4; quarter > 0 && !is_met; --quarter)
+        for (double depth = unseen; depth > 0.1 * unseen && !is_met; depth *= 0.5)
           is_met = is_met_at(sample.position + diagonal * spacing * around[corner] -
-                                 0.25 * quarter * unseen * length * sample.normal,
+                                 depth * length * sample.normal,
                              sample.normal);
       if (!is_met)
         return false;

@@ -14,9 +14,9 @@ namespace billet {
 /// Each sample of the tool's surface, a point x with a normal n, meets a square of side s in its tangent
 /// plane, with x in the middle. Along the tool's axes of the sample and turned by 45 degrees, at least one
 /// corner of the square has to be inside the tool after it has moved by L/8 along −n, L the facet's length,
-/// or by a quarter, a half or three quarters of that, where the tool's normal is within 60 degrees of n.
-/// So a sphere of radius R needs s² ≤ R L/2, a cylinder s² ≤ R L, an edge of 90 degrees s ≤ L/4, a fin as
-/// wide as t about s ≤ t. A plane, or a sphere of R ≥ 2 L, has enough of the corners of the facet.
+/// or by a half, a quarter or an eighth of that, where the tool's normal is within 60 degrees of n.
+/// So a sphere of radius R needs about s² ≤ R L/2, a cylinder s² ≤ R L, an edge of 90 degrees s ≤ L/4, a fin
+/// as wide as t about s ≤ t. A plane, or a sphere of R ≥ 2.1 L, has enough of the corners of the facet.
 ///
 /// At convex edges normals between those of both sides are samples, too.
 class FacetDivision {
