@@ -25,30 +25,6 @@ constexpr std::size_t gap_width = 4, friction_width = 20; // of a node on a tool
 constexpr std::size_t behind_width = 4;                   // of a node that may be behind a tool
 constexpr std::size_t areas_width = 4;                    // of a facet
 
-/// The areas of a facet's corners.
-template <class Facets, class Areas>
-void save_areas(StateWriter &writer, const std::string &name, const Facets &facets, const Areas &areas) {
-  std::vector<std::uint64_t> keys;
-  std::vector<double> rows;
-  for (const auto &facet : facets) {
-    keys.push_back(facet.key);
-    rows.insert(rows.end(), (facet.*areas).begin(), (facet.*areas).end());
-  }
-  writer.write_rows(name, areas_width, keys, rows);
-}
-
-template <class Facets, class Areas>
-void load_areas(const StateReader &reader, const std::string &name, Facets &facets, const Areas &areas) {
-  if (!reader.has(name))
-    return;
-  std::vector<std::uint64_t> keys;
-  for (const auto &facet : facets)
-    keys.push_back(facet.key);
-  const std::vector<double> rows = reader.read_rows(name, areas_width, keys);
-  for (std::size_t f = 0; f < facets.size(); ++f)
-    std::copy_n(&rows[areas_width * f], areas_width, (facets[f].*areas).begin());
-}
-
 constexpr std::size_t touch_width = 9, slave_width = 18; // of a node on facets
 
 // A facet's key has more bits than a double keeps.
@@ -56,93 +32,138 @@ constexpr std::uint64_t half_key = 0xffffffffU;
 
 } // namespace
 
-void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
-  std::vector<std::uint64_t> node_keys;
-  std::vector<double> gaps, friction;
-  RowWriter gap_row(gaps), friction_row(friction);
-  for (const auto &node : nodes_) {
-    node_keys.push_back(keys(node.dofs[0]));
+RigidContact::Range RigidContact::mesh_nodes(const NodeKeys &keys) const {
+  Range range{"", 0, n_mesh_nodes_, {}};
+  for (std::size_t i = 0; i < n_mesh_nodes_; ++i)
+    range.keys.push_back(keys(nodes_[i].dofs[0]));
+  return range;
+}
+
+RigidContact::Range RigidContact::interior_points() const {
+  Range range{"interior ", n_mesh_nodes_, nodes_.size(), {}};
+  for (const auto &point : points_)
+    range.keys.push_back(point.key);
+  return range;
+}
+
+RigidContact::Range RigidContact::facet_range(const bool are_parts) const {
+  Range range{are_parts ? "interior " : "",
+              are_parts ? n_whole_facets_ : 0,
+              are_parts ? facets_.size() : n_whole_facets_,
+              {}};
+  for (std::size_t f = range.begin; f < range.end; ++f)
+    range.keys.push_back(facets_[f].key);
+  return range;
+}
+
+void RigidContact::save_nodes(StateWriter &writer, const Range &range) const {
+  std::vector<double> gaps, friction, behind;
+  RowWriter gap_row(gaps), friction_row(friction), behind_row(behind);
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const Node &node = nodes_[i];
     gap_row.number(node.gap_n).number(node.patch).number(node.lift_n).number(node.initial_depth);
-  }
-  for (const auto &history : friction_n_) {
+    behind_row.number(node.is_behind ? 1. : 0.).vector(node.behind_at);
+    if (!pair_.has_friction())
+      continue;
+    const FrictionHistory &history = friction_n_[i];
     friction_row.number(history.is_active ? 1. : 0.);
     store(history.frame, friction_row);
     friction_row.number(history.tangential[0]).number(history.tangential[1]);
     friction_row.vector(history.tool_position).number(history.slip).number(history.slip_rate);
   }
-  writer.write("removed", {is_removed_ ? 1. : 0.});
-  writer.write("allowed part", {allowed_part_});
   if (!pressed_n_.empty()) {
     std::vector<double> pressed;
     RowWriter row(pressed);
-    for (const auto &node : pressed_n_)
-      row.number(node.pressure).number(node.depth).vector(node.normal).vector(node.position);
-    writer.write_rows("pressed", pressed_width, node_keys, pressed);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      row.number(pressed_n_[i].pressure)
+          .number(pressed_n_[i].depth)
+          .vector(pressed_n_[i].normal)
+          .vector(pressed_n_[i].position);
+    writer.write_rows(range.prefix + "pressed", pressed_width, range.keys, pressed);
   }
-  writer.write("stiffening", {stiffening_});
-  writer.write_rows("gaps", gap_width, node_keys, gaps);
+  writer.write_rows(range.prefix + "gaps", gap_width, range.keys, gaps);
   if (pair_.has_friction())
-    writer.write_rows("friction", friction_width, node_keys, friction);
-  if (has_inertia_) {
-    std::vector<double> behind;
-    RowWriter behind_row(behind);
-    for (const auto &node : nodes_)
-      behind_row.number(node.is_behind ? 1. : 0.).vector(node.behind_at);
-    writer.write_rows("behind", behind_width, node_keys, behind);
-  }
-  if (is_explicit_)
-    save_areas(writer, "shallow areas", facets_, &Facet::shallow_areas);
-  else if (pair_.has_friction())
-    save_areas(writer, "friction areas", facets_, &Facet::friction_areas);
+    writer.write_rows(range.prefix + "friction", friction_width, range.keys, friction);
+  if (has_inertia_)
+    writer.write_rows(range.prefix + "behind", behind_width, range.keys, behind);
 }
 
-void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
-  if (reader.number("removed") != 0.)
-    remove_tool();
-  allowed_part_ = allowed_part_n_ = reader.number("allowed part");
-  positions_on_thin_tool_.clear();
-  if (reader.has("stiffening"))
-    stiffen(reader.number("stiffening") / stiffening_);
-  std::vector<std::uint64_t> node_keys;
-  for (const auto &node : nodes_)
-    node_keys.push_back(keys(node.dofs[0]));
-  if (!reader.has("pressed"))
-    pressed_n_.clear();
+std::vector<RigidContact::KeptAreas> RigidContact::kept_areas() const {
+  std::vector<KeptAreas> kept;
+  if (is_explicit_)
+    kept.push_back({"shallow areas", &Facet::shallow_areas});
+  else if (pair_.has_friction())
+    kept.push_back({"friction areas", &Facet::friction_areas});
+  return kept;
+}
+
+void RigidContact::save_areas(StateWriter &writer, const std::string &name, const CornerAreas areas,
+                              const Range &range) const {
+  std::vector<double> rows;
+  for (std::size_t f = range.begin; f < range.end; ++f)
+    rows.insert(rows.end(), (facets_[f].*areas).begin(), (facets_[f].*areas).end());
+  writer.write_rows(range.prefix + name, areas_width, range.keys, rows);
+}
+
+void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
+  writer.write("removed", {is_removed_ ? 1. : 0.});
+  writer.write("allowed part", {allowed_part_});
+  writer.write("stiffening", {stiffening_});
+  save_nodes(writer, mesh_nodes(keys));
+  if (has_divided_facets_)
+    save_nodes(writer, interior_points());
+  for (const auto &[name, areas] : kept_areas()) {
+    save_areas(writer, name, areas, facet_range(false));
+    if (has_divided_facets_)
+      save_areas(writer, name, areas, facet_range(true));
+  }
+}
+
+void RigidContact::load_nodes(const StateReader &reader, const Range &range) {
+  // A tool that was another one, or another mesh's, may have had other points inside facets.
+  std::vector<bool> is_known(range.keys.size(), true);
+  std::vector<bool> *const found = range.prefix.empty() ? nullptr : &is_known;
   if (!pressed_n_.empty()) {
-    const std::vector<double> pressed = reader.read_rows("pressed", pressed_width, node_keys);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      RowReader row(&pressed[pressed_width * i]);
+    const std::vector<double> pressed =
+        reader.read_rows(range.prefix + "pressed", pressed_width, range.keys, found);
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (!is_known[i - range.begin])
+        continue;
+      RowReader row(&pressed[pressed_width * (i - range.begin)]);
       pressed_n_[i].pressure = row.number();
       pressed_n_[i].depth = row.number();
       row.vector(pressed_n_[i].normal);
       row.vector(pressed_n_[i].position);
     }
   }
-  const std::vector<double> gaps = reader.read_rows("gaps", gap_width, node_keys);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    RowReader row(&gaps[gap_width * i]);
+  const std::vector<double> gaps = reader.read_rows(range.prefix + "gaps", gap_width, range.keys, found);
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    if (!is_known[i - range.begin])
+      continue;
+    RowReader row(&gaps[gap_width * (i - range.begin)]);
     nodes_[i].gap_n = row.number();
     nodes_[i].patch = static_cast<unsigned int>(row.number());
     nodes_[i].lift = nodes_[i].lift_n = row.number();
     nodes_[i].initial_depth = row.number();
   }
-  if (has_inertia_ && reader.has("behind")) {
-    const std::vector<double> behind = reader.read_rows("behind", behind_width, node_keys);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      RowReader row(&behind[behind_width * i]);
+  if (has_inertia_ && reader.has(range.prefix + "behind")) {
+    const std::vector<double> behind =
+        reader.read_rows(range.prefix + "behind", behind_width, range.keys, found);
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      RowReader row(&behind[behind_width * (i - range.begin)]);
       nodes_[i].is_behind = row.flag();
       row.vector(nodes_[i].behind_at);
     }
   }
-  if (is_explicit_)
-    load_areas(reader, "shallow areas", facets_, &Facet::shallow_areas);
-  else if (pair_.has_friction())
-    load_areas(reader, "friction areas", facets_, &Facet::friction_areas);
-  if (!pair_.has_friction() || !reader.has("friction")) // a law that is new begins without traction
+  // A law that is new begins without traction.
+  if (!pair_.has_friction() || !reader.has(range.prefix + "friction"))
     return;
-  const std::vector<double> friction = reader.read_rows("friction", friction_width, node_keys);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    RowReader row(&friction[friction_width * i]);
+  const std::vector<double> friction =
+      reader.read_rows(range.prefix + "friction", friction_width, range.keys, found);
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    if (!is_known[i - range.begin])
+      continue;
+    RowReader row(&friction[friction_width * (i - range.begin)]);
     FrictionHistory &history = friction_n_[i];
     history.is_active = row.flag();
     restore(row, history.frame);
@@ -152,14 +173,49 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
     history.slip = row.number();
     history.slip_rate = row.number();
   }
+}
+
+void RigidContact::load_areas(const StateReader &reader, const std::string &name, const CornerAreas areas,
+                              const Range &range) {
+  if (!reader.has(range.prefix + name))
+    return;
+  std::vector<bool> is_known(range.keys.size(), true);
+  const std::vector<double> rows = reader.read_rows(range.prefix + name, areas_width, range.keys,
+                                                    range.prefix.empty() ? nullptr : &is_known);
+  for (std::size_t f = range.begin; f < range.end; ++f)
+    if (is_known[f - range.begin])
+      std::copy_n(&rows[areas_width * (f - range.begin)], areas_width, (facets_[f].*areas).begin());
+}
+
+void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
+  if (reader.number("removed") != 0.)
+    remove_tool();
+  allowed_part_ = allowed_part_n_ = reader.number("allowed part");
+  positions_on_thin_tool_.clear();
+  if (reader.has("stiffening"))
+    stiffen(reader.number("stiffening") / stiffening_);
+  if (!reader.has("pressed"))
+    pressed_n_.clear();
+  load_nodes(reader, mesh_nodes(keys));
+  if (has_divided_facets_ && reader.has("interior gaps"))
+    load_nodes(reader, interior_points());
+  for (auto &divided : divided_)
+    divided.may_touch = true;
   friction_ = friction_n_;
+  for (const auto &[name, areas] : kept_areas()) {
+    load_areas(reader, name, areas, facet_range(false));
+    if (has_divided_facets_)
+      load_areas(reader, name, areas, facet_range(true));
+  }
 }
 
 template <class DisplacementOf>
 void RigidContact::begin_at(const Placement &placement, const DisplacementOf &displacement_of) {
   placement_n_ = placement_ = placement;
+  for (auto &divided : divided_)
+    divided.may_touch = true;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const dealii::Tensor<1, 3> position = nodes_[i].reference + displacement_of(i);
+    const dealii::Tensor<1, 3> position = nodes_[i].reference + at(i, displacement_of);
     const dealii::Tensor<1, 3> on_tool = placement.to_tool(position);
     const auto projection = tool_.surface().project(on_tool);
     states_[i] = NodeState();

@@ -61,7 +61,13 @@ std::array<Tensor<1, 3>, 4> EdgeContact::Crossing::forces(const double stiffness
 EdgeContact::EdgeContact(const FacetSearch::Partners partners, const double largest_alignment)
     : partners_(partners), largest_alignment_(largest_alignment) {}
 
-std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &positions) const {
+void EdgeContact::connect(const std::vector<SurfaceFacet> &facets) {
+  const auto is_same = [](const SurfaceFacet &a, const SurfaceFacet &b) {
+    return a.key == b.key && a.nodes == b.nodes && a.surface == b.surface && a.reach == b.reach;
+  };
+  if (!facets_.empty() && std::equal(facets.begin(), facets.end(), facets_.begin(), facets_.end(), is_same))
+    return;
+  facets_ = facets;
   std::map<std::array<unsigned int, 2>, Edge> edges;
   for (unsigned int f = 0; f < facets_.size(); ++f)
     for (unsigned int i = 0; i < 4; ++i) {
@@ -82,13 +88,26 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
       }
       edge.reach = std::min(edge.reach, facets_[f].reach);
     }
+  all_edges_.clear();
+  for (const auto &entry : edges)
+    all_edges_.push_back(entry.second);
+}
+
+std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &positions) const {
+  struct Plane {
+    Tensor<1, 3> normal, centre;
+  };
+  std::vector<Plane> planes;
+  planes.reserve(facets_.size());
+  for (const auto &surface_facet : facets_) {
+    const facet::Expansion x = corners_of(surface_facet, positions);
+    planes.push_back({unit_normal(x), x.e_0});
+  }
   std::vector<Edge> outward_edges;
-  for (const auto &entry : edges) {
-    const Edge &edge = entry.second;
+  for (const auto &edge : all_edges_) {
     if (edge.facets[1] != none) {
-      const facet::Expansion x = corners_of(facets_[edge.facets[0]], positions),
-                             y = corners_of(facets_[edge.facets[1]], positions);
-      if (unit_normal(x) * unit_normal(y) >= largest_alignment_ || (y.e_0 - x.e_0) * unit_normal(x) > 0.)
+      const Plane &x = planes[edge.facets[0]], &y = planes[edge.facets[1]];
+      if (x.normal * y.normal >= largest_alignment_ || (y.centre - x.centre) * x.normal > 0.)
         continue;
     }
     outward_edges.push_back(edge);
@@ -124,7 +143,7 @@ bool EdgeContact::may_touch(const Edge &slave, const Edge &target) const {
 
 void EdgeContact::rebuild(const std::vector<SurfaceFacet> &facets, const std::size_t n_own_facets,
                           const Positions &positions, const double margin, const double depth) {
-  facets_ = facets;
+  connect(facets);
   depth_ = depth;
   edges_ = find_outward_edges(positions);
   std::vector<BoundingBox> boxes;

@@ -17,9 +17,6 @@ using dealii::Tensor;
 
 namespace {
 
-// What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
-constexpr double near_gap = 0.25, near_steps = 20.;
-
 /// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
 constexpr double fading_width = 0.05;
 
@@ -77,6 +74,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
 
 void RigidContact::collect_facets(const Discretization &discretization, const double young_modulus) {
   std::map<DofIndex, unsigned int> index;
+  std::vector<std::array<unsigned int, 4>> corners;
   const auto boundary_facets = collect_boundary_facets(discretization, pair_.body, pair_.boundary_ids);
   const auto sizes = compute_facet_sizes(discretization, boundary_facets);
   for (const auto &boundary : boundary_facets) {
@@ -89,7 +87,7 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         Node node;
         node.dofs = boundary.dofs[a];
         node.reference = boundary.corners[a];
-        node.size = sizes.at(node.dofs[0]);
+        node.size = node.spacing = sizes.at(node.dofs[0]);
         node.reach = 0.2 * node.size;
         node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, node.size),
                           pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
@@ -106,8 +104,11 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
       Node &corner = nodes_[facet.nodes[a]];
       corner.reach = std::min(corner.reach, 0.4 * boundary.thickness);
     }
+    corners.push_back(facet.nodes);
     facets_.push_back(facet);
   }
+  n_mesh_nodes_ = nodes_.size();
+  divide_facets(discretization, corners);
 }
 
 void RigidContact::start_step(const Placement &from, const Placement &to, const double duration) {
@@ -132,11 +133,20 @@ template <class DisplacementOf> void RigidContact::update_states(const Displacem
   Usage::count_if(!friction_.empty(), Capability::friction, friction_.size());
   std::visit(
       [&](const auto &law) {
-        for (std::size_t i = 0; i < nodes_.size(); ++i) {
-          Node &node = nodes_[i];
-          states_[i] = evaluate(law, i, node.reference + displacement_of(i),
-                                friction_.empty() ? nullptr : &friction_[i]);
-          node.patch = states_[i].patch;
+        const auto update_state = [&](const std::size_t i, const Tensor<1, 3> &position) {
+          states_[i] = evaluate(law, i, position, friction_.empty() ? nullptr : &friction_[i]);
+          nodes_[i].patch = states_[i].patch;
+        };
+        for (std::size_t i = 0; i < n_mesh_nodes_; ++i)
+          update_state(i, nodes_[i].reference + displacement_of(i));
+        for (auto &divided : divided_) {
+          if (is_far(divided))
+            continue;
+          divided.may_touch = false;
+          for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {
+            update_state(i, at(i, [&](const std::size_t parent) { return states_[parent].position; }));
+            divided.may_touch = divided.may_touch || states_[i].status != ContactStatus::open;
+          }
         }
       },
       pair_.friction);
@@ -154,10 +164,11 @@ void RigidContact::update(const Vector &displacements) {
 void RigidContact::bind(const LocalNodes &nodes) {
   local_nodes_.clear();
   is_owned_.clear();
-  for (const auto &node : nodes_) {
-    local_nodes_.push_back(nodes.find(node.dofs[0]));
+  for (std::size_t i = 0; i < n_mesh_nodes_; ++i) {
+    local_nodes_.push_back(nodes.find(nodes_[i].dofs[0]));
     is_owned_.push_back(nodes.is_owned(local_nodes_.back()));
   }
+  is_owned_.resize(nodes_.size(), true);
 }
 
 void RigidContact::update(const NodalVectors &displacements) {
@@ -448,7 +459,7 @@ template <class Add> void RigidContact::for_each_near(const Add &add) const {
     // The step in which a node enters must be short enough already, and equal steps keep the energy best.
     const bool is_near = gap < near_gap * node.size || gap + near_steps * (gap - node.gap_n) < 0.;
     if (states_[i].status == ContactStatus::open && gap >= 0. && is_near && is_owned_[i])
-      add(i, node.size * node.size);
+      add(i, node.spacing * node.spacing);
   }
 }
 
@@ -463,10 +474,7 @@ std::vector<SlaveForce> RigidContact::slave_forces() const {
 
 void RigidContact::add_forces(Vector &residual) const {
   for_each_area([&](const unsigned int i, const double area) {
-    std::array<double, 3> values{};
-    for (unsigned int c = 0; c < 3; ++c)
-      values[c] = -area * states_[i].traction[c];
-    residual.add(3, nodes_[i].dofs.data(), values.data());
+    add_to_dofs(i, -area * states_[i].traction, residual);
   });
 }
 
@@ -475,8 +483,11 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
   for (auto &facet : facets_)
     add_forces(facet, forces, bounds, load);
   for_each_near([&](const unsigned int i, const double area) {
-    bounds[std::size_t{nodal_stride} * local_nodes_[i]] +=
-        area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential);
+    // w (Σ w_b v_b)² <= w Σ w_b v_b²
+    for_each_parent(i, [&](const unsigned int parent, const double weight) {
+      bounds[std::size_t{nodal_stride} * local_nodes_[parent]] +=
+          weight * (area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential));
+    });
   });
   add_friction(load);
   return load;
@@ -487,7 +498,7 @@ void RigidContact::add_crossings(Crossings &crossings) const {
     return;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (is_owned_[i])
-      crossings.add(nodes_[i].stiffness.normal * nodes_[i].size * nodes_[i].size, states_[i].gap,
+      crossings.add(nodes_[i].stiffness.normal * nodes_[i].spacing * nodes_[i].spacing, states_[i].gap,
                     states_[i].gap - nodes_[i].gap_n);
 }
 
@@ -495,11 +506,12 @@ void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &veloc
                                  const double step) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
-    const Tensor<1, 3> v = get_vector(velocities.data(), local_nodes_[i]);
+    const Tensor<1, 3> v =
+        at(i, [&](const std::size_t parent) { return get_vector(velocities.data(), local_nodes_[parent]); });
     if (!is_owned_[i] || std::abs(states_[i].gap) >= 2. * step * v.norm())
       continue;
     const auto projection = tool_.surface().project(placement_.to_tool(states_[i].position), node.patch);
-    crossings.add(node.stiffness.normal * node.size * node.size, states_[i].gap,
+    crossings.add(node.stiffness.normal * node.spacing * node.spacing, states_[i].gap,
                   step * (v * (placement_.rotation * projection.normal)));
   }
 }
@@ -512,7 +524,7 @@ double RigidContact::stored_energy(const std::size_t i) const {
 }
 
 RigidContact::Springs RigidContact::springs_of(const std::size_t i, const double energy) const {
-  const double depth = depth_on_current_areas * nodes_[i].size;
+  const double depth = depth_on_current_areas * nodes_[i].spacing;
   const double limit = 0.5 * nodes_[i].stiffness.normal * depth * depth;
   if (!is_explicit_ || energy <= limit)
     return {energy, energy, 1.};
@@ -555,21 +567,27 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
   }
   for (unsigned int b = 0; b < 4; ++b) {
     const std::size_t i = facet.nodes[b];
-    double &bound = bounds[std::size_t{nodal_stride} * local_nodes_[i]];
+    const auto add_bound = [&](const double bound) {
+      for_each_parent(i, [&](const unsigned int parent, const double weight) {
+        bounds[std::size_t{nodal_stride} * local_nodes_[parent]] += weight * bound;
+      });
+    };
     Tensor<1, 3> force = by_area[b];
     load.force += force;
     load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), force);
-    bound += nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas * nodes_[i].size) *
-             (nodes_[i].size + depth);
+    add_bound(nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas * nodes_[i].spacing) *
+              (nodes_[i].spacing + depth));
     if (states[b]->status != ContactStatus::open) {
       if (facet.shallow_areas[b] == not_touching)
         facet.shallow_areas[b] = areas[b];
       force += add_to_load(load, facet, b, areas[b]);
-      bound += largest_area(facet, b, areas[b]) *
-               (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
-                states[b]->fading_stiffness);
+      add_bound(largest_area(facet, b, areas[b]) *
+                (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
+                 states[b]->fading_stiffness));
     }
-    add_vector(forces.data(), local_nodes_[i], force);
+    for_each_parent(i, [&](const unsigned int parent, const double weight) {
+      add_vector(forces.data(), local_nodes_[parent], weight * force);
+    });
   }
 }
 
@@ -611,7 +629,8 @@ double RigidContact::stiffness_against_tool() const {
 void RigidContact::add_tangent(const TangentSystem &system) const {
   dealii::FullMatrix<double> facet_matrix(12, 12);
   std::vector<DofIndex> dofs(12);
-  for (const auto &facet : facets_) {
+  for (std::size_t f = 0; f < n_whole_facets_; ++f) {
+    const Facet &facet = facets_[f];
     if (!compute_facet_tangent(facet, facet_matrix))
       continue;
     for (unsigned int a = 0; a < 4; ++a)
@@ -619,6 +638,44 @@ void RigidContact::add_tangent(const TangentSystem &system) const {
         dofs[3 * a + i] = nodes_[facet.nodes[a]].dofs[i];
     system.add(facet_matrix, dofs);
   }
+  for (const auto &divided : divided_)
+    add_divided_tangent(divided, system);
+}
+
+void RigidContact::add_divided_tangent(const DividedFacet &divided, const TangentSystem &system) const {
+  dealii::FullMatrix<double> of_part(12, 12), of_facet(12, 12);
+  bool touches = false;
+  for (std::size_t f = divided.first_part; f < divided.first_part + divided.n_parts; ++f) {
+    const Facet &part = facets_[f];
+    if (!compute_facet_tangent(part, of_part))
+      continue;
+    touches = true;
+    // Which corner of the facet, with which weight.
+    std::array<std::array<double, 4>, 4> weights{};
+    for (unsigned int p = 0; p < 4; ++p)
+      for_each_parent(part.nodes[p], [&](const unsigned int parent, const double weight) {
+        for (unsigned int a = 0; a < 4; ++a)
+          if (divided.corners[a] == parent)
+            weights[p][a] = weight;
+      });
+    for (unsigned int p = 0; p < 4; ++p)
+      for (unsigned int q = 0; q < 4; ++q)
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int b = 0; b < 4; ++b) {
+            const double weight = weights[p][a] * weights[q][b];
+            if (weight > 0.)
+              for (unsigned int i = 0; i < 3; ++i)
+                for (unsigned int j = 0; j < 3; ++j)
+                  of_facet(3 * a + i, 3 * b + j) += weight * of_part(3 * p + i, 3 * q + j);
+          }
+  }
+  if (!touches)
+    return;
+  std::vector<DofIndex> dofs(12);
+  for (unsigned int a = 0; a < 4; ++a)
+    for (unsigned int i = 0; i < 3; ++i)
+      dofs[3 * a + i] = nodes_[divided.corners[a]].dofs[i];
+  system.add(of_facet, dofs);
 }
 
 bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
@@ -676,9 +733,7 @@ void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
   for_each_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
-    const Tensor<1, 3> force = area * (state.tangent * motion);
-    const std::array<double, 3> values{force[0], force[1], force[2]};
-    forces.add(3, nodes_[i].dofs.data(), values.data());
+    add_to_dofs(i, area * (state.tangent * motion), forces);
   });
 }
 
@@ -708,11 +763,8 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
       power_slope += v[a] * along;
       // The arm turns with the tool about a centre that does not: ω × v adds nothing that is not there
       // already.
-      const std::array<double, 3> column_values{-along[0], -along[1], -along[2]};
-      const std::array<double, 3> row_values{power[0], power[1], power[2]};
-      const auto &dofs = nodes_[facet.nodes[a]].dofs;
-      column.add(3, dofs.data(), column_values.data());
-      row.add(3, dofs.data(), row_values.data());
+      add_to_dofs(facet.nodes[a], -along, column);
+      add_to_dofs(facet.nodes[a], power, row);
     }
   }
   return power_slope;
@@ -1010,16 +1062,49 @@ void RigidContact::add_released(ContactLoad &load) const {
   }
 }
 
+void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) const {
+  struct Sums {
+    double force = 0., slipping = 0.;
+    Tensor<1, 3> traction;
+  };
+  std::vector<Sums> sums(n_mesh_nodes_);
+  std::vector<bool> has_points(n_mesh_nodes_, false);
+  for (const auto &divided : divided_)
+    for (const unsigned int corner : divided.corners)
+      has_points[corner] = true;
+  for_each_area([&](const unsigned int i, const double area) {
+    const NodeState &state = states_[i];
+    for_each_parent(i, [&](const unsigned int parent, const double weight) {
+      const double force = weight * area * state.pressure;
+      sums[parent].force += force;
+      sums[parent].slipping += state.status == ContactStatus::slip ? force : 0.;
+      sums[parent].traction += weight * area * state.traction;
+    });
+  });
+  for (std::size_t i = 0; i < n_mesh_nodes_; ++i) {
+    if (!has_points[i] || !(sums[i].force > 0.))
+      continue;
+    reports[i].pressure = sums[i].force / reports[i].area;
+    reports[i].traction = sums[i].traction / reports[i].area;
+    reports[i].status = sums[i].slipping > 0.5 * sums[i].force ? ContactStatus::slip : ContactStatus::stick;
+  }
+}
+
 std::vector<ContactNodeReport> RigidContact::report() const {
   std::vector<ContactNodeReport> reports;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (std::size_t i = 0; i < n_mesh_nodes_; ++i) {
     const NodeState &state = states_[i];
     reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap + lift_of(nodes_[i]),
                        friction_.empty() ? 0. : friction_[i].slip, 0., state.traction,
                        state.pressure > 0. ? std::abs(state.gap + nodes_[i].lift) : 0., nodes_[i].size,
                        state.pressure > 0. ? largest_curvature(state.turning) : 0.});
   }
-  for_each_area([&](const unsigned int i, const double area) { reports[i].area += area; });
+  for_each_area([&](const unsigned int i, const double area) {
+    for_each_parent(
+        i, [&](const unsigned int parent, const double weight) { reports[parent].area += weight * area; });
+  });
+  if (!divided_.empty())
+    average_over_points(reports);
   return reports;
 }
 

@@ -16,16 +16,14 @@ using dealii::Tensor;
 
 void RigidContact::measure_tool() {
   const BoundingBox &box = tool_.surface().bounding_box();
-  std::array<double, 3> extents{};
-  for (unsigned int i = 0; i < 3; ++i)
-    extents[i] = box.high[i] - box.low[i];
-  std::sort(extents.begin(), extents.end());
-  tool_width_ = extents[1];
+  double thickness = box.high[0] - box.low[0];
+  for (unsigned int i = 1; i < 3; ++i)
+    thickness = std::min(thickness, box.high[i] - box.low[i]);
   constexpr double far = 2.; // facet sizes that no node travels in a step, nor is pressed in
-  const bool is_thin = extents[0] > 0. && std::any_of(nodes_.begin(), nodes_.end(), [&](const Node &node) {
-                         return extents[0] < far * node.size;
+  const bool is_thin = thickness > 0. && std::any_of(nodes_.begin(), nodes_.end(), [&](const Node &node) {
+                         return thickness < far * node.size;
                        });
-  thickness_of_thin_tool_ = dealii::Utilities::MPI::max(is_thin ? extents[0] : 0., communicator_);
+  thickness_of_thin_tool_ = dealii::Utilities::MPI::max(is_thin ? thickness : 0., communicator_);
 }
 
 void RigidContact::remember_positions() {
@@ -41,8 +39,12 @@ bool RigidContact::lets_nodes_through() const {
     return false;
   // Chords that cut less deep graze it.
   const double deep = 0.1 * thickness_of_thin_tool_, fine = 0.125 * thickness_of_thin_tool_;
+  constexpr double middle = 0.45; // beyond it the other side is about as near
   const RigidSurface &surface = tool_.surface();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (states_[i].status != ContactStatus::open &&
+        -(states_[i].gap + nodes_[i].lift) > middle * thickness_of_thin_tool_)
+      return true;
     const Tensor<1, 3> &from = positions_on_thin_tool_[i], to = placement_.to_tool(states_[i].position);
     const Tensor<1, 3> way = to - from;
     const double length = way.norm();
@@ -88,21 +90,16 @@ DiagnosticList RigidContact::check_nodes_behind() const {
 }
 
 DiagnosticList RigidContact::check_small_tool() const {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const auto &node : nodes_)
-    smallest = std::min(smallest, node.size);
-  smallest = dealii::Utilities::MPI::min(smallest, communicator_);
-  if (!(tool_width_ < smallest))
+  if (unresolved_length_ == 0.)
     return {};
   std::ostringstream text;
   text.precision(3);
-  text << "The tool, " << tool_width_ << " wide, is smaller than the facets that it meets, " << smallest
-       << ": only their nodes touch tools";
+  text << "The tool has edges, radii or fins too small for the facets that it meets, which are up to "
+       << unresolved_length_ << " long: it can enter between their points of contact";
   return {Diagnostic(diagnostic::tool_smaller_than_facets, text.str())
               .pair(pair_.name)
               .tool(tool_.name())
-              .value("width of the tool", tool_width_)
-              .value("facet size", smallest)};
+              .value("facet length", unresolved_length_)};
 }
 
 DiagnosticList RigidContact::check_small_tools(const std::vector<RigidContact> &contacts) {

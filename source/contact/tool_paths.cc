@@ -77,12 +77,17 @@ double RigidContact::find_free_part(const Vector &from, const Placement &tool_fr
   const MovingTool tool(tool_.rotation_axis(), tool_from, tool_to);
   const RigidSurface &surface = tool_.surface();
   double part = 1.;
-  for (const auto &node : nodes_) {
-    Tensor<1, 3> x_from = node.reference, x_to = node.reference;
-    for (unsigned int c = 0; c < 3; ++c) {
-      x_from[c] += from(node.dofs[c]);
-      x_to[c] += to(node.dofs[c]);
-    }
+  const auto displaced = [this](const std::size_t i, const Vector &displacements) {
+    return nodes_[i].reference + at(i, [&](const std::size_t node) {
+             Tensor<1, 3> displacement;
+             for (unsigned int c = 0; c < 3; ++c)
+               displacement[c] = displacements(nodes_[node].dofs[c]);
+             return displacement;
+           });
+  };
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node &node = nodes_[i];
+    const Tensor<1, 3> x_from = displaced(i, from), x_to = displaced(i, to);
     const double resolution = fine * node.size, length = tool.bound_way(x_from, x_to);
     if (node.is_behind || !(length > (is_thorough ? 0. : resolution)) || !std::isfinite(length) ||
         surface.bounding_box().distance_square(tool_from.to_tool(x_from)) > length * length)

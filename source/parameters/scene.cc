@@ -204,7 +204,7 @@ public:
                 tool.motion.control == Motion::Control::force ? "Mass" : "Moment of inertia");
     }
     for (const auto &pair : scene_.pairs)
-      if (pair.edges && !scene_.is_explicit())
+      if (pair.edges == ContactPair::Edges::held && !scene_.is_explicit())
         refuse_entry({"Contact pairs", pair.name}, "Edges");
       else if (scene_.is_explicit())
         for (const std::string key : {"Penetration tolerance", "Initial penetration"})

@@ -206,8 +206,10 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Passes", "automatic", Patterns::Selection("automatic|one|two"),
       "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
       "half the penalty; one: those of 'Body' alone; automatic: one where faces overlap, else two.");
-  prm.declare_entry("Edges", "false", Patterns::Bool(),
-                    "Pairs of bodies: edges are kept out of edges, too, which nodes against facets miss.");
+  prm.declare_entry(
+      "Edges", "automatic", Patterns::Selection("automatic|true|false|yes|no"),
+      "Pairs of bodies, nodes against facets: true: edges are kept out of edges, too, which nodes "
+      "against facets miss; automatic: true in explicit scenes.");
   prm.declare_entry(
       "Smoothing", "0.1", Patterns::Double(),
       "Pairs of bodies, nodes against facets, > 0 and <= 0.5: within this part of a facet's size "
@@ -325,8 +327,11 @@ void ContactPair::parse_bodies(Reader &reader) {
   passes = chosen_passes == "one" ? Passes::one : chosen_passes == "two" ? Passes::two : Passes::automatic;
   if (passes == Passes::one && second_body.value == body.value)
     reader.reject("Passes", "two: of a body that touches itself, every node is kept out");
-  edges = reader.flag("Edges");
-  if (edges && facets.value == Facets::overlap)
+  const std::string edge_contact = reader.text("Edges");
+  edges = edge_contact == "automatic"                       ? Edges::automatic
+          : edge_contact == "true" || edge_contact == "yes" ? Edges::held
+                                                            : Edges::free;
+  if (edges == Edges::held && facets.value == Facets::overlap)
     reader.reject("Edges", "no value: faces that overlap see edges");
   smoothing = reader.positive("Smoothing");
   if (smoothing > 0.5)

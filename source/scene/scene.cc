@@ -345,7 +345,7 @@ void Scene::make_pairs() {
          facets,
          pair.passes == Pair::Passes::automatic ? facets != Pair::Facets::overlap
                                                 : pair.passes == Pair::Passes::two,
-         pair.edges,
+         parameters_.is_explicit() && facets != Pair::Facets::overlap && pair.edges != Pair::Edges::free,
          make_friction(pair),
          is_factor,
          penalty_of,

@@ -84,6 +84,8 @@ private:
         id; ///< key of the first facet, and which of its sides: the same on all ranks
   };
   using PairId = std::array<std::array<std::uint64_t, 2>, 2>;
+  /// Finds all edges, in `all_edges_`, unless the facets are those of the last time.
+  void connect(const std::vector<SurfaceFacet> &facets);
   std::vector<Edge> find_outward_edges(const Positions &positions) const;
   /// A unit vector lies between the normals of the edge's facets, or not far beside them.
   bool is_between_normals(const Edge &edge, const dealii::Tensor<1, 3> &normal,
@@ -93,7 +95,7 @@ private:
   FacetSearch::Partners partners_;
   double largest_alignment_, depth_ = 0.;
   std::vector<SurfaceFacet> facets_;
-  std::vector<Edge> edges_;
+  std::vector<Edge> all_edges_, edges_;           ///< of the facets; and of these the outward ones
   std::vector<std::array<std::size_t, 2>> pairs_; ///< slave and target
   std::map<PairId, double> offsets_n_, offsets_;  ///< of the pairs that were found
 };

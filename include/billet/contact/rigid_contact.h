@@ -4,10 +4,10 @@
 
 #include "billet/contact/contact_load.h"
 #include "billet/contact/friction_account.h"
+#include "billet/contact/status_changes.h"
 #include "billet/contact/step_works.h"
 #include "billet/contact/supporting_point.h"
 #include "billet/diagnostics.h"
-#include "billet/contact/status_changes.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/discretization/supports.h"
@@ -22,6 +22,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -44,7 +45,13 @@ namespace billet {
 /// front again. It would jump to its full depth there, in a step or two, with energy from nowhere. Not where
 /// another tool is near, nor of a part of the surface that it comes to from the front.
 ///
-/// Node states are kept, and computed alike, on every rank that owns a facet at the node.
+/// Facets between whose nodes the tool could enter unseen (FacetDivision) are divided, (M41): each into n × m
+/// facets that are bilinear as well, whose corners inside are points of contact like nodes. A point's
+/// position is Σ N_a x_a of the facet's nodes, which take its force and its stiffness by the same N_a. All of
+/// the above holds for the parts as it stands: what they are to their corners is what facets are to nodes.
+///
+/// Node states are kept, and computed alike, on every rank that owns a facet at the node. Points inside
+/// facets belong to one facet each, also those on its sides.
 class RigidContact {
 public:
   RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization,
@@ -161,7 +168,7 @@ public:
   bool has_thin_tool() const { return thickness_of_thin_tool_ > 0.; }
   /// A message if nodes have been found behind the tool. Collective.
   DiagnosticList check_nodes_behind() const;
-  /// A message on each tool that fits between the nodes. Collective.
+  /// A message on each tool that fits between the points of contact. Collective.
   static DiagnosticList check_small_tools(const std::vector<RigidContact> &contacts);
 
   /// On all ranks, after update().
@@ -191,7 +198,8 @@ public:
   /// that motion. Of a tool that moves as told 0. Counts what bounds count.
   double stiffness_against_tool() const;
 
-  /// Of every node at a facet of this rank; `area` is this rank's share.
+  /// Of every node at a facet of this rank; `area` is this rank's share. At divided facets pressure, traction
+  /// and status are those of all points that push the node, as means over its share of their areas.
   std::vector<ContactNodeReport> report() const;
 
   /// Returns the status of each node at a facet of this rank and the force that it takes, after update().
@@ -220,6 +228,7 @@ private:
     ContactStiffness stiffness;
     double size;            ///< of the facets around it
     double reach;           ///< how deep it may be, as part of these facets and of the elements below them
+    double spacing;         ///< of the parts of facets around it; the same where none is divided
     double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
@@ -274,6 +283,21 @@ private:
     std::array<double, 4> shallow_areas;
   };
   static constexpr double not_touching = -1.;
+  /// What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
+  static constexpr double near_gap = 0.25, near_steps = 20.;
+  /// A point inside a facet: node n_mesh_nodes_ + its index.
+  struct InteriorPoint {
+    std::array<unsigned int, 4> corners; ///< of the facet
+    std::array<double, 4> weights;       ///< N_a
+    std::uint64_t key;                   ///< that no other has, the same on any number of ranks
+  };
+  /// A facet of the mesh that is divided.
+  struct DividedFacet {
+    std::array<unsigned int, 4> corners;
+    unsigned int first_point, n_points; ///< inside, in `nodes_`
+    unsigned int first_part, n_parts;   ///< in `facets_`
+    bool may_touch;                     ///< a point inside touched at the last update(), or is not known
+  };
   /// In the penalty springs of a node that touches [energy/length²].
   struct Springs {
     double energy;
@@ -293,7 +317,53 @@ private:
   double lift_of(const Node &node) const { return node.lift - allowed_part_ * node.initial_depth; }
   /// Slave nodes, with their penalties, and facets.
   void collect_facets(const Discretization &discretization, double young_modulus);
-  /// How wide and, if it is thin, how thick it is. Collective.
+  /// Divides facets where the tool needs it. `corners`: of all facets, undivided. Collective.
+  void divide_facets(const Discretization &discretization,
+                     const std::vector<std::array<unsigned int, 4>> &corners);
+  void divide(const std::array<unsigned int, 4> &corners, const std::array<unsigned int, 2> &n_parts,
+              std::uint64_t key);
+  /// Sets points inside a divided facet free that is farther from the tool than they can matter; else false.
+  bool is_far(DividedFacet &divided);
+  /// Calls add(node of the mesh, weight) for what a node or point hangs on.
+  template <class Add> void for_each_parent(const std::size_t i, const Add &add) const {
+    if (i < n_mesh_nodes_) {
+      add(static_cast<unsigned int>(i), 1.);
+      return;
+    }
+    const InteriorPoint &point = points_[i - n_mesh_nodes_];
+    for (unsigned int a = 0; a < 4; ++a)
+      if (point.weights[a] > 0.)
+        add(point.corners[a], point.weights[a]);
+  }
+  /// Σ w value(node of the mesh).
+  template <class Value> dealii::Tensor<1, 3> at(const std::size_t i, const Value &value) const {
+    if (i < n_mesh_nodes_)
+      return value(i);
+    dealii::Tensor<1, 3> sum;
+    for_each_parent(i,
+                    [&](const unsigned int parent, const double weight) { sum += weight * value(parent); });
+    return sum;
+  }
+  void add_to_dofs(std::size_t i, const dealii::Tensor<1, 3> &value, Vector &vector) const;
+  void average_over_points(std::vector<ContactNodeReport> &reports) const;
+  /// Nodes or facets whose state goes into a checkpoint under names of this prefix.
+  struct Range {
+    std::string prefix;
+    std::size_t begin, end;
+    std::vector<std::uint64_t> keys;
+  };
+  Range mesh_nodes(const NodeKeys &keys) const;
+  Range interior_points() const;
+  Range facet_range(bool are_parts) const;
+  void save_nodes(StateWriter &writer, const Range &range) const;
+  /// Areas of a facet's corners that checkpoints keep, and under which name.
+  using CornerAreas = std::array<double, 4> Facet::*;
+  using KeptAreas = std::pair<std::string, CornerAreas>;
+  std::vector<KeptAreas> kept_areas() const;
+  void save_areas(StateWriter &writer, const std::string &name, CornerAreas areas, const Range &range) const;
+  void load_nodes(const StateReader &reader, const Range &range);
+  void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas, const Range &range);
+  /// How thick it is, if it is thin. Collective.
   void measure_tool();
   DiagnosticList check_small_tool() const;
   /// Of nodes that might go through it, for the next step.
@@ -352,6 +422,7 @@ private:
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
   /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
   bool compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
+  void add_divided_tangent(const DividedFacet &divided, const TangentSystem &system) const;
   void add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
 
@@ -363,8 +434,12 @@ private:
   const bool has_inertia_;
   const bool is_explicit_;    ///< works are those of the trapezoidal rule
   const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
-  std::vector<Node> nodes_;
-  std::vector<NodeState> states_; ///< at the last update()
+  std::vector<Node> nodes_;   ///< of the mesh, then points inside facets
+  std::size_t n_mesh_nodes_ = 0;
+  std::vector<InteriorPoint> points_;
+  std::vector<DividedFacet> divided_;
+  bool has_divided_facets_ = false; ///< any rank
+  std::vector<NodeState> states_;   ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
   /// Of nodes at the start of the step, in the tool's coordinates, for compute_step_works().
   struct PressureHistory {
@@ -375,17 +450,18 @@ private:
   std::vector<PressureHistory> pressed_n_; ///< none in explicit scenes
   double allowed_part_n_ = 1.;             ///< at the start of the step
   std::vector<std::array<double, 2>>
-      base_; ///< what this step's friction starts from: that of friction_n_, or augmented
-  std::vector<Facet> facets_;
+      base_;                  ///< what this step's friction starts from: that of friction_n_, or augmented
+  std::vector<Facet> facets_; ///< those that are not divided, then parts
+  std::size_t n_whole_facets_ = 0;
   std::vector<const RigidContact *> others_; ///< of the same body
-  std::vector<unsigned int> local_nodes_;    ///< of each slave node, after bind()
+  std::vector<unsigned int> local_nodes_;    ///< of each node of the mesh, after bind()
   std::vector<bool> is_owned_;               ///< as LocalNodes has it
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
   double start_weight_ = 0.5;
   double tool_reach_ = 0.;
-  double tool_width_ = 0.;             ///< the second of its bounding box's extents [length]
+  double unresolved_length_ = 0.;      ///< of the longest facet that has too few parts, on any rank [length]
   double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]
   std::vector<dealii::Tensor<1, 3>> positions_on_thin_tool_; ///< of the nodes, at the start of the step
   double stiffening_ = 1.;                                   ///< of all penalties, by stiffen()

@@ -66,7 +66,8 @@ struct ContactPair {
   enum class Passes { automatic, one, two };
   Located<Facets> facets;
   Passes passes;
-  bool edges;
+  enum class Edges { automatic, held, free };
+  Edges edges;
   PenaltyOf penalty_of;
   double smoothing;
   double search_margin;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_DIVISION_H
+#define BILLET_CONTACT_FACET_DIVISION_H
+
+#include "billet/geometry/rigid_surface.h"
+
+#include <vector>
+
+namespace billet {
+
+/// Finds into how many parts facets have to be divided so that a tool cannot enter between the corners of
+/// the parts unseen, beside (M41).
+///
+/// Each sample of the tool's surface, a point x with a normal n, meets a square of side s in its tangent
+/// plane, with x in the middle. Along the tool's axes of the sample and turned by 45 degrees, at least one
+/// corner of the square has to be inside the tool after it has moved by L/8 along −n, L the facet's length,
+/// or by a half, a quarter or an eighth of that, where the tool's normal is within 60 degrees of n.
+/// So a sphere of radius R needs about s² ≤ R L/2, a cylinder s² ≤ R L, an edge of 90 degrees s ≤ L/4, a fin
+/// as wide as t about s ≤ t. A plane, or a sphere of R ≥ 2.1 L, has enough of the corners of the facet.
+///
+/// At convex edges normals between those of both sides are samples, too.
+class FacetDivision {
+public:
+  /// Most parts along a side.
+  static constexpr unsigned int max_parts = 16;
+
+  /// Samples what the surface's picture of a region shows.
+  FacetDivision(const RigidSurface &surface, const PictureRegion &region);
+
+  /// Returns the number of parts along a side of this length: 1, 4, 8 or 16. `is_enough` is false where even
+  /// the most parts are too few.
+  struct Parts {
+    unsigned int n;
+    bool is_enough;
+  };
+  Parts find_parts(double length) const;
+
+private:
+  struct Sample {
+    dealii::Tensor<1, 3> position, normal;
+  };
+  bool is_seen(double spacing, double length) const;
+  void add_samples(const dealii::Tensor<1, 3> &position, double distance);
+
+  const RigidSurface &surface_;
+  std::vector<Sample> samples_;
+};
+
+} // namespace billet
+
+#endif

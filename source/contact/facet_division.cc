@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/facet_division.h"
+
+#include "billet/geometry/frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+constexpr double unseen = 0.125;         // part of a facet's length by which a tool may enter unseen
+constexpr std::size_t max_points = 4000; // of a picture; of a finer one every second, third ... counts
+const double diagonal = std::sqrt(0.5);
+
+/// Directions at angles of multiples of 45 degrees across a normal.
+std::array<Tensor<1, 3>, 8> directions(const Tensor<1, 3> &normal) {
+  const Frame frame = Frame::from_normal(normal);
+  std::array<Tensor<1, 3>, 8> result;
+  for (unsigned int i = 0; i < 8; ++i)
+    result[i] = std::cos(0.25 * M_PI * i) * frame.q + std::sin(0.25 * M_PI * i) * frame.r;
+  return result;
+}
+
+} // namespace
+
+FacetDivision::FacetDivision(const RigidSurface &surface, const PictureRegion &region) : surface_(surface) {
+  const SurfacePicture picture = surface.picture(region);
+  const double distance = 1e-3 * region.radius;
+  const std::size_t stride = 1 + picture.points.size() / max_points;
+  for (std::size_t i = 0; i < picture.points.size(); i += stride)
+    add_samples(picture.points[i], distance);
+  // Middles: what the picture draws with few facets has its points on its edges alone.
+  for (std::size_t i = 0; i < picture.facets.size(); i += stride) {
+    Tensor<1, 3> middle;
+    for (const unsigned int point : picture.facets[i])
+      middle += picture.points[point] / double(picture.facets[i].size());
+    const auto above = surface.project(middle);
+    if (above.exists)
+      samples_.push_back({middle - above.gap * above.normal, above.normal});
+  }
+}
+
+void FacetDivision::add_samples(const Tensor<1, 3> &position, const double distance) {
+  const auto at = surface_.project(position);
+  const Tensor<1, 3> &normal = at.normal;
+  if (at.exists)
+    samples_.push_back({position, normal});
+  for (const auto &aside : directions(normal)) {
+    const Tensor<1, 3> x = position + distance * (normal + aside);
+    const auto beside = surface_.project(x, at.patch);
+    const Tensor<1, 3> foot = x - beside.gap * beside.normal;
+    // On smooth surfaces the foot moves along; on a convex edge the normal turns about the same foot.
+    if (beside.exists && beside.gap > 0. && (foot - position).norm() < 0.1 * distance)
+      samples_.push_back({position, beside.normal});
+  }
+}
+
+bool FacetDivision::is_seen(const double spacing, const double length) const {
+  constexpr double round_off = 1e-9;
+  constexpr double opposing = 0.5; // cosine: what touches a flank as steep as that only lets the tool pass
+  const auto is_met_at = [&](const Tensor<1, 3> &x, const Tensor<1, 3> &normal) {
+    const auto projection = surface_.project(x);
+    return projection.exists && projection.gap <= round_off * length &&
+           projection.normal * normal >= opposing - round_off;
+  };
+  return std::all_of(samples_.begin(), samples_.end(), [&](const Sample &sample) {
+    const auto around = directions(sample.normal);
+    for (const unsigned int turned : {0U, 1U}) {
+      bool is_met = false;
+      for (unsigned int corner = turned; corner < 8 && !is_met; corner += 2)
+        // Of thin tools only some depths are inside.
+        for (double depth = unseen; depth > 0.1 * unseen && !is_met; depth *= 0.5)
+          is_met = is_met_at(sample.position + diagonal * spacing * around[corner] -
+                                 depth * length * sample.normal,
+                             sample.normal);
+      if (!is_met)
+        return false;
+    }
+    return true;
+  });
+}
+
+FacetDivision::Parts FacetDivision::find_parts(const double length) const {
+  if (is_seen(length, length))
+    return {1, true};
+  for (unsigned int n = 4; n <= max_parts; n *= 2)
+    if (is_seen(length / n, length))
+      return {n, true};
+  return {max_parts, false};
+}
+
+} // namespace billet

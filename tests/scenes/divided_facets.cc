@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Facets that are divided, since the tool could enter between their nodes: how many parts they have; forces
+// that are those of the stored energy, and together the load on the tool; a uniform pressure that stays a
+// uniform stress; the tangent; and a ball that bounces off the middle of a facet.
+#include "billet/contact/facet_division.h"
+
+#include "explicit_run.h"
+#include "tangent_check.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::ExplicitRun;
+using billet::testing::SurfacePart;
+using dealii::Tensor;
+
+namespace {
+
+const SurfacePart box{"extruded profile",
+                      "set Corners = -0.8, 0 ; 0.8, 0 ; 0.8, -0.5 ; -0.8, -0.5 ; -0.8, 0\n"
+                      "set Axis = 0, -1, 0\nset Direction = 1, 0, 0\nset Length = 1.6"};
+
+/// A sphere of radius R, a cylinder, an edge of 90 degrees and a fin as wide as t need squares of s² ≤ R L/2,
+/// s² ≤ R L, s ≤ L/4 and s about t.
+void test_parts() {
+  const auto n_parts = [](const SurfacePart &part, const double length) {
+    const auto surface = testing::make_surface(part.shape, part.lines);
+    const auto parts = FacetDivision(*surface, {Tensor<1, 3>(), 5.}).find_parts(length);
+    return parts.is_enough ? parts.n : 0;
+  };
+  const SurfacePart ball{"sphere", "set Radius = 1"};
+  check("plane: whole facets", n_parts({"plane", ""}, 1.) == 1);
+  check("ball of two facets: whole facets", n_parts(ball, 0.48) == 1);
+  check("smaller ball: 4 parts", n_parts(ball, 0.51) == 4);
+  check("ball of a quarter of a facet: 4 parts", n_parts(ball, 4.) == 4);
+  check("ball of a tenth: 16 parts", n_parts(ball, 10.) == 16);
+  check("ball of a sixth: 8 parts", n_parts(ball, 6.) == 8);
+  check("ball of a hundredth: too few parts", n_parts(ball, 100.) == 0);
+  check("cavity: whole facets", n_parts({"sphere", "set Radius = 1\nset Side = inside"}, 0.9) == 1);
+  const SurfacePart roll{"cylinder", "set Radius = 1"};
+  check("roll of a facet: whole facets", n_parts(roll, 0.124) == 1);
+  check("box: 4 parts", n_parts(box, 0.25) == 4);
+  const SurfacePart fin{"extruded profile", "set Corners = -0.05, -1 ; -0.05, 0 ; 0.05, 0 ; 0.05, -1\n"
+                                            "set Axis = 0, 1, 0\nset Direction = 1, 0, 0"};
+  check("fin of 0.1 facets: 16 parts", n_parts(fin, 1.) == 16);
+}
+
+/// A block on a tool, displaced at will, without a motion.
+struct Pressed {
+  explicit Pressed(const SurfacePart &part)
+      : scene(read(part)), discretization(scene, MPI_COMM_WORLD), nodes(discretization),
+        contact(scene, 0, discretization, parameters::ContactTangent::consistent), u(nodes.make_vectors()),
+        forces(u), bounds(u) {
+    contact.bind(nodes);
+  }
+  static parameters::Scene read(const SurfacePart &part) {
+    parameters::Scene parameters = testing::read_test_scene("hard_blow.prm");
+    parameters.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
+    parameters.tools[0].surface = testing::make_surface(part.shape, part.lines);
+    return parameters;
+  }
+  ContactLoad press() {
+    for (auto &value : forces)
+      value = 0.;
+    contact.update(u);
+    return contact.add_forces(forces, bounds);
+  }
+
+  Scene scene;
+  Discretization discretization;
+  LocalNodes nodes;
+  RigidContact contact;
+  NodalVectors u, forces, bounds;
+};
+
+void test_potential(const std::string &name, const SurfacePart &part) {
+  Pressed block(part);
+  testing::Random random;
+  const auto &nodes = block.nodes;
+  for (unsigned int node = 0; node < nodes.size(); ++node)
+    add_vector(block.u.data(), node, random.vector(0.01));
+  const ContactLoad load = block.press();
+  Tensor<1, 3> sum, moment;
+  bool are_nodes_free = true;
+  for (const auto &report : block.contact.report())
+    are_nodes_free = are_nodes_free && report.gap > 0.;
+  double scale = 0.;
+  for (unsigned int node = 0; node < nodes.size(); ++node) {
+    const Tensor<1, 3> force = get_vector(block.forces.data(), node);
+    sum += force;
+    scale += force.norm();
+    moment += dealii::cross_product_3d(
+        get_vector(nodes.positions().data(), node) + get_vector(block.u.data(), node), force);
+  }
+  check(name + ": no node is in the tool", are_nodes_free);
+  check(name + ": facets are pressed", load.stored_energy > 0. && sum[2] > 0.);
+  check(name + ": force on the tool", (sum - load.force).norm() / scale, 1e-13);
+  check(name + ": moment on the tool", (moment - load.moment).norm() / scale, 1e-13);
+  testing::WorstError error;
+  for (unsigned int k = 0; k < 5; ++k) {
+    NodalVectors direction = nodes.make_vectors();
+    double power = 0.;
+    for (unsigned int node = 0; node < nodes.size(); ++node) {
+      const Tensor<1, 3> way({random(-1., 1.), random(-1., 1.), random(-1., 1.)});
+      add_vector(direction.data(), node, way);
+      power += way * get_vector(block.forces.data(), node);
+    }
+    const double slope = testing::central_difference(
+        [&](const double h) {
+          NodalVectors moved = block.u;
+          for (std::size_t i = 0; i < moved.size(); ++i)
+            moved[i] += h * direction[i];
+          block.contact.update(moved);
+          return block.contact.local_load().stored_energy;
+        },
+        1e-6);
+    error.add(std::abs(power + slope) / scale);
+  }
+  check(name + ": forces are those of the stored energy", error.value(), 1e-7);
+}
+
+void test_patch() {
+  Pressed on_plane({"plane", ""}), on_box(box);
+  for (auto *block : {&on_plane, &on_box}) {
+    for (unsigned int node = 0; node < block->nodes.size(); ++node) // it spreads, and sinks in
+      add_vector(block->u.data(), node,
+                 0.1 * get_vector(block->nodes.positions().data(), node) + Tensor<1, 3>({0., 0., -0.005}));
+    block->press();
+  }
+  double error = 0., largest = 0., bound = 0.;
+  for (std::size_t i = 0; i < on_plane.forces.size(); ++i) {
+    error = std::max(error, std::abs(on_plane.forces[i] - on_box.forces[i]));
+    largest = std::max(largest, std::abs(on_plane.forces[i]));
+    bound = std::max(bound, on_plane.bounds[i] - 1.05 * on_box.bounds[i]);
+  }
+  check("uniform pressure on divided facets: that of whole ones", error / largest, 1e-12);
+  check("uniform pressure on divided facets: as stiff", bound <= 0.);
+}
+
+void test_tangent() {
+  for (const double friction : {0.8, 0.03, 0.}) {
+    parameters::Scene scene =
+        testing::make_curved({"sphere", "set Centre = 0.45, 0.55, -0.09\nset Radius = 0.1"}, friction);
+    for (const auto kind : {parameters::ContactTangent::exact, parameters::ContactTangent::numerical}) {
+      scene.solver.contact_tangent = kind;
+      testing::SceneRun run(scene);
+      const std::string name = std::string("ball in facets, ") +
+                               (kind == parameters::ContactTangent::exact ? "exact" : "numerical") +
+                               " tangent, friction " +
+                               (friction > 0.5  ? "0.8"
+                                : friction > 0. ? "0.03"
+                                                : "0");
+      check(name, testing::tangent_error(run, 0.75, 3), 1e-6);
+    }
+  }
+}
+
+/// A ball of 0.6 facets that flies at the middle of a facet of a plate and does not pass.
+void test_bounce() {
+  parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
+  scene.bodies[0].mesh.arguments = "4, 4, 1 : -2, -2, 0 : 2, 2, 0.5 : true";
+  scene.bodies[0].initial_velocity.value = {"0", "0", "-10"};
+  scene.tools[0].surface = testing::make_surface("sphere", "set Centre = 0.5, 0.5, -0.61\nset Radius = 0.6");
+  scene.time_stepping.end_time = 0.06;
+  ExplicitRun run(scene);
+  const double start = -0.08; // 8e-3 of mass at 10
+  run.finish(1e-4, [] {});
+  check("bounce off a facet: energy", run.worst_drift, 0.01);
+  check("bounce off a facet: it does not pass", run.state().momentum[2] > 0.5 * start);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_parts();
+  test_potential("small ball", {"sphere", "set Centre = 0.22, 0.27, -0.17\nset Radius = 0.2"});
+  test_potential("ridge", {"extruded profile", "set Corners = -1, -1 ; 0.23, 0.03 ; 1, -1\n"
+                                               "set Axis = 0.05, -1, 0\nset Direction = 1, 0.05, 0"});
+  test_patch();
+  test_tangent();
+  test_bounce();
+  return testing::exit_code();
+}
