@@ -282,6 +282,10 @@ public:
     } else if (n >= settings_.most_iterations) {
       report_.failure = "no convergence in " + std::to_string(n) + " iterations";
       status_ = NOX::StatusTest::Failed;
+    } else if (n >= 3 * window_ && has_stalled(n)) { // later, drift is a small part of the way it has made
+      report_.failure =
+          "given up after " + std::to_string(n) + " iterations, since the residual no longer falls";
+      status_ = NOX::StatusTest::Failed;
     } else if (is_hopeless(n) && !may_still_settle(n)) {
       report_.failure = "given up after " + std::to_string(n) + " iterations, since at their pace " +
                         std::to_string(settings_.most_iterations) + " will not do";
