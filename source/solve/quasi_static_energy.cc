@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <sstream>
 
 namespace billet {
@@ -35,10 +33,6 @@ bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
                                 largest_energy_};
   const double floor = round_off_force_ * discretization_.radius();
   const StepEnergy::Verdict verdict = step_energy_.judge(state_.time, t - state_.time, works, floor);
-  if (std::getenv("BILLET_DEBUG") != nullptr)
-    std::fprintf(stderr, "E t %g loss %g touch %g own %g before %g floor %g parts %.4f %.4f verdict %d\n", t,
-                 works.imbalance, compute_step_works().touching, works.own, works.before, floor,
-                 works.imbalance / works.own, StepEnergy::part_of_all(works), static_cast<int>(verdict));
   if (verdict == StepEnergy::Verdict::balanced)
     return false;
   const double percent = 100. * StepEnergy::part_of_all(works);

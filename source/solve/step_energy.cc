@@ -12,8 +12,8 @@ double StepEnergy::part_of_all(const Works &works) {
 
 StepEnergy::Verdict StepEnergy::judge(const double t_n, const double length, const Works &works,
                                       const double floor) {
-  if (!(works.before + works.own > floor) || !(std::abs(works.imbalance) > max_part * works.own) ||
-      !(part_of_all(works) > max_part))
+  if (!(works.before + works.own > floor) || works.before < min_before * works.own ||
+      !(std::abs(works.imbalance) > max_part_of_own * works.own) || !(part_of_all(works) > max_part))
     return Verdict::balanced;
   if (rejected_at_ != t_n) {
     rejected_at_ = t_n;

@@ -45,8 +45,9 @@ int main() {
   }
   StepEnergy energy;
   check("small beside all work", energy.judge(1., 0.1, {0.9, 1., 10.}, 0.) == Verdict::balanced);
-  check("small beside the step's", energy.judge(1., 0.1, {2., 10., 0.}, 0.) == Verdict::balanced);
-  check("below the floor", energy.judge(1., 0.1, {1., 1., 0.}, 2.) == Verdict::balanced);
+  check("small beside the step's", energy.judge(1., 0.1, {3.9, 10., 2.}, 0.) == Verdict::balanced);
+  check("below the floor", energy.judge(1., 0.1, {1., 1., 0.5}, 2.) == Verdict::balanced);
+  check("at first touch", energy.judge(1., 0.1, {1., 1., 0.05}, 0.) == Verdict::balanced);
   check("out of balance", energy.judge(1., 0.1, {-1., 1., 1.}, 0.) == Verdict::rejected);
   check("and cut", energy.judge(1., 0.1 / 16., {-1., 1., 1.}, 0.) == Verdict::rejected);
   check("a jump", energy.judge(1., 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::jump);

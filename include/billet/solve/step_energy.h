@@ -16,8 +16,13 @@ public:
   };
   enum class Verdict { balanced, rejected, jump };
 
-  /// An imbalance above this part both of the step's own work and of all work is rejected.
-  static constexpr double max_part = 0.25;
+  /// An imbalance above this part of all work, that of the step included, is rejected, ...
+  static constexpr double max_part = 0.15;
+  /// ... if it is also above this part of the step's own.
+  static constexpr double max_part_of_own = 0.4;
+  /// Where there was less work before, as a part of the step's own, nothing is judged: bodies begin to touch,
+  /// and there is nothing yet that could be lost.
+  static constexpr double min_before = 0.1;
   /// An imbalance that cuts to this part of the first rejected step leave as it is belongs to the solution.
   static constexpr double least_cut = 1. / 32.;
 
