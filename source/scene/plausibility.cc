@@ -241,7 +241,6 @@ ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold>
         continue;
       const auto &face = start->face(first);
       const double area = face->measure();
-      whole_area += area;
       double thickness = 0.;
       unsigned int layers = 0;
       auto cell = start;
@@ -257,6 +256,8 @@ ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold>
         f = cell->neighbor_of_neighbor(opposite);
         cell = cell->neighbor(opposite);
       }
+      if (is_free)
+        whole_area += area;
       if (!is_free || thickness > thin * box.diagonal())
         continue;
       const double along =

@@ -260,7 +260,7 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
     }
     if (spread.is_coarse_on_curves()) {
       std::ostringstream text;
-      text.precision(2);
+      text.precision(3);
       text << "Facets that bear " << 100. * spread.on_coarse_curves / spread.force
            << " % of the force have up to " << spread.coarsest << " times the tool's radius there";
       diagnostics.push_back(Diagnostic(diagnostic::coarse_on_tool, text.str())

@@ -341,6 +341,10 @@ check "a penalty that takes the die's motion gives a warning, and the summary sa
   my ($worst) = $said =~ /^warning\[penalty-too-low\] pair 'top on die': \d+ times, penetration \[facet sizes\] up to ([\d.e-]+) at time 1$/m;
   return $first < 0.02 && $worst >= 9.9 * $first && $said =~ /^Completed in \S+ with 2 warnings\./m ? '' : "says $said";
 };
+check 'and what it makes of the force, too', sub {
+  billet('top on die: Normal penalty = 1e-3');
+  return $said =~ /^warning\[contact-too-soft\]: Penetration takes 9[\d.]+ % of the deformation along the load path of 'top on die'/m ? '' : "says $said";
+};
 check 'so in explicit scenes', sub {
   billet('hammer on block: Normal penalty = 1e-6', base => $impact);
   return $said =~ /^warning\[penalty-too-low\]: Nodes penetrate by [\d.e-]+ facet sizes.* \(pair 'hammer on block', time/m ? '' : "says $said";

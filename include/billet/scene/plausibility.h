@@ -16,7 +16,7 @@ DiagnosticList check_plausibility(const Scene &scene, const dealii::Triangulatio
 
 /// How many bricks a body has through its thickness, and their shape, where it is thin.
 struct ThinPart {
-  double area = 0.;        ///< part of the boundary below which the body is thin
+  double area = 0.;        ///< part of the boundary that can bend below which the body is thin
   double mean_layers = 0.; ///< bricks through the thickness, mean over that area
   double mean_aspect = 0.; ///< longest edge along the face / brick's height, mean over that area
   double slenderness = 0.; ///< size of the body / mean thickness
