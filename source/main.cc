@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/errors.h"
-#include "billet/output/checkpoint.h"
-#include "billet/scene/scene.h"
 #include "billet/simulation.h"
 #include "billet/version.h"
 
@@ -76,21 +74,6 @@ billet::parameters::Scene read_scene(const std::string &file, const std::string 
   return parameters;
 }
 
-void check(const std::string &file, const std::string &restart_file, const bool is_first) {
-  const auto parameters = read_scene(file, restart_file);
-  if (parameters.restart.is_wanted())
-    const billet::CheckpointReader sound(MPI_COMM_WORLD, parameters.restart.file.value,
-                                         parameters.restart.file.origin);
-  billet::fail_together(MPI_COMM_WORLD, [&] {
-    billet::check_output_folder(parameters);
-    const billet::Scene scene(parameters);
-    dealii::Triangulation<3> outline;
-    scene.build_mesh(billet::MeshDetail::outline, outline);
-    if (is_first)
-      scene.describe(std::cout);
-  });
-}
-
 void say(const std::exception &error, const bool is_first) {
   if (is_first)
     std::cerr << "billet: " << error.what() << std::endl;
@@ -115,7 +98,7 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
   case Task::check:
     for (const auto &file : command.scenes)
       try {
-        check(file, command.restart_file, is_first);
+        billet::check_simulation(read_scene(file, command.restart_file), MPI_COMM_WORLD, std::cout);
       } catch (const billet::InputError &error) { // of one scene; the others are checked all the same
         say(error, is_first);
         code = ExitCode::bad_input;

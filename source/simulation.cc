@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/simulation.h"
 
+#include "billet/contact/faceted_curvature.h"
+#include "billet/discretization/inverted_corners.h"
 #include "billet/errors.h"
 #include "billet/output/capabilities_file.h"
 #include "billet/output/checkpoint.h"
@@ -233,6 +235,13 @@ void check_output_folder(const parameters::Scene &parameters) {
 }
 
 namespace {
+
+/// What is doubtful about the undeformed meshes. Collective.
+DiagnosticList find_doubts(const Scene &scene, const Discretization &discretization) {
+  DiagnosticList doubts = find_inverted_corners(scene, discretization);
+  append(doubts, find_faceted_curvature(scene, discretization));
+  return doubts;
+}
 
 /// Where a run begins that is not the first of its scene.
 struct Resumption {
@@ -490,6 +499,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   const double mass = errors ? problem.mass() : 0.;
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
+  if (resumption == nullptr)
+    outputs.diagnostics.report(find_doubts(scene, discretization));
   if (resumption != nullptr)
     outputs.announce(*resumption, parameters.solver.force_tolerance);
   if (resumption == nullptr || !resumption->report.is_exact)
@@ -673,6 +684,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   const std::array<bool, 3> free_directions = scene.free_directions();
   Outputs outputs(scene, discretization, resumption);
   outputs.progress.start(discretization, problem);
+  if (resumption == nullptr)
+    outputs.diagnostics.report(find_doubts(scene, discretization));
   if (resumption != nullptr)
     outputs.announce(*resumption, 0.);
   const auto save = [&](StateWriter &writer) {
@@ -833,6 +846,27 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
 }
 
 } // namespace
+
+void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream) {
+  fail_together(communicator, [&] { check_output_folder(parameters); });
+  if (parameters.restart.is_wanted())
+    const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
+  const Scene scene(parameters);
+  const Discretization discretization(scene, communicator);
+  DiagnosticList doubts;
+  if (!parameters.restart.is_wanted()) {
+    if (parameters.is_explicit())
+      const ExplicitDynamics problem(scene, discretization);
+    else
+      const QuasiStatic problem(scene, discretization);
+    doubts = find_doubts(scene, discretization);
+  }
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+    return;
+  scene.describe(stream);
+  Diagnostics diagnostics([&stream](const Severity, const std::string &text) { stream << text << "\n"; });
+  diagnostics.report(doubts);
+}
 
 ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
   // Set up: everything that can be wrong with the scene shows here, before anything is written.

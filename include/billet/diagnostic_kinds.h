@@ -24,6 +24,19 @@ inline const DiagnosticKind
                "Check the end time, densities, units and flat elements; 'Mass scaling "
                "step' makes steps longer");
 
+inline const DiagnosticKind
+    inverted_corners("inverted-corners", Severity::warning,
+                     "Undeformed elements are inside out at a corner. Their stiffness and volume are wrong "
+                     "there, and they fail early.",
+                     "Mend the mesh: no inner angle of a face may exceed 180 degrees");
+
+inline const DiagnosticKind faceted_curvature(
+    "faceted-curvature", Severity::warning,
+    "Two curved faces fit each other, but the chords of their facets do not: they touch only here and there, "
+    "and the contact is too soft.",
+    "Place the nodes of both faces at the same angles, use more facets around, or name the true surface in "
+    "'Surface correction'");
+
 // --- contact ---------------------------------------------------------------------------------------------
 
 inline const DiagnosticKind penalty_too_low(

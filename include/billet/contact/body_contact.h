@@ -80,10 +80,6 @@ public:
   /// update(). Collective.
   void allow_overlap();
 
-  /// Throws InputError, with the largest overlap and where it is, if the undeformed bodies are deeper in each
-  /// other than the scene allows. Collective.
-  void check_overlap() const;
-
   /// The state of the last add_forces() becomes the start of the next step.
   void commit();
 
@@ -130,8 +126,7 @@ private:
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it
   std::vector<SurfaceFacet> facets_;
-  std::vector<double> areas_;                                    ///< of the undeformed facets
-  double least_reach_ = std::numeric_limits<double>::infinity(); ///< of this rank's facets
+  std::vector<double> areas_; ///< of the undeformed facets
   /// Until penalties, the normal and the tangential ones, are 10 E/h.
   double most_stiffening_ = std::numeric_limits<double>::infinity(),
          most_tangential_stiffening_ = std::numeric_limits<double>::infinity();
