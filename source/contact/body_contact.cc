@@ -64,7 +64,8 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   double smallest = std::numeric_limits<double>::infinity();
   for (const double area : areas_)
     smallest = std::min(smallest, std::sqrt(area));
-  settings.search_margin = pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator);
+  settings.search_margin = std::max(pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator),
+                                    2. * pair_.overlap.closed_gap);
   for (const unsigned int node : local_nodes_)
     keys_.push_back(node_keys(nodes.dofs(node)[0]));
   settings.limits.zone = pair_.smoothing;
@@ -92,7 +93,8 @@ void BodyContact::collect(const NodeKeys &keys) {
       facet.surface = surface;
       facet.key = make_key(boundary, keys);
       areas_.push_back(boundary.area_vector().norm());
-      facet.reach = contact_reach(boundary);
+      facet.reach = std::max(contact_reach(boundary), 1.1 * pair_.overlap.closed_gap);
+      facet.bulge = bulge_of(boundary, pair_.correction);
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
             index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes_.size()));
@@ -422,8 +424,18 @@ std::string BodyContact::describe_restless() const {
   return text.str();
 }
 
+void BodyContact::allow_overlap(const NodalVectors &displacements) {
+  update([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); }, 0.);
+  allow_overlap();
+}
+
 void BodyContact::allow_overlap() {
-  if (!pair_.overlap.is_allowed)
+  if (pair_.overlap.closed_gap > 0.) {
+    contact_->close_initial_gaps(positions_, pair_.overlap.closed_gap);
+    forces_.assign(local_nodes_.size(), Tensor<1, 3>());
+    contact_->add_forces(positions_n_, positions_, 0., forces_);
+  }
+  if (!pair_.overlap.is_allowed && !(pair_.overlap.closed_gap > 0.))
     return;
   // A node's mean gap over overlapping facets hides what is deeper in some part of them: again, then, until
   // nothing is left. Each time takes a part of it.

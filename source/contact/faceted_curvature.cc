@@ -175,7 +175,9 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
 DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization) {
   DiagnosticList diagnostics;
   for (const auto &pair : scene.body_pairs()) {
-    if (pair.is_self_contact || pair.bodies[0] == pair.bodies[1])
+    using Correction = parameters::ContactPair::Correction;
+    if (pair.correction.kind != Correction::Kind::none || pair.is_self_contact ||
+        pair.bodies[0] == pair.bodies[1])
       continue;
     const ChordGap chords = find_chord_gap(discretization, pair);
     if (!(chords.relative > pair.input->allowed_penetration.value))

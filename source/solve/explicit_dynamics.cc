@@ -101,6 +101,8 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
     if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
       check_overlap(scene, p, discretization);
+    if (!scene.parameters().restart.is_wanted() && scene.body_pairs()[p].overlap.closed_gap > 0.)
+      body_contacts_.back()->allow_overlap(u_);
   }
   state_.body_pair_loads.resize(body_contacts_.size());
   state_.tool_loads.resize(tools_.size());

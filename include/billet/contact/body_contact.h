@@ -77,8 +77,10 @@ public:
   void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const;
 
   /// If the scene allows the undeformed bodies to be in each other, takes note of how deep they are, after
-  /// update(). Collective.
+  /// update(); and closes gaps, if the scene asks for that. Collective.
   void allow_overlap();
+  /// The same at these displacements.
+  void allow_overlap(const NodalVectors &displacements);
 
   /// The state of the last add_forces() becomes the start of the next step.
   void commit();

@@ -17,7 +17,7 @@ struct ChordGap {
 };
 
 /// Finds it between the undeformed faces of a pair. The smooth surfaces are those of mean nodal normals,
-/// (M47); facets that meet at more than 50 degrees do not share one. Surfaces fit each other where one is
+/// (K2); facets that meet at more than 50 degrees do not share one. Surfaces fit each other where one is
 /// convex, the other concave, and their largest curvatures differ by less than a quarter. Where nodes of both
 /// lie at the same places chords do, too, and nothing is found. Collective; ranks get all faces of the second
 /// body.

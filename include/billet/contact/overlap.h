@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_OVERLAP_H
 
 #include "billet/discretization/boundary_facets.h"
+#include "billet/geometry/facet_bulge.h"
 
 #include <vector>
 
@@ -12,6 +13,10 @@ namespace billet {
 /// is nearer to the wall's other side; and a node that comes in from beside the facet, rather than through
 /// it, is not to be thrown out from the depth.
 double contact_reach(const BoundaryFacet &facet);
+
+/// Of the true surface that a scene names for a face, above the undeformed facet; 0 if it names none. Its
+/// distance from the axis, or the centre, is linear between the nodes of an edge.
+FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
 
 /// How deep undeformed bodies are in each other.
 struct Overlap {
