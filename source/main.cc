@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/output/checkpoint.h"
-#include "billet/scene/plausibility.h"
-#include "billet/scene/scene.h"
 #include "billet/simulation.h"
 #include "billet/version.h"
 
@@ -93,30 +90,6 @@ billet::parameters::Scene read_scene(const std::string &file, const std::string 
   return parameters;
 }
 
-void check(const std::string &file, const CommandLine &command, const bool is_first) {
-  const auto parameters = read_scene(file, command.restart_file);
-  if (parameters.restart.is_wanted())
-    const billet::CheckpointReader sound(MPI_COMM_WORLD, parameters.restart.file.value,
-                                         parameters.restart.file.origin);
-  billet::fail_together(MPI_COMM_WORLD, [&] {
-    billet::check_output_folder(parameters);
-    const billet::Scene scene(parameters);
-    dealii::Triangulation<3> outline;
-    scene.build_mesh(billet::MeshDetail::outline, outline);
-    if (!is_first)
-      return;
-    billet::DiagnosticList diagnostics = billet::check_plausibility(scene, outline, MPI_COMM_SELF);
-    billet::append(diagnostics, billet::check_bricks(scene));
-    if (command.json) {
-      std::cout << scene.describe_as_json(diagnostics) << "\n";
-      return;
-    }
-    scene.describe(std::cout);
-    for (const auto &diagnostic : diagnostics)
-      std::cout << diagnostic.text() << "\n";
-  });
-}
-
 template <class Error> void print_error(const Error &error, const bool is_first) {
   if (is_first)
     std::cerr << error.diagnostic().text() << std::endl;
@@ -166,7 +139,8 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
   case Task::check:
     for (const auto &file : command.scenes)
       try {
-        check(file, command, is_first);
+        billet::check_simulation(read_scene(file, command.restart_file), MPI_COMM_WORLD, std::cout,
+                                 command.json);
       } catch (const billet::InputError &error) { // of one scene; the others are checked all the same
         if (command.json)
           print_refusal(file, error, is_first);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/simulation.h"
 
+#include "billet/contact/faceted_curvature.h"
 #include "billet/diagnostic_kinds.h"
+#include "billet/discretization/inverted_corners.h"
 #include "billet/errors.h"
 #include "billet/output/capabilities_file.h"
 #include "billet/output/checkpoint.h"
@@ -11,6 +13,7 @@
 #include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
 #include "billet/output/progress.h"
+#include "billet/scene/plausibility.h"
 #include "billet/solve/energy_errors.h"
 #include "billet/solve/error_watch.h"
 #include "billet/solve/explicit_dynamics.h"
@@ -236,6 +239,13 @@ void check_output_folder(const parameters::Scene &parameters) {
 }
 
 namespace {
+
+/// What is doubtful about the undeformed meshes. Collective.
+DiagnosticList find_doubts(const Scene &scene, const Discretization &discretization) {
+  DiagnosticList doubts = find_inverted_corners(scene, discretization);
+  append(doubts, find_faceted_curvature(scene, discretization));
+  return doubts;
+}
 
 /// Where a run begins that is not the first of its scene.
 struct Resumption {
@@ -521,6 +531,8 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   outputs.progress.start(discretization, problem);
   diagnostics.report(problem.initial_diagnostics());
   diagnostics.report(review.start());
+  if (resumption == nullptr)
+    diagnostics.report(find_doubts(scene, discretization));
   if (resumption != nullptr)
     outputs.announce(*resumption, parameters.solver.force_tolerance);
   if (resumption == nullptr || !resumption->report.is_exact)
@@ -721,6 +733,8 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
   outputs.progress.start(discretization, problem);
   diagnostics.report(problem.initial_diagnostics());
   diagnostics.report(review.start());
+  if (resumption == nullptr)
+    diagnostics.report(find_doubts(scene, discretization));
   if (resumption != nullptr)
     outputs.announce(*resumption, 0.);
   const auto save = [&](StateWriter &writer) {
@@ -902,6 +916,34 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
 }
 
 } // namespace
+
+void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream,
+                      const bool as_json) {
+  fail_together(communicator, [&] { check_output_folder(parameters); });
+  if (parameters.restart.is_wanted())
+    const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
+  const Scene scene(parameters);
+  const Discretization discretization(scene, communicator);
+  DiagnosticList messages =
+      check_plausibility(scene, discretization.dof_handler().get_triangulation(), communicator);
+  append(messages, check_bricks(scene));
+  if (!parameters.restart.is_wanted()) {
+    if (parameters.is_explicit())
+      append(messages, ExplicitDynamics(scene, discretization).initial_diagnostics());
+    else
+      append(messages, QuasiStatic(scene, discretization).initial_diagnostics());
+    append(messages, find_doubts(scene, discretization));
+  }
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+    return;
+  if (as_json) {
+    stream << scene.describe_as_json(messages) << "\n";
+    return;
+  }
+  scene.describe(stream);
+  for (const auto &message : messages)
+    stream << message.text() << "\n";
+}
 
 ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
   // Set up: everything that can be wrong with the scene shows here, before anything is written.

@@ -63,6 +63,18 @@ inline const DiagnosticKind implausible_force(
     "implausible-force", Severity::warning,
     "A tool exerts more than ten times the force that the largest section of a body bears as it yields.",
     "Check the units of force and stress, and whether the tool closes on something rigid");
+inline const DiagnosticKind
+    inverted_corners("inverted-corners", Severity::warning,
+                     "Undeformed elements are inside out at a corner. Their stiffness and volume are wrong "
+                     "there, and they fail early.",
+                     "Mend the mesh: no inner angle of a face may exceed 180 degrees");
+
+inline const DiagnosticKind faceted_curvature(
+    "faceted-curvature", Severity::warning,
+    "Two curved faces fit each other, but the chords of their facets do not: they touch only here and there, "
+    "and the contact is too soft.",
+    "Place the nodes of both faces at the same angles, use more facets around, or name the true surface in "
+    "'Surface correction'");
 
 // --- contact ---------------------------------------------------------------------------------------------
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace billet {
@@ -65,7 +64,8 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   double smallest = std::numeric_limits<double>::infinity();
   for (const double area : areas_)
     smallest = std::min(smallest, std::sqrt(area));
-  settings.search_margin = pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator);
+  settings.search_margin = std::max(pair_.search_margin * dealii::Utilities::MPI::min(smallest, communicator),
+                                    2. * pair_.overlap.closed_gap);
   for (const unsigned int node : local_nodes_)
     keys_.push_back(node_keys(nodes.dofs(node)[0]));
   settings.limits.zone = pair_.smoothing;
@@ -94,10 +94,8 @@ void BodyContact::collect(const NodeKeys &keys) {
       facet.surface = surface;
       facet.key = make_key(boundary, keys);
       areas_.push_back(boundary.area_vector().norm());
-      // What is deeper than half the wall below is nearer to the wall's other side; and a node that comes in
-      // from beside the facet, rather than through it, is not to be thrown out from the depth.
-      facet.reach = std::min(0.1 * std::sqrt(areas_.back()), 0.4 * boundary.thickness);
-      least_reach_ = std::min(least_reach_, facet.reach);
+      facet.reach = std::max(contact_reach(boundary), 1.1 * pair_.overlap.closed_gap);
+      facet.bulge = bulge_of(boundary, pair_.correction);
       constexpr double part_of_facet = 0.4; // all methods find nodes there, and no element is as thin
       depths_.push_back(part_of_facet * std::min(std::sqrt(areas_.back()), boundary.thickness));
       for (unsigned int a = 0; a < 4; ++a) {
@@ -437,8 +435,18 @@ std::string BodyContact::describe_restless() const {
   return text.str();
 }
 
+void BodyContact::allow_overlap(const NodalVectors &displacements) {
+  update([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); }, 0.);
+  allow_overlap();
+}
+
 void BodyContact::allow_overlap() {
-  if (!pair_.overlap.is_allowed)
+  if (pair_.overlap.closed_gap > 0.) {
+    contact_->close_initial_gaps(positions_, pair_.overlap.closed_gap);
+    forces_.assign(local_nodes_.size(), Tensor<1, 3>());
+    contact_->add_forces(positions_n_, positions_, 0., forces_);
+  }
+  if (!pair_.overlap.is_allowed && !(pair_.overlap.closed_gap > 0.))
     return;
   // A node's mean gap over overlapping facets hides what is deeper in some part of them: again, then, until
   // nothing is left. Each time takes a part of it.
@@ -451,51 +459,6 @@ void BodyContact::allow_overlap() {
     forces_.assign(local_nodes_.size(), Tensor<1, 3>());
     contact_->add_forces(positions_n_, positions_, 0., forces_);
   }
-}
-
-void BodyContact::check_overlap() const {
-  const Discretization &discretization = nodes_.discretization();
-  const MPI_Comm communicator = discretization.communicator();
-  std::array<double, 2> sums{std::accumulate(areas_.begin(), areas_.end(), 0.),
-                             static_cast<double>(areas_.size())};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
-  const double size = std::sqrt(sums[0] / sums[1]);
-  Overlap deepest;
-  const bool is_one_body = pair_.bodies[0] == pair_.bodies[1];
-  if (is_one_body) {
-    std::vector<unsigned int> ids = pair_.boundary_ids[0];
-    if (!pair_.is_self_contact)
-      ids.insert(ids.end(), pair_.boundary_ids[1].begin(), pair_.boundary_ids[1].end());
-    deepest = find_self_overlap(discretization, pair_.bodies[0], ids);
-  }
-  for (unsigned int side = 0; side < 2 && !is_one_body; ++side) {
-    const Overlap overlap = find_overlap(discretization, pair_.bodies[side], pair_.boundary_ids[side],
-                                         pair_.bodies[1 - side], pair_.boundary_ids[1 - side]);
-    if (overlap.depth > deepest.depth)
-      deepest = overlap;
-  }
-  // Deeper ones are allowed as far as they are found: half of where a step loses them.
-  const double least_reach = dealii::Utilities::MPI::min(least_reach_, communicator);
-  const double found =
-      least_reach * (contact_->method() == FacetMethod::overlap ? 0.5 * FacetOverlaps::depth : 1.);
-  const double allowed = pair_.overlap.is_allowed ? found : pair_.input->allowed_penetration.value * size;
-  if (deepest.depth <= allowed)
-    return;
-  std::ostringstream message;
-  message << pair_.input->origin << ": the " << (is_one_body ? "body starts " : "bodies start ")
-          << deepest.depth << " deep (" << deepest.depth / size << " facet sizes) in "
-          << (is_one_body ? "itself" : "each other") << ", deepest at (" << deepest.position[0] << ", "
-          << deepest.position[1] << ", " << deepest.position[2] << "); ";
-  if (pair_.overlap.is_allowed)
-    message << "contact is found until a depth of " << found << ", "
-            << (contact_->method() == FacetMethod::overlap ? "half of the smallest facet or two walls"
-                                                           : "a tenth of the smallest facet")
-            << ": place them less deep, and move them by 'Supports'"
-            << (contact_->method() == FacetMethod::overlap ? "" : ", or take 'Facets = overlap'");
-  else
-    message << "allowed are " << pair_.input->allowed_penetration.value
-            << " facet sizes ('Allowed initial penetration')";
-  throw InputError(message.str());
 }
 
 std::vector<ContactNodeReport> BodyContact::report() const {

@@ -222,8 +222,9 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
     states_[i].position = position;
     nodes_[i].lift = nodes_[i].lift_n = nodes_[i].initial_depth = 0.;
     nodes_[i].is_behind = false;
-    if (pair_.overlap.is_allowed && projection.exists)
-      nodes_[i].initial_depth = std::max(0., -projection.gap);
+    if (projection.exists &&
+        ((pair_.overlap.is_allowed && projection.gap < 0.) || pair_.overlap.closes(projection.gap)))
+      nodes_[i].initial_depth = -projection.gap;
     states_[i].gap = nodes_[i].gap_n = projection.gap - lift_of(nodes_[i]);
     nodes_[i].patch = projection.patch;
     if (!friction_n_.empty()) {

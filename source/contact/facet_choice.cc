@@ -112,7 +112,8 @@ private:
   TouchedFacet look_at(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
     const PlanedFacet &plane = facets_.plane(facet);
-    if (plane.is_before(x_ - lift_.now * plane.normal(), tolerance) || plane.is_aside(x_, tolerance))
+    const double raised_by = lift_.now + facet::largest_height(search_.facets()[facet].bulge);
+    if (plane.is_before(x_ - raised_by * plane.normal(), tolerance) || plane.is_aside(x_, tolerance))
       return {};
     const TouchedFacet touched{facet, project(facet, tolerance, start)};
     return touched.projection.exists && depth_of(touched) > 0. ? touched : TouchedFacet();
@@ -142,7 +143,7 @@ private:
   bool has_come_through(TouchedFacet &touched) const {
     const SurfaceFacet &target = search_.facets()[touched.facet];
     const PlanedFacet plane(corners_of(target, positions_n_));
-    const double depth = lift_.at_start - plane.project(x_n_, {}).gap;
+    const double depth = lift_.at_start - raised(plane.project(x_n_, {}), target).gap;
     if (depth <= in_line * plane.radius())
       return true;
     touched.offset = depth_of(touched);
@@ -248,7 +249,8 @@ TouchedFacet find_facet_below(const MovedFacets &facets, const std::size_t slave
   const Tensor<1, 3> &x = facets.position(facets.search().slaves()[slave].node);
   TouchedFacet nearest;
   facets.search().visit_candidates(slave, [&](const unsigned int facet) {
-    const FacetProjection p = facets.plane(facet).project(x, make_limits(limits.tolerance, limits));
+    const FacetProjection p = raised(facets.plane(facet).project(x, make_limits(limits.tolerance, limits)),
+                                     facets.search().facets()[facet]);
     if (p.exists && p.gap >= 0. && p.gap < facets.search().facets()[facet].reach &&
         (!nearest.exists() || p.gap < nearest.projection.gap))
       nearest = {facet, p};

@@ -203,9 +203,10 @@ void FacetContact::compute_areas(const std::size_t s, SlaveState &state) const {
 }
 
 bool FacetContact::is_resting(const TouchedFacet &below, const std::size_t s, const double on_it) const {
-  const FacetProjection before = PlanedFacet(corners_of(search_.facets()[below.facet], positions_n_))
-                                     .project(positions_n_[slaves_[s].node], {});
-  return before.exists && before.gap <= on_it;
+  const SurfaceFacet &facet = search_.facets()[below.facet];
+  const FacetProjection before =
+      raised(PlanedFacet(corners_of(facet, positions_n_)).project(positions_n_[slaves_[s].node], {}), facet);
+  return before.exists && before.gap - lift(s).at_start <= on_it;
 }
 
 void FacetContact::count_changes() {
@@ -261,12 +262,13 @@ template <class Facet> void FacetContact::find_contact(const std::size_t s) {
   if (!state.touched.exists() && search_.has_candidates(s)) {
     const TouchedFacet below = find_facet_below(moved_, s, settings_.limits);
     const double on_it = settings_.touching_gap * sizes_[s];
-    state.rests = below.exists() && below.projection.gap <= on_it && is_resting(below, s, on_it);
+    state.rests =
+        below.exists() && below.projection.gap - lift(s).now <= on_it && is_resting(below, s, on_it);
     state.is_near = below.exists() && !state.rests;
     if (state.rests)
       state.touched = below;
     if (below.exists()) {
-      state.contact = {below.projection.normal, below.projection.gap};
+      state.contact = {below.projection.normal, below.projection.gap - lift(s).now};
       shares_.push_back({below.facet, 1., below.projection});
     }
   }
@@ -625,6 +627,21 @@ void FacetContact::commit() {
   lifts_n_ = lifts_;
   if (edges_)
     edges_->commit();
+}
+
+void FacetContact::close_initial_gaps(const Positions &positions, const double within) {
+  Positions ignored(exchange_.n_own_nodes());
+  has_lifts_ = true;
+  // Of overlaps the mean gap is known of facets that are lowered so far that they overlap.
+  const double lowered = overlaps_ ? within : 0.;
+  initial_depths_.assign(slaves_.size(), -lowered);
+  add_forces(positions, positions, 0., ignored);
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    const SlaveState &state = states_[s];
+    const bool is_before = state.touched.exists() || state.is_near;
+    const double gap = is_before ? state.contact.gap + lowered : 0.;
+    initial_depths_[s] = gap > 0. && gap <= within ? -gap : 0.;
+  }
 }
 
 double FacetContact::allow_initial_depths() {

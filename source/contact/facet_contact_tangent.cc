@@ -36,9 +36,10 @@ bool is_exact(const ContactTangent kind) {
 template <class Number>
 FacetOverlapOf<Number>
 follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, const double depth,
-               const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation) {
+               const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation,
+               const FacetBulge &slave_bulge, const FacetBulge &target_bulge) {
   if constexpr (std::is_same_v<Number, double>)
-    return compute_overlap(slave, target, depth, lifts, augmentation);
+    return compute_overlap(slave, target, depth, lifts, augmentation, slave_bulge, target_bulge);
   else {
     // By the 24 of this pair alone, and then by the chain rule: many fewer than a slave depends on.
     constexpr int n = 24;
@@ -48,7 +49,8 @@ follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number>
         s[a][i] = Derivative(n, static_cast<int>(3 * a + i), slave[a][i].val());
         t[a][i] = Derivative(n, static_cast<int>(12 + 3 * a + i), target[a][i].val());
       }
-    FacetOverlapOf<Derivative> overlap = compute_overlap(s, t, depth, lifts, augmentation);
+    FacetOverlapOf<Derivative> overlap =
+        compute_overlap(s, t, depth, lifts, augmentation, slave_bulge, target_bulge);
     const auto chain = [&](Derivative &value) {
       Derivative result = value.val();
       result.resize(slave[0][0].size());
@@ -201,9 +203,9 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
       const SurfaceFacet &own = search_.facets()[share.slave_facet];
       const unsigned int corner = corner_of(own, slaves_[s].node);
       const auto corners = corners_now(share.slave_facet);
-      const auto overlap =
-          follow_overlap<Number>(corners, corners_now(share.facet), share.depth,
-                                 corners_of(own, nodal_lifts_), corners_of(own, nodal_augmentations_));
+      const auto overlap = follow_overlap<Number>(
+          corners, corners_now(share.facet), share.depth, corners_of(own, nodal_lifts_),
+          corners_of(own, nodal_augmentations_), own.bulge, search_.facets()[share.facet].bulge);
       shares.push_back(
           share_of_overlap(overlap, corner, share.slave_facet, share.facet, share.depth, depth_rounding(s)));
       points.push_back(facet::interpolate(shares.back().slave_weights, corners));
@@ -212,7 +214,9 @@ FacetContact::follow_forces(const Law &law, const std::size_t s, const std::vect
     const FacetLimits limits = make_limits(std::numeric_limits<double>::infinity(), settings_.limits);
     for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
       const FacetShare &share = shares_[i];
-      const auto projection = follow<Facet, Number>(corners_now(share.facet), x[0], limits, share.projection);
+      const auto projection =
+          raised(follow<Facet, Number>(corners_now(share.facet), x[0], limits, share.projection),
+                 search_.facets()[share.facet]);
       shares.push_back({share.facet, projection.share, projection});
       points.push_back(x[0]);
     }

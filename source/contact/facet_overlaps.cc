@@ -75,7 +75,8 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
       const double half = 0.5 * depth * facets[target].reach,
                    limit = (slave_n.e_0 - target_n.e_0) * area_vector > -half * area_vector.norm() ? 2. * half
                                                                                                    : half;
-      const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift, raise);
+      const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift, raise,
+                                           facets[f].bulge, facets[target].bulge);
       if (overlap.exists)
         overlaps_.push_back({f, target, limit, overlap});
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/overlap.h"
 
+#include "billet/contact/facet_overlaps.h"
 #include "billet/discretization/boundary_facets.h"
+#include "billet/errors.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/geometry/box_tree.h"
 #include "billet/geometry/segment_pair.h"
@@ -14,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <sstream>
 
 namespace billet {
 
@@ -276,13 +279,14 @@ Overlap find_overlap(const Discretization &discretization, const std::size_t bod
   const MPI_Comm communicator = discretization.communicator();
   const auto facets =
       gather_facets(collect_boundary_facets(discretization, body, boundary_ids), communicator);
-  const auto faces = collect_boundary_facets(discretization, other_body, other_boundary_ids);
   Probes probes(facets);
   probes.add_corners();
   probes.add_grids();
-  probes.add_pierced_sides(faces, communicator);
+  probes.add_pierced_sides(collect_boundary_facets(discretization, other_body, other_boundary_ids),
+                           communicator);
   constexpr double rounding = 1e-9; // a point on the face between two elements is in both
-  return find_deepest(discretization, probes.points(), other_body, faces, 1, rounding);
+  return find_deepest(discretization, probes.points(), other_body,
+                      collect_boundary_facets(discretization, other_body), 1, rounding);
 }
 
 Overlap find_self_overlap(const Discretization &discretization, const std::size_t body,
@@ -295,6 +299,92 @@ Overlap find_self_overlap(const Discretization &discretization, const std::size_
   probes.add_pierced_sides(faces, communicator);
   constexpr double rounding = 1e-6; // a point on the face between two elements is in neither
   return find_deepest(discretization, probes.points(), body, faces, 2, -rounding);
+}
+
+double contact_reach(const BoundaryFacet &facet) {
+  return std::min(0.1 * std::sqrt(facet.area_vector().norm()), 0.4 * facet.thickness);
+}
+
+FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction) {
+  using Correction = parameters::ContactPair::Correction;
+  FacetBulge bulge{};
+  const double area = facet.area_vector().norm();
+  if (correction.kind == Correction::Kind::none || !(area > 0.))
+    return bulge;
+  const auto arm = [&](const Tensor<1, 3> &x) {
+    const Tensor<1, 3> from_point = x - correction.point;
+    return correction.kind == Correction::Kind::cylinder
+               ? from_point - (from_point * correction.axis) * correction.axis
+               : from_point;
+  };
+  const Tensor<1, 3> normal = facet.area_vector() / area;
+  for (unsigned int i = 0; i < 4; ++i) {
+    const Tensor<1, 3> a = facet.corners[facet::around[i]], b = facet.corners[facet::around[(i + 1) % 4]],
+                       middle = arm(0.5 * (a + b));
+    if (!(middle.norm() > 0.))
+      continue;
+    // Along the facet's normal, which on a cone is not radial.
+    const double radial = 0.5 * (arm(a).norm() + arm(b).norm()) - middle.norm();
+    bulge[i] = radial * (middle * normal) / middle.norm();
+  }
+  return bulge;
+}
+
+void check_overlap(const Scene &scene, const std::size_t pair, const Discretization &discretization) {
+  const BodyPair &bodies = scene.body_pairs()[pair];
+  const MPI_Comm communicator = discretization.communicator();
+  std::array<double, 2> sums{}; // area and number of facets
+  double least_reach = std::numeric_limits<double>::infinity();
+  std::array<double, 2> chords{}; // by which facets of both sides miss the true surface
+  for (unsigned int side = 0; side < (bodies.is_self_contact ? 1 : 2); ++side)
+    for (const auto &facet :
+         collect_boundary_facets(discretization, bodies.bodies[side], bodies.boundary_ids[side])) {
+      sums[0] += facet.area_vector().norm();
+      sums[1] += 1.;
+      least_reach = std::min(least_reach, contact_reach(facet));
+      for (const double height : bulge_of(facet, bodies.correction))
+        chords[side] = std::max(chords[side], std::abs(height));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
+  least_reach = dealii::Utilities::MPI::min(least_reach, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, chords.data(), 2, MPI_DOUBLE, MPI_MAX, communicator);
+  const double size = std::sqrt(sums[0] / sums[1]);
+  Overlap deepest;
+  const bool is_one_body = bodies.bodies[0] == bodies.bodies[1];
+  if (is_one_body) {
+    std::vector<unsigned int> ids = bodies.boundary_ids[0];
+    if (!bodies.is_self_contact)
+      ids.insert(ids.end(), bodies.boundary_ids[1].begin(), bodies.boundary_ids[1].end());
+    deepest = find_self_overlap(discretization, bodies.bodies[0], ids);
+  }
+  for (unsigned int side = 0; side < 2 && !is_one_body; ++side) {
+    const Overlap overlap = find_overlap(discretization, bodies.bodies[side], bodies.boundary_ids[side],
+                                         bodies.bodies[1 - side], bodies.boundary_ids[1 - side]);
+    if (overlap.depth > deepest.depth)
+      deepest = overlap;
+  }
+  // Deeper ones are allowed as far as they are found: half of where a step loses them.
+  const bool is_by_overlaps = bodies.facets == parameters::ContactPair::Facets::overlap;
+  const double found = least_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::depth : 1.);
+  const double allowed = bodies.overlap.is_allowed ? found
+                                                   : bodies.input->allowed_penetration.value * size +
+                                                         1.01 * (chords[0] + chords[1]);
+  if (deepest.depth <= allowed)
+    return;
+  std::ostringstream message;
+  message << bodies.input->origin << ": the " << (is_one_body ? "body starts " : "bodies start ")
+          << deepest.depth << " deep (" << deepest.depth / size << " facet sizes) in "
+          << (is_one_body ? "itself" : "each other") << ", deepest at (" << deepest.position[0] << ", "
+          << deepest.position[1] << ", " << deepest.position[2] << "); ";
+  if (bodies.overlap.is_allowed)
+    message << "contact is found until a depth of " << found << ", "
+            << (is_by_overlaps ? "half of the smallest facet or two walls" : "a tenth of the smallest facet")
+            << ": place them less deep, and move them by 'Supports'"
+            << (is_by_overlaps ? "" : ", or take 'Facets = overlap'");
+  else
+    message << "allowed are " << bodies.input->allowed_penetration.value
+            << " facet sizes ('Allowed initial penetration')";
+  throw InputError(message.str());
 }
 
 } // namespace billet

@@ -53,7 +53,8 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
     const auto projection = tool_.surface().project(X);
     states_[i].position = nodes_[i].reference;
     states_[i].gap = nodes_[i].gap_n = projection.gap;
-    if (pair_.overlap.is_allowed && projection.exists && projection.gap < 0.) {
+    if (projection.exists &&
+        ((pair_.overlap.is_allowed && projection.gap < 0.) || pair_.overlap.closes(projection.gap))) {
       nodes_[i].initial_depth = -projection.gap;
       states_[i].gap = nodes_[i].gap_n = 0.;
     }

@@ -9,15 +9,16 @@
 
 namespace billet {
 
-std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization,
-                                                   const std::size_t body,
-                                                   const std::vector<unsigned int> &boundary_ids) {
+namespace {
+
+template <class IsWanted>
+std::vector<BoundaryFacet> collect(const Discretization &discretization, const std::size_t body,
+                                   const IsWanted &is_wanted) {
   std::vector<BoundaryFacet> facets;
   for (const auto &element : discretization.elements(body))
     for (const unsigned int f : element.cell->face_indices()) {
       const auto face = element.cell->face(f);
-      if (!face->at_boundary() ||
-          std::find(boundary_ids.begin(), boundary_ids.end(), face->boundary_id()) == boundary_ids.end())
+      if (!face->at_boundary() || !is_wanted(face->boundary_id()))
         continue;
       BoundaryFacet facet;
       for (unsigned int v = 0; v < 4; ++v) {
@@ -34,6 +35,21 @@ std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discret
       facets.push_back(facet);
     }
   return facets;
+}
+
+} // namespace
+
+std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization,
+                                                   const std::size_t body,
+                                                   const std::vector<unsigned int> &boundary_ids) {
+  return collect(discretization, body, [&](const unsigned int id) {
+    return std::find(boundary_ids.begin(), boundary_ids.end(), id) != boundary_ids.end();
+  });
+}
+
+std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization,
+                                                   const std::size_t body) {
+  return collect(discretization, body, [](const unsigned int /*id*/) { return true; });
 }
 
 std::map<DofIndex, double> compute_facet_sizes(const Discretization &discretization,

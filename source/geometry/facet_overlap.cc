@@ -125,6 +125,14 @@ public:
     return values;
   }
 
+  /// ξ (0) or η (1) of the facet, by its functions.
+  Linear<Number> parameter(const unsigned int i) const {
+    const double of_first = facet::signs[first_][i], of_second = facet::signs[second_][i];
+    const Linear<Number> &a = barycentric_[0], &b = barycentric_[1];
+    return {of_first * a.constant + of_second * b.constant, of_first * a.along_q + of_second * b.along_q,
+            of_first * a.along_r + of_second * b.along_r};
+  }
+
 private:
   /// 0 on the line from p to q, scaled by the triangle's area.
   Linear<Number> line(const Point<Number> &p, const Point<Number> &q) const {
@@ -137,9 +145,46 @@ private:
   std::array<Linear<Number>, 3> barycentric_;
 };
 
-template <class Number>
+/// What the smooth surfaces take from the gap of a slave's and a target's triangle.
+template <class Number> class Heights {
+public:
+  Heights(const Triangle<Number> &slave, const FacetBulge &slave_bulge, const Triangle<Number> &target,
+          const FacetBulge &target_bulge)
+      : sides_{{{slave_bulge, {slave.parameter(0), slave.parameter(1)}},
+                {target_bulge, {target.parameter(0), target.parameter(1)}}}} {}
+
+  Number operator()(const Point<Number> &x) const {
+    Number sum = 0.;
+    for (const Side &side : sides_)
+      sum += facet::height<Number>(side.bulge, {side.parameters[0](x), side.parameters[1](x)});
+    return sum;
+  }
+  /// The linear function that has the same value and slope at x.
+  Linear<Number> about(const Point<Number> &x) const {
+    Linear<Number> result{(*this)(x), Number(0.), Number(0.)};
+    for (const Side &side : sides_) {
+      const std::array<Number, 2> slope =
+          facet::height_gradient<Number>(side.bulge, {side.parameters[0](x), side.parameters[1](x)});
+      for (unsigned int i = 0; i < 2; ++i) {
+        result.along_q += slope[i] * side.parameters[i].along_q;
+        result.along_r += slope[i] * side.parameters[i].along_r;
+      }
+    }
+    result.constant -= result.along_q * x[0] + result.along_r * x[1];
+    return result;
+  }
+
+private:
+  struct Side {
+    FacetBulge bulge;
+    std::array<Linear<Number>, 2> parameters;
+  };
+  std::array<Side, 2> sides_;
+};
+
+template <class Number, class Gap>
 void integrate(const Polygon<Number> &polygon, const Triangle<Number> &slave, const Triangle<Number> &target,
-               const Linear<Number> &gap, FacetOverlapOf<Number> &overlap) {
+               const Gap &gap, FacetOverlapOf<Number> &overlap) {
   for (unsigned int i = 1; i + 1 < polygon.n; ++i) {
     const std::array<Point<Number>, 3> x{polygon.corners[0], polygon.corners[i], polygon.corners[i + 1]};
     using std::abs;
@@ -167,8 +212,10 @@ void integrate(const Polygon<Number> &polygon, const Triangle<Number> &slave, co
 template <class Number>
 FacetOverlapOf<Number>
 compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, const double depth,
-                const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation) {
+                const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation,
+                const FacetBulge &slave_bulge, const FacetBulge &target_bulge) {
   FacetOverlapOf<Number> overlap;
+  const bool is_curved = facet::has_height(slave_bulge) || facet::has_height(target_bulge);
   std::array<double, 4> lowered = lifts;
   for (unsigned int a = 0; a < 4; ++a)
     lowered[a] += augmentation[a];
@@ -204,9 +251,25 @@ compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number
       const Linear<Number> high = above.height();
       const Linear<Number> gap{high.constant - low.constant, high.along_q - low.along_q,
                                high.along_r - low.along_r};
-      polygon.clip([&](const Point<Number> &x) { return Number(-gap(x)); }, height_rounding);
-      polygon.clip([&](const Point<Number> &x) { return Number(depth + gap(x)); }, height_rounding);
-      integrate(polygon, above, below, gap, overlap);
+      const auto clip = [&](const Linear<Number> &g) {
+        polygon.clip([&](const Point<Number> &x) { return Number(-g(x)); }, height_rounding);
+        polygon.clip([&](const Point<Number> &x) { return Number(depth + g(x)); }, height_rounding);
+      };
+      if (!is_curved) {
+        clip(gap);
+        integrate(polygon, above, below, gap, overlap);
+        continue;
+      }
+      const Heights<Number> heights(above, slave_bulge, below, target_bulge);
+      Point<Number> middle{Number(0.), Number(0.)};
+      for (unsigned int i = 0; i < polygon.n; ++i)
+        for (unsigned int j = 0; j < 2; ++j)
+          middle[j] += polygon.corners[i][j] / static_cast<double>(polygon.n);
+      const Linear<Number> raised = heights.about(middle);
+      clip({gap.constant - raised.constant, gap.along_q - raised.along_q, gap.along_r - raised.along_r});
+      integrate(
+          polygon, above, below, [&](const Point<Number> &x) { return Number(gap(x) - heights(x)); },
+          overlap);
     }
   }
   for (unsigned int a = 0; a < 4; ++a) {
@@ -219,10 +282,12 @@ compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number
 }
 
 template FacetOverlapOf<double> compute_overlap(const FacetCorners &, const FacetCorners &, double,
-                                                const std::array<double, 4> &, const std::array<double, 4> &);
+                                                const std::array<double, 4> &, const std::array<double, 4> &,
+                                                const FacetBulge &, const FacetBulge &);
 template FacetOverlapOf<Derivative> compute_overlap(const FacetCornersOf<Derivative> &,
                                                     const FacetCornersOf<Derivative> &, double,
                                                     const std::array<double, 4> &,
-                                                    const std::array<double, 4> &);
+                                                    const std::array<double, 4> &, const FacetBulge &,
+                                                    const FacetBulge &);
 
 } // namespace billet

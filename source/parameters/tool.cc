@@ -6,6 +6,9 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <array>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace billet::parameters {
@@ -259,6 +262,15 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "same at the start, but less and less until the 'Ramp time', as in a press fit.");
   prm.declare_entry("Ramp time", "0", Patterns::Double(),
                     "> 0: when an initial penetration is resolved. [time]");
+  prm.declare_entry("Initial gap", "open", Patterns::Anything(),
+                    "open; or 'close within D', D > 0: faces that start apart by no more than D count as "
+                    "touching, without stress, and their gap is measured from there. For assemblies that "
+                    "were drawn with a little play. [length]");
+  prm.declare_entry(
+      "Surface correction", "none", Patterns::Anything(),
+      "Pairs of two bodies: none; 'cylinder : x, y, z ; a, b, c', a point of the axis and its "
+      "direction, also of cones; or 'sphere : x, y, z', the centre. The nodes of both faces lie "
+      "on such surfaces: gaps are those between these, not between the chords of facets.");
 }
 
 namespace {
@@ -292,14 +304,60 @@ void ContactPair::parse(Reader &reader) {
       reader.reject("Tangential penalty", "no value: the pair has no friction");
     tangential_penalty = values[0];
   }
+  parse_initial_state(reader);
+  penetration_tolerance = reader.not_negative("Penetration tolerance");
+  allowed_penetration =
+      reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
+}
+
+void ContactPair::parse_initial_state(Reader &reader) {
   const std::string initial = reader.text("Initial penetration");
   may_overlap = initial != "error";
   ramp_time = reader.not_negative("Ramp time");
   if ((initial == "ramp") != (ramp_time > 0.))
     reader.reject("Ramp time", initial == "ramp" ? "a number > 0" : "no value: nothing is ramped");
-  penetration_tolerance = reader.not_negative("Penetration tolerance");
-  allowed_penetration =
-      reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
+
+  closed_gap = 0.;
+  const std::string gap = reader.text("Initial gap"), close = "close within ";
+  if (gap != "open") {
+    char *end = nullptr;
+    if (gap.rfind(close, 0) == 0)
+      closed_gap = std::strtod(gap.c_str() + close.size(), &end);
+    if (end == nullptr || *end != '\0' || !(closed_gap > 0.) || !std::isfinite(closed_gap))
+      reader.reject("Initial gap", "'open' or 'close within D' with a number D > 0");
+  }
+
+  const std::string text = reader.text("Surface correction");
+  const auto colon = text.find(':');
+  const std::string kind = dealii::Utilities::trim(text.substr(0, colon));
+  if (text == "none")
+    return;
+  const std::string allowed = "'none', 'cylinder : x, y, z ; a, b, c' or 'sphere : x, y, z'";
+  correction.kind = kind == "cylinder" ? Correction::Kind::cylinder : Correction::Kind::sphere;
+  const bool is_cylinder = correction.kind == Correction::Kind::cylinder;
+  if (colon == std::string::npos || (!is_cylinder && kind != "sphere"))
+    reader.reject("Surface correction", allowed);
+  if (!is_between_bodies() || second_body.value == body.value)
+    reader.reject("Surface correction", "'none': the pair is not of two bodies");
+  if (facets.value == Facets::mean_gap)
+    reader.reject("Surface correction", "'none': mean gaps do not know where on a facet a node is");
+  const auto vectors = dealii::Utilities::split_string_list(text.substr(colon + 1), ';');
+  std::array<dealii::Tensor<1, 3>, 2> values;
+  bool is_sound = vectors.size() == (is_cylinder ? 2 : 1);
+  for (std::size_t v = 0; v < vectors.size() && is_sound; ++v) {
+    const auto numbers = dealii::Utilities::split_string_list(vectors[v], ',');
+    is_sound = numbers.size() == 3;
+    for (unsigned int i = 0; i < 3 && is_sound; ++i) {
+      char *end = nullptr;
+      values[v][i] = std::strtod(numbers[i].c_str(), &end);
+      is_sound = !numbers[i].empty() && *end == '\0' && std::isfinite(values[v][i]);
+    }
+  }
+  if (!is_sound || (is_cylinder && !(values[1].norm() > 0.)))
+    reader.reject("Surface correction", allowed);
+  correction.point = values[0];
+  if (is_cylinder)
+    correction.axis = values[1] / values[1].norm();
 }
 
 void ContactPair::parse_bodies(Reader &reader) {

@@ -106,7 +106,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
           const double facet_size = std::sqrt(face->measure());
           for (const unsigned int v : face->vertex_indices()) {
             const auto projection = tool.surface().project(start.to_tool(face->vertex(v)));
-            if (projection.exists && projection.gap <= touching_gap * facet_size)
+            if (projection.exists &&
+                (projection.gap <= touching_gap * facet_size || pair.overlap.closes(projection.gap)))
               add_contact(face->vertex(v), start.rotation * projection.normal,
                           tool.control() == Tool::Control::force, pair.has_friction(), touching);
           }

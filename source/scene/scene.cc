@@ -324,7 +324,7 @@ void Scene::make_pairs() {
                         pair.normal_penalty,
                         pair.tangential_penalty,
                         pair.penetration_tolerance,
-                        {pair.may_overlap, pair.ramp_time}});
+                        {pair.may_overlap, pair.ramp_time, pair.closed_gap}});
       continue;
     }
     using Pair = parameters::ContactPair;
@@ -354,7 +354,8 @@ void Scene::make_pairs() {
          pair.smoothing,
          pair.search_margin,
          pair.penetration_tolerance,
-         {pair.may_overlap, pair.ramp_time}});
+         {pair.may_overlap, pair.ramp_time, pair.closed_gap},
+         pair.correction});
     const auto &ids = body_pairs_.back().boundary_ids;
     if (body == second && !second_ids.empty())
       for (const unsigned int id : ids[0])
@@ -585,6 +586,8 @@ void Scene::describe(std::ostream &stream) const {
       text << ", initial overlap "
            << (pair.overlap.ramp_time > 0. ? "resolved until time " + std::to_string(pair.overlap.ramp_time)
                                            : std::string("kept"));
+    if (pair.overlap.closed_gap > 0.)
+      text << ", initial gaps up to " << pair.overlap.closed_gap << " closed";
     text << "\n";
     return text.str();
   };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit_dynamics.h"
 
+#include "billet/contact/overlap.h"
 #include "billet/diagnostic_kinds.h"
-
 #include "billet/errors.h"
 
 #include <algorithm>
@@ -101,7 +101,9 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
     if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
-      body_contacts_.back()->check_overlap();
+      check_overlap(scene, p, discretization);
+    if (!scene.parameters().restart.is_wanted() && scene.body_pairs()[p].overlap.closed_gap > 0.)
+      body_contacts_.back()->allow_overlap(u_);
   }
   state_.body_pair_loads.resize(body_contacts_.size());
   state_.tool_loads.resize(tools_.size());

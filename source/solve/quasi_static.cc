@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/quasi_static.h"
 
+#include "billet/contact/overlap.h"
 #include "billet/errors.h"
 #include "billet/scene/rigid_motions.h"
 
@@ -58,7 +59,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, *nodes_));
     if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
-      body_contacts_.back()->check_overlap();
+      check_overlap(scene, p, discretization);
   }
   state_.body_pair_loads.resize(body_contacts_.size());
   tool_pair_energies_.resize(contacts_.size());

@@ -19,8 +19,9 @@ constexpr ContactStiffness penalty{1e3, 5e2};
 
 /// Two waved balls pressed into each other, and moved step by step.
 struct Balls {
-  Balls(const FacetMethod method, const FrictionLaw &friction)
-      : part((make(), surface), [](const std::size_t) { return true; }), x(part.take(surface.positions)),
+  /// `bulge`: of every facet, at most.
+  Balls(const FacetMethod method, const FrictionLaw &friction, const double bulge)
+      : part((make(bulge), surface), [](const std::size_t) { return true; }), x(part.take(surface.positions)),
         x_n(x) {
     FacetContactSettings settings;
     settings.method = method;
@@ -56,9 +57,14 @@ struct Balls {
   std::unique_ptr<FacetContact> contact;
 
 private:
-  void make() {
+  void make(const double bulge) {
     add_ball(surface, 18, 0, 0.2, Tensor<1, 3>(), 1.);
     add_ball(surface, 14, 1, 0.2, Tensor<1, 3>({1.25, 0.4, 0.2}), 0.5);
+    Random random;
+    if (bulge > 0.)
+      for (auto &facet : surface.facets)
+        for (double &height : facet.bulge)
+          height = random(-bulge, bulge);
   }
 };
 
@@ -76,9 +82,10 @@ double dot(const Positions &v, const Positions &w) {
   return sum;
 }
 
-void check_tangents(const FacetMethod method, const FrictionLaw &law, const std::string &name) {
+void check_tangents(const FacetMethod method, const FrictionLaw &law, const std::string &name,
+                    const double bulge = 0.) {
   Random random;
-  Balls balls(method, law);
+  Balls balls(method, law, bulge);
   RandomMotion motion(random, 2, 4e-3);
   Positions whole = balls.surface.positions;
   WorstError exact, numerical, symmetric;
@@ -143,6 +150,8 @@ int main(int argc, char *argv[]) {
     check_tangents(method, Frictionless(), name + ", no friction");
     check_tangents(method, Coulomb{0.3}, name + ", friction");
     check_tangents(method, StaticKinetic{0.4, 0.2, 20.}, name + ", static-kinetic friction");
+    if (method != FacetMethod::mean_gap)
+      check_tangents(method, Coulomb{0.3}, name + ", friction on curved facets", 2e-3);
   }
   return exit_code();
 }

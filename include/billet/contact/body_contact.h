@@ -94,12 +94,10 @@ public:
   }
 
   /// If the scene allows the undeformed bodies to be in each other, takes note of how deep they are, after
-  /// update(). Collective.
+  /// update(); and closes gaps, if the scene asks for that. Collective.
   void allow_overlap();
-
-  /// Throws InputError, with the largest overlap and where it is, if the undeformed bodies are deeper in each
-  /// other than the scene allows. Collective.
-  void check_overlap() const;
+  /// The same at these displacements.
+  void allow_overlap(const NodalVectors &displacements);
 
   /// The state of the last add_forces() becomes the start of the next step.
   void commit();
@@ -154,7 +152,6 @@ private:
   std::vector<SurfaceFacet> facets_;
   std::vector<double> areas_;  ///< of the undeformed facets
   std::vector<double> depths_; ///< that nodes must not exceed on their ways, by facet
-  double least_reach_ = std::numeric_limits<double>::infinity(); ///< of this rank's facets
   /// Until penalties, the normal and the tangential ones, are 10 E/h.
   double most_stiffening_ = std::numeric_limits<double>::infinity(),
          most_tangential_stiffening_ = std::numeric_limits<double>::infinity();

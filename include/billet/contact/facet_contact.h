@@ -7,9 +7,9 @@
 #include "billet/contact/facet_overlaps.h"
 #include "billet/contact/facet_sharing.h"
 #include "billet/contact/slave_traction.h"
+#include "billet/contact/status_changes.h"
 #include "billet/contact/step_works.h"
 #include "billet/contact/supporting_point.h"
-#include "billet/contact/status_changes.h"
 #include "billet/contact/surface_exchange.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/state.h"
@@ -173,6 +173,10 @@ public:
   /// The state of the last add_forces() becomes the start of the next step.
   void commit();
 
+  /// Of undeformed surfaces, before anything else: nodes that are before a facet of the other one by no more
+  /// than `within` count as touching it without pressure, from where they are, for good. Nodes of overlapping
+  /// facets by their mean gap; what then is deeper than that, allow_initial_depths() allows. Collective.
+  void close_initial_gaps(const Positions &positions, double within);
   /// How deep nodes are in facets at the last add_forces(), before the first commit(), is allowed: only what
   /// is deeper than a part of it counts from then on, at first all of it. What overlapping facets then still
   /// find is allowed by another call after another add_forces(). Returns the deepest that was new on this
@@ -293,8 +297,8 @@ private:
     if (!lifts_n_.empty())
       lift.at_start = lifts_n_[s];
     if (!initial_depths_.empty()) {
-      lift.now -= allowed_part_ * initial_depths_[s];
-      lift.at_start -= allowed_part_n_ * initial_depths_[s];
+      lift.now -= InitialOverlap::counted(initial_depths_[s], allowed_part_);
+      lift.at_start -= InitialOverlap::counted(initial_depths_[s], allowed_part_n_);
     }
     return lift;
   }
@@ -399,7 +403,8 @@ private:
   std::vector<Augmentation> last_augmentations_; ///< of slaves, in this step
   double stiffening_ = 1.;                       ///< of all penalties, by stiffen()
   double start_weight_ = 0.5;
-  std::vector<double> initial_depths_; ///< of slaves; empty if none is allowed
+  /// Of slaves; empty if none is allowed and no gap is closed; < 0: a gap that counts as closed.
+  std::vector<double> initial_depths_;
   double allowed_part_ = 1., allowed_part_n_ = 1.;
   bool has_lifts_ = false; ///< augment() has been called
   /// The same of nodes with ghosts, for overlaps: what depths allow, and what augmentation lifts by.

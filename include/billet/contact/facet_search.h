@@ -2,7 +2,7 @@
 #ifndef BILLET_CONTACT_FACET_SEARCH_H
 #define BILLET_CONTACT_FACET_SEARCH_H
 
-#include "billet/geometry/facet_projection.h"
+#include "billet/geometry/facet_bulge.h"
 #include "billet/geometry/surface_patch.h"
 
 #include <cstdint>
@@ -18,7 +18,15 @@ struct SurfaceFacet {
   /// A node that has not touched the facet and is farther behind it than this belongs elsewhere [length]: a
   /// fraction of the facet's size, and less than the wall below it is thick.
   double reach;
+  FacetBulge bulge{}; ///< of the smooth surface that the facet stands for; 0 if it stands for itself
 };
+
+/// The projection onto the smooth surface that a facet stands for, from that onto the facet.
+template <class Projection> Projection raised(Projection projection, const SurfaceFacet &facet) {
+  if (projection.exists && facet::has_height(facet.bulge))
+    projection.gap -= facet::height(facet.bulge, projection.parameters);
+  return projection;
+}
 
 /// Which corner of the facet this one of its nodes is.
 inline unsigned int corner_of(const SurfaceFacet &facet, const unsigned int node) {

@@ -65,6 +65,13 @@ public:
   template <class Facet>
   FacetProjection project(const unsigned int facet, const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
                           const std::array<double, 2> &start = {}) const {
+    return raised(project_flat<Facet>(facet, x, limits, start), search_.facets()[facet]);
+  }
+
+private:
+  template <class Facet>
+  FacetProjection project_flat(const unsigned int facet, const dealii::Tensor<1, 3> &x,
+                               const FacetLimits &limits, const std::array<double, 2> &start) const {
     if constexpr (std::is_same_v<Facet, PlanedFacet>)
       return plane(facet).project(x, limits);
     else if constexpr (std::is_same_v<Facet, MeanGapFacet>)
@@ -73,7 +80,6 @@ public:
       return Facet(corners(facet)).project(x, limits, start);
   }
 
-private:
   struct Kept {
     explicit Kept(const facet::Expansion &surface) : plane(surface), areas(surface) {}
     PlanedFacet plane;

@@ -2,11 +2,21 @@
 #ifndef BILLET_CONTACT_OVERLAP_H
 #define BILLET_CONTACT_OVERLAP_H
 
-#include "billet/discretization/discretization.h"
+#include "billet/discretization/boundary_facets.h"
+#include "billet/geometry/facet_bulge.h"
 
 #include <vector>
 
 namespace billet {
+
+/// How deep a node may be in a facet and still belong to it [length]. What is deeper than half the wall below
+/// is nearer to the wall's other side; and a node that comes in from beside the facet, rather than through
+/// it, is not to be thrown out from the depth.
+double contact_reach(const BoundaryFacet &facet);
+
+/// Of the true surface that a scene names for a face, above the undeformed facet; 0 if it names none. Its
+/// distance from the axis, or the centre, is linear between the nodes of an edge.
+FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
 
 /// How deep undeformed bodies are in each other.
 struct Overlap {
@@ -16,10 +26,12 @@ struct Overlap {
   dealii::Tensor<1, 3> position; ///< of that point
 };
 
-/// Looks for the nodes of one body's faces, and points of the elements at them, inside the elements of
-/// another, and how far they are from its faces. Among the points are some on every part of the faces' sides
-/// that the other's faces cut off: so it finds bodies that pierce each other wherever they do. Collective;
-/// meant for the start only: ranks tell each other all of the first body's faces.
+/// Finds the nodes of one body's faces, and points of the elements at them, that are inside elements of
+/// another body. The depth of such a point is its distance to the whole boundary of that body, which may be
+/// beside the faces that touch: a node that lies on the head of a bolt is not inside its shank. Among the
+/// points are some on every part of the faces' sides that the other's faces (`other_boundary_ids`) cut off:
+/// so bodies that pierce each other are found wherever they do. Collective; meant for the start only: all
+/// ranks get all of the first body's faces.
 Overlap find_overlap(const Discretization &discretization, std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, std::size_t other_body,
                      const std::vector<unsigned int> &other_boundary_ids);
@@ -27,6 +39,10 @@ Overlap find_overlap(const Discretization &discretization, std::size_t body,
 /// The same of a body whose elements are in each other: `depth` is that of such points below its faces.
 Overlap find_self_overlap(const Discretization &discretization, std::size_t body,
                           const std::vector<unsigned int> &boundary_ids);
+
+/// Throws InputError, with the largest overlap and where it is, if the undeformed bodies of a pair are deeper
+/// in each other than the scene allows. Collective.
+void check_overlap(const Scene &scene, std::size_t pair, const Discretization &discretization);
 
 } // namespace billet
 

@@ -233,7 +233,7 @@ private:
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
     double lift = 0., lift_n = 0.;  ///< of the tool's surface, by augmentation
-    double initial_depth = 0.;      ///< in the tool, if that is allowed
+    double initial_depth = 0.;      ///< in the tool, if that is allowed; < 0: a gap that counts as closed
     bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
     dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
   };
@@ -314,7 +314,9 @@ private:
   };
 
   /// By how much the tool's surface counts as raised for a node.
-  double lift_of(const Node &node) const { return node.lift - allowed_part_ * node.initial_depth; }
+  double lift_of(const Node &node) const {
+    return node.lift - InitialOverlap::counted(node.initial_depth, allowed_part_);
+  }
   /// Slave nodes, with their penalties, and facets.
   void collect_facets(const Discretization &discretization, double young_modulus);
   /// Divides facets where the tool needs it. `corners`: of all facets, undivided. Collective.

@@ -29,6 +29,9 @@ struct BoundaryFacet {
 std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization, std::size_t body,
                                                    const std::vector<unsigned int> &boundary_ids);
 
+/// All facets of a body on this rank, whatever their boundary ids.
+std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization, std::size_t body);
+
 /// Facet size h at each node of these facets, by its first dof: the root of the mean area of the undeformed
 /// facets around it, those of other ranks among them [length]. Collective.
 std::map<DofIndex, double> compute_facet_sizes(const Discretization &discretization,

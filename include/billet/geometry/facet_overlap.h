@@ -2,7 +2,7 @@
 #ifndef BILLET_GEOMETRY_FACET_OVERLAP_H
 #define BILLET_GEOMETRY_FACET_OVERLAP_H
 
-#include "billet/geometry/facet_projection.h"
+#include "billet/geometry/facet_bulge.h"
 
 namespace billet {
 
@@ -28,10 +28,16 @@ template <class Number> struct FacetOverlapOf {
 
 /// `depth` > 0; the polygon is that of a slave whose corners are lower by `lifts` [length], the gaps in it
 /// are the true ones. Facets without area, or which do not face each other, do not overlap.
+///
+/// With the heights of the smooth surfaces that both facets stand for the gap is that of these surfaces,
+///   g = (x_s − x_t)·n̄ − b_s(ξ_s, η_s) − b_t(ξ_t, η_t),   ξ = Σ φ_a ξ_a                              (K3)
+/// b being (K1). It is what is integrated; the polygon ends where its linear part about the middle of each
+/// piece does.
 template <class Number>
 FacetOverlapOf<Number>
 compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, double depth,
-                const std::array<double, 4> &lifts = {}, const std::array<double, 4> &augmentation = {});
+                const std::array<double, 4> &lifts = {}, const std::array<double, 4> &augmentation = {},
+                const FacetBulge &slave_bulge = {}, const FacetBulge &target_bulge = {});
 
 } // namespace billet
 

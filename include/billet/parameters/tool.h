@@ -83,8 +83,17 @@ struct ContactPair {
   double tangential_penalty;
   double penetration_tolerance; ///< 0: no augmentation
   Located<double> allowed_penetration;
-  bool may_overlap; ///< at the start
-  double ramp_time; ///< in which that ceases; 0: never
+  bool may_overlap;  ///< at the start
+  double ramp_time;  ///< in which that ceases; 0: never
+  double closed_gap; ///< up to which initial gaps count as closed; 0: none does
+  /// The true surface behind the facets of both bodies, if it is known.
+  struct Correction {
+    enum class Kind { none, cylinder, sphere };
+    Kind kind = Kind::none;
+    dealii::Tensor<1, 3> point; ///< on the axis, or the centre
+    dealii::Tensor<1, 3> axis;  ///< unit
+  };
+  Correction correction;
 
   bool is_between_bodies() const { return tool.value.empty(); }
 
@@ -94,6 +103,7 @@ struct ContactPair {
 private:
   void parse_bodies(Reader &reader);
   void parse_friction(Reader &reader);
+  void parse_initial_state(Reader &reader);
 };
 
 } // namespace billet::parameters

@@ -60,7 +60,13 @@ struct Body {
 /// How deep a pair may be in each other at the start.
 struct InitialOverlap {
   bool is_allowed = false;
-  double ramp_time = 0.; ///< in which that ceases; 0: never
+  double ramp_time = 0.;  ///< in which that ceases; 0: never
+  double closed_gap = 0.; ///< up to which gaps count as closed [length]
+
+  /// Whether a gap counts as closed.
+  bool closes(const double gap) const { return gap > 0. && gap <= closed_gap; }
+  /// What counts as no depth, of an initial one; < 0: a gap that is closed, for good.
+  static double counted(const double depth, const double part) { return depth > 0. ? part * depth : depth; }
 
   /// The part of the initial depth that counts as none at time t.
   double allowed_part(const double t) const { return ramp_time > 0. ? std::max(0., 1. - t / ramp_time) : 1.; }
@@ -103,6 +109,7 @@ struct BodyPair {
   double search_margin;         ///< [facet sizes]
   double penetration_tolerance; ///< [facet sizes]; 0: none, penalties alone
   InitialOverlap overlap;
+  parameters::ContactPair::Correction correction;
 
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
 };

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACETED_CURVATURE_H
+#define BILLET_CONTACT_FACETED_CURVATURE_H
+
+#include "billet/diagnostics.h"
+#include "billet/discretization/discretization.h"
+
+namespace billet {
+
+/// The largest error that facets make in the gap between two curved surfaces that fit each other, such as a
+/// pin in its lug.
+struct ChordGap {
+  double gap = 0.;               ///< that the facets' chords add or take away [length]
+  double relative = 0.;          ///< the same in sizes of the first surface's facets
+  double clearance = 0.;         ///< between the smooth surfaces there; < 0: they overlap [length]
+  dealii::Tensor<1, 3> position; ///< where
+};
+
+/// Finds it between the undeformed faces of a pair. The smooth surfaces are those of mean nodal normals,
+/// (K2); facets that meet at more than 50 degrees do not share one. Surfaces fit each other where one is
+/// convex, the other concave, and their largest curvatures differ by less than a quarter. Where nodes of both
+/// lie at the same places chords do, too, and nothing is found. Collective; ranks get all faces of the second
+/// body.
+ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pair);
+
+/// A warning for each pair of two bodies whose chord gap is more than the allowed initial penetration and
+/// more than a fifth of the clearance there. Collective.
+DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/faceted_curvature.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/discretization/boundary_facets.h"
+#include "billet/geometry/bilinear_facet.h"
+#include "billet/geometry/box_tree.h"
+#include "billet/geometry/facet_bulge.h"
+
+#include <cmath>
+#include <sstream>
+#include <unordered_map>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+/// A facet with the smooth surface that it stands for.
+struct CurvedFacet {
+  FacetCorners corners;
+  std::array<DofIndex, 4> nodes; ///< the first dof of each
+  Tensor<1, 3> normal;           ///< unit
+  double size;                   ///< [length]
+  FacetBulge bulge{};
+  double curvature = 0.; ///< 8 b/L² of the edge with the largest [1/length]; > 0: convex
+};
+
+/// The facets of all ranks, or of this one with the normals of all; first those of this rank.
+std::vector<CurvedFacet> collect_facets(const Discretization &discretization, const std::size_t body,
+                                        const std::vector<unsigned int> &boundary_ids,
+                                        std::size_t &n_own_facets) {
+  std::vector<std::array<double, 16>> own;
+  for (const auto &facet : collect_boundary_facets(discretization, body, boundary_ids)) {
+    std::array<double, 16> numbers{};
+    for (unsigned int a = 0; a < 4; ++a) {
+      for (unsigned int i = 0; i < 3; ++i)
+        numbers[4 * a + i] = facet.corners[a][i];
+      numbers[4 * a + 3] = static_cast<double>(facet.dofs[a][0]);
+    }
+    own.push_back(numbers);
+  }
+  n_own_facets = own.size();
+  const MPI_Comm communicator = discretization.communicator();
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+  auto parts = dealii::Utilities::MPI::all_gather(communicator, own);
+  std::swap(parts[0], parts[rank]); // own ones first
+  std::vector<CurvedFacet> facets;
+  for (const auto &part : parts)
+    for (const auto &numbers : part) {
+      CurvedFacet facet{};
+      for (std::size_t a = 0; a < 4; ++a) {
+        facet.corners[a] = Tensor<1, 3>({numbers[4 * a], numbers[4 * a + 1], numbers[4 * a + 2]});
+        facet.nodes[a] = static_cast<DofIndex>(numbers[4 * a + 3]);
+      }
+      const Tensor<1, 3> area = 4. * facet::Expansion(facet.corners).mean_area_vector();
+      facet.size = std::sqrt(area.norm());
+      if (facet.size > 0.)
+        facet.normal = area / area.norm();
+      facets.push_back(facet);
+    }
+  std::unordered_map<DofIndex, std::vector<Tensor<1, 3>>> normals_at;
+  for (const auto &facet : facets)
+    for (const DofIndex node : facet.nodes)
+      normals_at[node].push_back(facet.normal);
+  for (auto &facet : facets) {
+    constexpr double cosine_of_edge = 0.64; // of 50 degrees: eight facets around are still a circle
+    FacetCorners normals;
+    for (unsigned int a = 0; a < 4; ++a) {
+      for (const auto &normal : normals_at[facet.nodes[a]])
+        if (normal * facet.normal > cosine_of_edge)
+          normals[a] += normal;
+      if (normals[a].norm() > 0.)
+        normals[a] /= normals[a].norm();
+    }
+    facet.bulge = facet::bulge_from_normals(facet.corners, normals);
+    for (unsigned int i = 0; i < 4; ++i) {
+      const Tensor<1, 3> edge = facet.corners[facet::around[(i + 1) % 4]] - facet.corners[facet::around[i]];
+      const double curvature = edge.norm() > 0. ? 8. * facet.bulge[i] / edge.norm_square() : 0.;
+      if (std::abs(curvature) > std::abs(facet.curvature))
+        facet.curvature = curvature;
+    }
+  }
+  return facets;
+}
+
+/// The facets that a point may be near.
+class NearFacets {
+public:
+  explicit NearFacets(const std::vector<CurvedFacet> &facets) : facets_(facets), tree_(make_boxes(facets)) {}
+
+  struct Found {
+    const CurvedFacet *facet = nullptr;
+    FacetProjection projection;
+  };
+  /// The nearest facet that faces this normal, no farther away than `reach`.
+  Found find(const Tensor<1, 3> &x, const Tensor<1, 3> &normal, const double reach) const {
+    constexpr double cosine_of_facing = -0.5;
+    Found found;
+    double square = reach * reach;
+    tree_.visit_near(x, square, [&](const unsigned int f) {
+      const CurvedFacet &facet = facets_[f];
+      if (!(facet.normal * normal < cosine_of_facing))
+        return;
+      const FacetProjection projection = BilinearFacet(facet.corners).project(x, {});
+      if (projection.exists && projection.gap * projection.gap < square) {
+        square = projection.gap * projection.gap;
+        found = {&facet, projection};
+      }
+    });
+    return found;
+  }
+
+private:
+  static std::vector<BoundingBox> make_boxes(const std::vector<CurvedFacet> &facets) {
+    std::vector<BoundingBox> boxes;
+    boxes.reserve(facets.size());
+    for (const auto &facet : facets) {
+      boxes.push_back(BoundingBox::empty());
+      for (const auto &corner : facet.corners)
+        boxes.back().add(corner);
+    }
+    return boxes;
+  }
+
+  const std::vector<CurvedFacet> &facets_;
+  BoxTree tree_;
+};
+
+bool fit(const CurvedFacet &facet, const CurvedFacet &other) {
+  constexpr double difference = 0.25;
+  return facet.curvature * other.curvature < 0. &&
+         std::abs(facet.curvature + other.curvature) <=
+             difference * std::max(std::abs(facet.curvature), std::abs(other.curvature));
+}
+
+/// The part of the clearance above which a chord gap counts.
+constexpr double part_of_clearance = 0.2;
+
+} // namespace
+
+ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pair) {
+  const MPI_Comm communicator = discretization.communicator();
+  std::size_t n_own_facets = 0, n_others = 0;
+  const auto facets = collect_facets(discretization, pair.bodies[0], pair.boundary_ids[0], n_own_facets),
+             others = collect_facets(discretization, pair.bodies[1], pair.boundary_ids[1], n_others);
+  const NearFacets near(others);
+  constexpr std::array<double, 3> along{-1., 0., 1.};
+  std::array<double, 6> worst{}; // relative, gap, clearance, position
+  for (std::size_t f = 0; f < n_own_facets; ++f) {
+    const CurvedFacet &facet = facets[f];
+    if (!(std::abs(facet.curvature) * facet.size > 1e-6)) // flat
+      continue;
+    for (const double xi : along)
+      for (const double eta : along) {
+        const Tensor<1, 3> x = facet::interpolate(facet::weights({xi, eta}), facet.corners);
+        const auto found = near.find(x, facet.normal, facet.size);
+        if (found.facet == nullptr || !fit(facet, *found.facet))
+          continue;
+        const double error = facet::height<double>(facet.bulge, {xi, eta}) +
+                             facet::height(found.facet->bulge, found.projection.parameters),
+                     clearance = found.projection.gap - error, relative = std::abs(error) / facet.size;
+        if (relative > worst[0] && std::abs(error) > part_of_clearance * std::abs(clearance))
+          worst = {relative, std::abs(error), clearance, x[0], x[1], x[2]};
+      }
+  }
+  ChordGap result;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, worst))
+    if (of_rank[0] > result.relative)
+      result = {of_rank[1], of_rank[0], of_rank[2], Tensor<1, 3>({of_rank[3], of_rank[4], of_rank[5]})};
+  return result;
+}
+
+DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization) {
+  DiagnosticList diagnostics;
+  for (const auto &pair : scene.body_pairs()) {
+    using Correction = parameters::ContactPair::Correction;
+    if (pair.correction.kind != Correction::Kind::none || pair.is_self_contact ||
+        pair.bodies[0] == pair.bodies[1])
+      continue;
+    const ChordGap chords = find_chord_gap(discretization, pair);
+    if (!(chords.relative > pair.input->allowed_penetration.value))
+      continue;
+    std::ostringstream text;
+    text << "The curved faces fit each other, but the chords of their facets miss each other by up to "
+         << chords.gap << " (" << chords.relative << " facet sizes); the clearance of the true surfaces is "
+         << chords.clearance;
+    diagnostics.push_back(Diagnostic(diagnostic::faceted_curvature, text.str())
+                              .pair(pair.name)
+                              .at(chords.position)
+                              .value("chord gap [length]", chords.gap)
+                              .value("clearance [length]", chords.clearance)
+                              .measure("chord gap [facet sizes]", chords.relative));
+  }
+  return diagnostics;
+}
+
+} // namespace billet
