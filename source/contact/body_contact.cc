@@ -77,7 +77,8 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   const auto stiffness = compute_stiffness(scene);
   settings.touching_gap *= std::min(1., most_stiffening_);
   contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, stiffness, sizes_);
-  if (!scene.parameters().is_explicit())
+  // In a crease of its own a body's nodes go through facets that contact leaves out.
+  if (!scene.parameters().is_explicit() && !pair_.is_self_contact)
     paths_ = std::make_unique<FacetPaths>(communicator, settings.partners, keys_, facets_, depths_);
 }
 
@@ -324,7 +325,7 @@ FacetContact::Positions BodyContact::positions_at(const Vector &displacements) c
 void BodyContact::begin(const Vector &displacements) { positions_n_ = positions_at(displacements); }
 
 double BodyContact::find_free_part(const Vector &from, const Vector &to, const bool is_thorough) {
-  return paths_->find_free_part(positions_at(from), positions_at(to), is_thorough);
+  return paths_ ? paths_->find_free_part(positions_at(from), positions_at(to), is_thorough) : 1.;
 }
 
 std::vector<double> BodyContact::first_dofs() const {
