@@ -29,8 +29,8 @@ bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
   mean = contact_forces_;
   mean += contact_forces_n_;
   const double contact_work = 0.5 * (mean * increment);
-  const StepEnergy::Works works{contact_loss(t), std::max(std::abs(internal_work), std::abs(contact_work)),
-                                largest_energy_};
+  const StepEnergy::Works works{contact_loss(t).total,
+                                std::max(std::abs(internal_work), std::abs(contact_work)), largest_energy_};
   const double floor = round_off_force_ * discretization_.radius();
   const StepEnergy::Verdict verdict = step_energy_.judge(state_.time, t - state_.time, works, floor);
   if (verdict == StepEnergy::Verdict::balanced)

@@ -134,7 +134,8 @@ QuasiStatic::ContactLoss QuasiStatic::contact_loss(const double t) const {
     loss.friction += load.damping;
   }
   const StepWorks works = compute_step_works();
-  return loss + works.ramp + (motion_ ? 0. : works.touching);
+  loss.total += works.ramp + (motion_ ? 0. : works.touching);
+  return loss;
 }
 
 void QuasiStatic::choose_contact_damping() {
