@@ -183,7 +183,10 @@ void ContactReview::add(const Solution &solution) {
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     Pair &pair = pairs_[p];
     const double force = sums[2 * p + 1];
-    pair.has_touched = pair.has_touched || force > 0.;
+    // Edges that cross press, too, and are no slave nodes.
+    const std::size_t n_with_tools = scene_.pairs().size();
+    pair.has_touched = pair.has_touched || force > 0. ||
+                       (p >= n_with_tools && state.body_pair_loads[p - n_with_tools].force.norm() > 0.);
     if (!(force > grown * pair.largest_force))
       continue;
     pair.largest_force = force;

@@ -753,11 +753,19 @@ void QuasiStatic::commit(const double t) {
   state_.energies.plastic = energies.plastic;
   state_.energies.hourglass = energies.hourglass;
   if (!motion_)
-    largest_energy_ = std::max({largest_energy_, 0.5 * std::abs(state_.energies.total()),
-                                std::abs(state_.energies.initial + state_.energies.external)});
+    update_largest_energy();
   remove_tools(t);
-  if (motion_)
+  if (motion_) {
     motion_->update_state(state_);
+    update_largest_energy();
+  }
+}
+
+void QuasiStatic::update_largest_energy() {
+  const EnergyLedger &energies = state_.energies;
+  // As it is shown: what is there counts half, so that energy from nowhere does not hide itself.
+  largest_energy_ = std::max(
+      {largest_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
 }
 
 void QuasiStatic::choose_unknown_tools(const std::vector<std::size_t> &tools) {

@@ -157,10 +157,7 @@ void QuasiStatic::damp_contact() {
 bool QuasiStatic::contact_makes_energy(const double t, NewtonReport &report) {
   if (!motion_ || motion_->damps_contact())
     return false;
-  const EnergyLedger &energies = state_.energies;
-  // As it is shown: what is there counts half, so that energy from nowhere does not hide itself.
-  largest_energy_ = std::max(
-      {largest_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
+  update_largest_energy();
   report.makes_energy = contact_balance_ + contact_loss(t).total < -may_make * largest_energy_;
   if (report.makes_energy) {
     report.converged = false;

@@ -203,6 +203,7 @@ private:
   void evaluate_start();
   bool contact_makes_energy(double t, NewtonReport &report);
   void book_contact(const ContactLoss &loss);
+  void update_largest_energy();
 
   bool assemble_tangent(const TangentSystem &system, double yield_slack = 0.);
   /// The nodes as they stand in the trial state.
