@@ -64,6 +64,11 @@ inline const DiagnosticKind implausible_force(
     "A tool exerts more than ten times the force that the largest section of a body bears as it yields.",
     "Check the units of force and stress, and whether the tool closes on something rigid");
 inline const DiagnosticKind
+    outline_checked("outline-checked", Severity::note,
+                    "A scene of more than 500,000 elements was checked by the outline of its meshes only.",
+                    "The run checks the rest before its first step");
+
+inline const DiagnosticKind
     inverted_corners("inverted-corners", Severity::warning,
                      "Undeformed elements are inside out at a corner. Their stiffness and volume are wrong "
                      "there, and they fail early.",

@@ -71,7 +71,7 @@ void RigidContact::save_nodes(StateWriter &writer, const Range &range) const {
     friction_row.number(history.tangential[0]).number(history.tangential[1]);
     friction_row.vector(history.tool_position).number(history.slip).number(history.slip_rate);
   }
-  if (!pressed_n_.empty()) {
+  if (knows_pressures_) {
     std::vector<double> pressed;
     RowWriter row(pressed);
     for (std::size_t i = range.begin; i < range.end; ++i)
@@ -123,7 +123,7 @@ void RigidContact::load_nodes(const StateReader &reader, const Range &range) {
   // A tool that was another one, or another mesh's, may have had other points inside facets.
   std::vector<bool> is_known(range.keys.size(), true);
   std::vector<bool> *const found = range.prefix.empty() ? nullptr : &is_known;
-  if (!pressed_n_.empty()) {
+  if (knows_pressures_) {
     const std::vector<double> pressed =
         reader.read_rows(range.prefix + "pressed", pressed_width, range.keys, found);
     for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -194,8 +194,7 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
   positions_on_thin_tool_.clear();
   if (reader.has("stiffening"))
     stiffen(reader.number("stiffening") / stiffening_);
-  if (!reader.has("pressed"))
-    pressed_n_.clear();
+  knows_pressures_ = !is_explicit_ && reader.has("pressed");
   load_nodes(reader, mesh_nodes(keys));
   if (has_divided_facets_ && reader.has("interior gaps"))
     load_nodes(reader, interior_points());

@@ -841,6 +841,7 @@ void RigidContact::remember_pressures() {
   allowed_part_n_ = allowed_part_;
   if (is_explicit_)
     return;
+  knows_pressures_ = true;
   pressed_n_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const NodeState &state = states_[i];
@@ -870,7 +871,7 @@ template <class NormalOf> std::vector<double> RigidContact::areas_along(const No
 StepWorks RigidContact::compute_step_works(const double weight) const {
   StepWorks works;
   const bool has_moved =
-      !is_removed_ && !pressed_n_.empty() &&
+      !is_removed_ && knows_pressures_ &&
       std::any_of(states_.begin(), states_.end(), [this](const NodeState &state) {
         const auto i = static_cast<std::size_t>(&state - states_.data());
         return (state.pressure > 0.) != (pressed_n_[i].pressure > 0.) ||

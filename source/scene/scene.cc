@@ -618,6 +618,16 @@ void Scene::describe(std::ostream &stream) const {
   stream << "Output         " << parameters_.output.folder.value << "\n";
 }
 
+std::size_t Scene::count_elements() const {
+  std::size_t n_elements = 0;
+  for (const auto &body : parameters_.bodies) {
+    dealii::Triangulation<3> outline;
+    build_body_mesh(body, MeshDetail::outline, outline);
+    n_elements += count_full_elements(body.mesh, outline);
+  }
+  return n_elements;
+}
+
 std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
   using Json = nlohmann::ordered_json;
   Json scene;

@@ -2,7 +2,6 @@
 // Penalties that are too low are reported by either sign, and not where penetrations are small.
 #include "billet/solve/penalty_watch.h"
 #include "../testing.h"
-#include "billet/diagnostic_kinds.h"
 
 #include <cmath>
 
@@ -11,12 +10,7 @@ using billet::testing::check;
 
 namespace {
 
-using Message = std::optional<billet::Diagnostic>;
-
-bool tells(const Message &message, const std::string &what) {
-  return message && message->kind().key == std::string("penalty-too-low") &&
-         message->text().find(what) != std::string::npos;
-}
+bool tells(const std::string &text, const std::string &what) { return text.find(what) != std::string::npos; }
 
 std::string text_of(const billet::DiagnosticList &messages) {
   return messages.empty() ? "" : messages.front().text();
@@ -60,13 +54,13 @@ int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     look(watch, 0., 1.);
-    check("the largest motion so far counts", !look(watch, 0.01, 0.));
+    check("the largest motion so far counts", look(watch, 0.01, 0.).empty());
   }
   {
     PenaltyWatch watch(PenaltyWatch::Motion::sudden);
-    check("a first touch is no matter", !look(watch, 1e-2, 2e-2));
+    check("a first touch is no matter", look(watch, 1e-2, 2e-2).empty());
     check("one that is deeper is not told, but noticed",
-          !watch.has_soft_pairs() && !look(watch, 0.05, 0.1) && watch.has_soft_pairs());
+          !watch.has_soft_pairs() && look(watch, 0.05, 0.1).empty() && watch.has_soft_pairs());
     check("what gives way on is told", tells(look(watch, 0.2, 0.4), "100 % of the largest displacement"));
   }
   {

@@ -154,6 +154,9 @@ public:
   /// nodes on symmetry planes, supports, initial penetration. Throws InputError. Serial.
   void build_mesh(MeshDetail detail, dealii::Triangulation<3> &mesh) const;
 
+  /// Number of elements of all bodies, from the outlines of the meshes.
+  std::size_t count_elements() const;
+
   /// What will be modelled, for --check; from the outlines of the meshes.
   void describe(std::ostream &stream) const;
   /// The same as one JSON object, on one line, with these messages.
