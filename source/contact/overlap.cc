@@ -273,9 +273,34 @@ Overlap find_deepest(const Discretization &discretization, const std::vector<Ten
 
 } // namespace
 
+namespace {
+
+/// The boundary of a body but for its symmetry planes, behind which it goes on. Of this rank.
+std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, const std::size_t body,
+                                                 const std::vector<Hold> &holds) {
+  std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization, body);
+  const double tolerance = 1e-8 * discretization.radius();
+  facets.erase(std::remove_if(facets.begin(), facets.end(),
+                              [&](const BoundaryFacet &facet) {
+                                return std::any_of(holds.begin(), holds.end(), [&](const Hold &hold) {
+                                  return hold.on_plane &&
+                                         std::all_of(facet.corners.begin(), facet.corners.end(),
+                                                     [&](const dealii::Point<3> &x) {
+                                                       return std::abs(x * hold.normal - hold.offset) <=
+                                                              tolerance;
+                                                     });
+                                });
+                              }),
+               facets.end());
+  return facets;
+}
+
+} // namespace
+
 Overlap find_overlap(const Discretization &discretization, const std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, const std::size_t other_body,
-                     const std::vector<unsigned int> &other_boundary_ids) {
+                     const std::vector<unsigned int> &other_boundary_ids,
+                     const std::vector<Hold> &other_holds) {
   const MPI_Comm communicator = discretization.communicator();
   const auto facets =
       gather_facets(collect_boundary_facets(discretization, body, boundary_ids), communicator);
@@ -286,7 +311,7 @@ Overlap find_overlap(const Discretization &discretization, const std::size_t bod
                            communicator);
   constexpr double rounding = 1e-9; // a point on the face between two elements is in both
   return find_deepest(discretization, probes.points(), other_body,
-                      collect_boundary_facets(discretization, other_body), 1, rounding);
+                      collect_free_boundary(discretization, other_body, other_holds), 1, rounding);
 }
 
 Overlap find_self_overlap(const Discretization &discretization, const std::size_t body,
@@ -358,8 +383,9 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
     deepest = find_self_overlap(discretization, bodies.bodies[0], ids);
   }
   for (unsigned int side = 0; side < 2 && !is_one_body; ++side) {
-    const Overlap overlap = find_overlap(discretization, bodies.bodies[side], bodies.boundary_ids[side],
-                                         bodies.bodies[1 - side], bodies.boundary_ids[1 - side]);
+    const Overlap overlap =
+        find_overlap(discretization, bodies.bodies[side], bodies.boundary_ids[side], bodies.bodies[1 - side],
+                     bodies.boundary_ids[1 - side], scene.bodies()[bodies.bodies[1 - side]].holds);
     if (overlap.depth > deepest.depth)
       deepest = overlap;
   }

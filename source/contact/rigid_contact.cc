@@ -1066,7 +1066,7 @@ void RigidContact::add_released(ContactLoad &load) const {
 
 void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) const {
   struct Sums {
-    double force = 0., slipping = 0.;
+    double force = 0., slipping = 0., depth = 0., curvature = 0.;
     Tensor<1, 3> traction;
   };
   std::vector<Sums> sums(n_mesh_nodes_);
@@ -1079,6 +1079,8 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
       const double force = weight * area * state.pressure;
       sums[parent].force += force;
+      sums[parent].depth = std::max(sums[parent].depth, std::abs(state.gap + nodes_[i].lift));
+      sums[parent].curvature = std::max(sums[parent].curvature, largest_curvature(state.turning));
       sums[parent].slipping += state.status == ContactStatus::slip ? force : 0.;
       sums[parent].traction += weight * area * state.traction;
     });
@@ -1088,6 +1090,8 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
       continue;
     reports[i].pressure = sums[i].force / reports[i].area;
     reports[i].traction = sums[i].traction / reports[i].area;
+    reports[i].penetration = sums[i].depth;
+    reports[i].curvature = sums[i].curvature;
     reports[i].status = sums[i].slipping > 0.5 * sums[i].force ? ContactStatus::slip : ContactStatus::stick;
   }
 }

@@ -294,6 +294,7 @@ void ContactPair::parse(Reader &reader) {
   parse_friction(reader);
   penalty_unit = reader.text("Penalty unit") == "factor" ? PenaltyUnit::factor : PenaltyUnit::absolute;
   normal_penalty = reader.positive("Normal penalty");
+  has_own_penalty = reader.is_set("Normal penalty");
   if (reader.text("Tangential penalty").empty())
     tangential_penalty = normal_penalty;
   else {

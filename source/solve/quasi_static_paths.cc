@@ -103,9 +103,13 @@ std::vector<double> QuasiStatic::raises_of_penalties() const {
   const std::vector<double> room = stiffening_left();
   for (std::size_t i = 0; i < factors.size(); ++i) {
     const bool is_tool = i < contacts_.size();
-    const double tolerance = is_tool ? scene_.pairs()[contacts_[i].pair()].penetration_tolerance
-                                     : scene_.body_pairs()[i - contacts_.size()].penetration_tolerance;
-    const bool is_too_much = !motion_ && tolerance == 0. && factors[i] > 1.;
+    const auto [tolerance, has_own_penalty] =
+        is_tool ? std::make_pair(scene_.pairs()[contacts_[i].pair()].penetration_tolerance,
+                                 scene_.pairs()[contacts_[i].pair()].input->has_own_penalty)
+                : std::make_pair(scene_.body_pairs()[i - contacts_.size()].penetration_tolerance,
+                                 scene_.body_pairs()[i - contacts_.size()].input->has_own_penalty);
+    // A penalty that the scene sets stays; the warnings tell what it makes softer.
+    const bool is_too_much = !motion_ && tolerance == 0. && !has_own_penalty && factors[i] > 1.;
     const double raise = std::min(std::clamp(2. * factors[i], least_raise, largest_raise), most * room[i]);
     factors[i] = is_too_much && raise > worth_it ? raise : 1.;
   }

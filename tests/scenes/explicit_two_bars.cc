@@ -26,6 +26,7 @@ void test(const double penalty, const unsigned int across, const bool two_passes
   scene.bodies[1].mesh.arguments = "160, " + n + ", " + n + " : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
   scene.bodies[0].mesh.arguments = "160, 2, 2 : -0.201, 0, 0 : -0.001, 0.02, 0.02 : true";
   scene.pairs[0].normal_penalty = penalty;
+  scene.pairs[0].edges = parameters::ContactPair::Edges::free; // of nodes against facets
   scene.pairs[0].passes =
       two_passes ? parameters::ContactPair::Passes::two : parameters::ContactPair::Passes::one;
   scene.pairs[0].facets.value = facets;

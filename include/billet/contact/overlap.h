@@ -27,14 +27,16 @@ struct Overlap {
 };
 
 /// Finds the nodes of one body's faces, and points of the elements at them, that are inside elements of
-/// another body. The depth of such a point is its distance to the whole boundary of that body, which may be
-/// beside the faces that touch: a node that lies on the head of a bolt is not inside its shank. Among the
+/// another body. The depth of such a point is its distance to the whole boundary of that body but for its
+/// symmetry planes (among `other_holds`). That may be beside the faces that touch: a node that lies on the
+/// head of a bolt is not inside its shank. Among the
 /// points are some on every part of the faces' sides that the other's faces (`other_boundary_ids`) cut off:
 /// so bodies that pierce each other are found wherever they do. Collective; meant for the start only: all
 /// ranks get all of the first body's faces.
 Overlap find_overlap(const Discretization &discretization, std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, std::size_t other_body,
-                     const std::vector<unsigned int> &other_boundary_ids);
+                     const std::vector<unsigned int> &other_boundary_ids,
+                     const std::vector<Hold> &other_holds);
 
 /// The same of a body whose elements are in each other: `depth` is that of such points below its faces.
 Overlap find_self_overlap(const Discretization &discretization, std::size_t body,

@@ -451,7 +451,7 @@ private:
   };
   std::vector<PressureHistory> pressed_n_;
   bool knows_pressures_ = false; ///< all ranks alike: pressed_n_ is that of the start of the step
-  double allowed_part_n_ = 1.;             ///< at the start of the step
+  double allowed_part_n_ = 1.;   ///< at the start of the step
   std::vector<std::array<double, 2>>
       base_;                  ///< what this step's friction starts from: that of friction_n_, or augmented
   std::vector<Facet> facets_; ///< those that are not divided, then parts

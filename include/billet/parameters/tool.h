@@ -80,6 +80,7 @@ struct ContactPair {
   double pressure_exponent;    ///< of PressureDependent
   PenaltyUnit penalty_unit;
   double normal_penalty;
+  bool has_own_penalty = false; ///< the scene sets it: what it is worth is the user's, and stays
   double tangential_penalty;
   double penetration_tolerance; ///< 0: no augmentation
   Located<double> allowed_penetration;
