@@ -266,9 +266,6 @@ inline const DiagnosticKind checkpoint_failed("checkpoint-failed", Severity::war
                                               "A checkpoint could not be written; the run continues.",
                                               "Free disk space, or choose another folder");
 
-inline const DiagnosticKind stopped("stopped", Severity::note,
-                                    "A signal ended the run. The checkpoint tells how to resume.", "");
-
 inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
                                             "The computation cannot continue.", "");
 

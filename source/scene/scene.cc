@@ -530,6 +530,17 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   return uses;
 }
 
+namespace {
+
+/// Number of elements of the body's mesh, from its outline.
+std::size_t count_elements_of(const parameters::Body &body) {
+  dealii::Triangulation<3> outline;
+  build_body_mesh(body, MeshDetail::outline, outline);
+  return count_full_elements(body.mesh, outline);
+}
+
+} // namespace
+
 void Scene::describe(std::ostream &stream) const {
   stream << "Scene          " << parameters_.file_name << "\n";
   if (!parameters_.title.empty())
@@ -549,9 +560,7 @@ void Scene::describe(std::ostream &stream) const {
   std::size_t n_elements = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto &body = parameters_.bodies[i];
-    dealii::Triangulation<3> outline;
-    build_body_mesh(body, MeshDetail::outline, outline);
-    const std::size_t n = count_full_elements(body.mesh, outline);
+    const std::size_t n = count_elements_of(body);
     n_elements += n;
     stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_law(body) << ", "
            << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
@@ -620,11 +629,8 @@ void Scene::describe(std::ostream &stream) const {
 
 std::size_t Scene::count_elements() const {
   std::size_t n_elements = 0;
-  for (const auto &body : parameters_.bodies) {
-    dealii::Triangulation<3> outline;
-    build_body_mesh(body, MeshDetail::outline, outline);
-    n_elements += count_full_elements(body.mesh, outline);
-  }
+  for (const auto &body : parameters_.bodies)
+    n_elements += count_elements_of(body);
   return n_elements;
 }
 
@@ -645,9 +651,7 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
   scene["bodies"] = Json::array();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto &body = parameters_.bodies[i];
-    dealii::Triangulation<3> outline;
-    build_body_mesh(body, MeshDetail::outline, outline);
-    const std::size_t n = count_full_elements(body.mesh, outline);
+    const std::size_t n = count_elements_of(body);
     n_elements += n;
     scene["bodies"].push_back({{"name", body.name},
                                {"hexahedra", n},
