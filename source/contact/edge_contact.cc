@@ -27,6 +27,13 @@ std::array<double, 2> fade(const double parameter) {
   return {z * z * (3. - 2. * z), 12. * z * (1. - z) * (parameter < 0.5 ? 1. : -1.)};
 }
 
+/// Of flush faces edges meet at their ends, and round-off decides whether they cross. Their area is none.
+bool meets_at_end(const SegmentPair &pair) {
+  constexpr double rounding = 1e-6;
+  return std::any_of(pair.parameters.begin(), pair.parameters.end(),
+                     [](const double s) { return std::min(s, 1. - s) < rounding; });
+}
+
 /// With a, b the edges and d the difference, d·a = d·b = 0 at any positions. What nodes do adds δr to d at
 /// fixed s and t, and δa, δb to the edges; so
 ///   a² δs − a·b δt = −(a·δr + d·δa),   a·b δs − b² δt = −(b·δr + d·δb).
@@ -177,7 +184,7 @@ std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &
     const Segment first{positions[slave.nodes[0]], positions[slave.nodes[1]]},
         second{positions[target.nodes[0]], positions[target.nodes[1]]};
     const SegmentPair closest = closest_points(first, second);
-    if (!closest.is_crossing)
+    if (!closest.is_crossing || meets_at_end(closest))
       continue;
     const Tensor<1, 3> along_1 = first[1] - first[0], along_2 = second[1] - second[0];
     // Edges that are nearly parallel have no common normal to speak of: nodes see what they do.

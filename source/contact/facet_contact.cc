@@ -303,16 +303,24 @@ SlaveMotion FacetContact::compute_motion_after_contact(const std::size_t s, cons
 }
 
 void FacetContact::account_for_friction(const std::size_t s, const SlaveMotion &motion) {
-  const FrictionRule rule{stiffness_[s].tangential, start_weight_, lifts_n_.empty(), lifts_.empty()};
-  const FrictionAccount account = compute_friction_account(history_n_[s], history_[s], motion, rule);
+  const FrictionRule rule{stiffness_[s].tangential, start_weight_, is_static_, lifts_n_.empty(),
+                          lifts_.empty()};
+  double part = 1.; // of the step, in which it touches
+  if (is_static_ && history_[s].is_active && !history_n_[s].is_active)
+    part = part_in_contact(states_[s].contact.gap + motion.lift, states_[s].contact.normal, motion);
+  else if (is_static_ && !history_[s].is_active)
+    part = part_before_leaving(pressed_n_[s].depth,
+                               motion.displacement * (motion.rotation * touched_n_[s].projection.normal));
+  const FrictionAccount account = compute_friction_account(history_n_[s], history_[s], motion, rule, part);
   double n_own = 0., n_facets = 0.;
   search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
     n_facets += 1.;
     n_own += f < exchange_.n_own_facets() ? 1. : 0.;
   });
-  const double part = n_own / n_facets;
-  states_[s].dissipation = part * account.dissipated(history_n_[s].area, history_[s].area);
-  states_[s].damping = part * history_[s].area * account.damping;
+  const double own = n_own / n_facets;
+  states_[s].dissipation = own * account.dissipated(history_n_[s].area, history_[s].area);
+  states_[s].damping = own * history_[s].area * account.damping;
+  states_[s].taken_beyond = own * account.taken_beyond(history_n_[s].area, history_[s].area);
 }
 
 template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
@@ -581,6 +589,7 @@ StepWorks FacetContact::compute_step_works(const double weight) const {
   StepWorks works;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
+    works.touching -= state.taken_beyond;
     const PressureHistory &before = pressed_n_[s];
     const double ramp_depth =
         initial_depths_.empty() ? 0. : (allowed_part_n_ - allowed_part_) * initial_depths_[s];

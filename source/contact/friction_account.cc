@@ -1,9 +1,45 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/friction_account.h"
 
+#include <algorithm>
+
 namespace billet {
 
+namespace {
+
+FrictionAccount compute_static_account(const FrictionStep &step, const FrictionRule &rule) {
+  const bool enters_or_leaves = step.part_in_contact < 1.;
+  double work_n = 0., work = 0., stored_n = 0., stored = 0., by_slip_n = 0., by_slip = 0.;
+  for (unsigned int i = 0; i < 2; ++i) {
+    const double t_n = step.traction_n[i], t = step.traction[i];
+    work_n -= 0.5 * t_n * step.motion[i];
+    work -= 0.5 * t * step.motion[i];
+    const double stretch_n = rule.stores_n ? t_n / rule.stiffness : 0.,
+                 stretch = rule.stores ? t / rule.stiffness : 0.;
+    stored_n += 0.5 * t_n * stretch_n;
+    stored += 0.5 * t * stretch;
+    const double slip = step.part_in_contact * step.motion[i] + stretch - stretch_n;
+    by_slip_n -= 0.5 * t_n * slip;
+    by_slip -= 0.5 * t * slip;
+  }
+  FrictionAccount account;
+  if (step.touches) {
+    account.dissipation_n = std::max(0., by_slip_n);
+    account.dissipation = std::max(0., by_slip);
+  } else
+    account.dissipation_n = std::max(0., step.part_in_contact * work_n + stored_n);
+  if (enters_or_leaves) {
+    account.beyond_n = work_n + stored_n - account.dissipation_n;
+    account.beyond = work - stored - account.dissipation;
+  }
+  return account;
+}
+
+} // namespace
+
 FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule) {
+  if (rule.is_static)
+    return compute_static_account(step, rule);
   double work_n = 0., work = 0., stored_n = 0., stored = 0., relaxed = 0.;
   for (unsigned int i = 0; i < 2; ++i) {
     const double t_n = step.traction_n[i], t = step.traction[i];

@@ -312,8 +312,11 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
           return (placement_.rotation * (dealii::transpose(placement_n_.rotation) * axis)) *
                  (position - placement_.to_space(history_n.tool_position));
         };
+        const double part = !is_static_ || !knows_pressures_
+                                ? 1.
+                                : part_before_leaving(pressed_n_[i].depth, along(history_n.frame.n));
         state.friction = compute_friction_account(
-            {history_n.tangential, {}, {along(history_n.frame.q), along(history_n.frame.r)}, false},
+            {history_n.tangential, {}, {along(history_n.frame.q), along(history_n.frame.r)}, false, part},
             friction_rule(node));
       }
       history->is_active = false;
@@ -392,8 +395,8 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
   state.slip_increment = fraction * std::hypot(t.slip[0], t.slip[1]);
   state.tangential_energy = 0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) /
                             node.stiffness.tangential;
-  state.friction = compute_friction_account({history_n.tangential, t.tangential, increment.value, true},
-                                            friction_rule(node));
+  state.friction = compute_friction_account(
+      {history_n.tangential, t.tangential, increment.value, true, fraction}, friction_rule(node));
   history.slip = history_n.slip + state.slip_increment;
   history.slip_rate =
       increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
@@ -895,6 +898,10 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
                 ramp_depth, weight);
     }
   }
+  if (!friction_.empty() && is_static_ && !is_removed_)
+    visit_friction([&](const FrictionAccount &account, const double area_n, const double area) {
+      works.touching -= account.taken_beyond(area_n, area);
+    });
   works.touching = dealii::Utilities::MPI::sum(works.touching, communicator_);
   works.ramp = dealii::Utilities::MPI::sum(works.ramp, communicator_);
   return works;
@@ -1019,7 +1026,7 @@ ContactLoad RigidContact::local_load() const {
 FrictionRule RigidContact::friction_rule(const Node &node) const {
   // What augmented tractions hold is no stretch of a spring.
   const bool stores = pair_.penetration_tolerance == 0.;
-  return {node.stiffness.tangential, start_weight_, stores, stores};
+  return {node.stiffness.tangential, start_weight_, is_static_, stores, stores};
 }
 
 void RigidContact::add_friction(ContactLoad &load) const {
@@ -1029,14 +1036,19 @@ void RigidContact::add_friction(ContactLoad &load) const {
     add_released(load);
     return;
   }
+  visit_friction([&](const FrictionAccount &account, const double area_n, const double area) {
+    load.dissipation += account.dissipated(area_n, area);
+    load.damping += area * account.damping;
+  });
+}
+
+template <class Visit> void RigidContact::visit_friction(const Visit &visit) const {
   for (const auto &facet : facets_) {
     const FacetStates states = states_of(facet);
     const std::array<double, 4> areas =
         touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
-    for (unsigned int a = 0; a < 4; ++a) {
-      load.dissipation += states[a]->friction.dissipated(facet.friction_areas[a], areas[a]);
-      load.damping += areas[a] * states[a]->friction.damping;
-    }
+    for (unsigned int a = 0; a < 4; ++a)
+      visit(states[a]->friction, facet.friction_areas[a], areas[a]);
   }
 }
 

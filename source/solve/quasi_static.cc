@@ -475,14 +475,14 @@ void QuasiStatic::start_step(const double t) {
   duration_ = t - state_.time;
   for (auto &contact : body_contacts_) {
     contact->start_step(state_.time, t);
-    contact->set_start_weight(contact_before());
+    contact->set_friction_account(contact_before(), motion_ == nullptr);
   }
   if (motion_)
     motion_->start_step(state_.time, t, u_n_, offsets_n_);
   for (auto &contact : contacts_) {
     const std::size_t tool = contact.tool();
     contact.start_step(state_.placements[tool], place(tool, t, offsets_[tool]), t - state_.time);
-    contact.set_start_weight(contact_before());
+    contact.set_friction_account(contact_before(), motion_ == nullptr);
     contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(t));
   }
 }

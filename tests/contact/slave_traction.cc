@@ -317,9 +317,66 @@ void check_account(const double start_weight, const std::string &rule_name) {
   check(rule_name + " account: that of the return map where the traction stays", steady.value(), 1e-10);
 }
 
+/// A node that slides as it comes down on a facet at rest, or leaves it: one step dissipates what a thousand
+/// do, but for what its spring takes. And one that its spring pulls back farther than that can makes none.
+void check_parts_of_steps() {
+  Random random;
+  const Coulomb law{0.6};
+  constexpr double depth = 0.01, height = 0.02, slide = 0.3;
+  const FrictionRule rule{stiffness.tangential, 0.5, true};
+  const auto dissipated = [&](const bool enters, const unsigned int n_steps) {
+    Random same;
+    Pair pair{random_facet(same, 1., 0.), {}, {}};
+    const Tensor<1, 3> n = PlanedFacet(pair.corners).project(pair.corners[0], {}).normal;
+    const Frame frame = Frame::from_normal(n);
+    const Tensor<1, 3> middle = point_on(same, pair.corners);
+    pair.x = middle + (enters ? height : -depth) * n;
+    if (!enters) // slides already
+      for (unsigned int k = 0; k < 20; ++k)
+        pair.step(law, pair.corners, pair.x + 0.01 * frame.q, 0.);
+    const Tensor<1, 3> start = pair.x;
+    double sum = 0.;
+    for (unsigned int k = 1; k <= n_steps; ++k) {
+      const double way = static_cast<double>(k) / n_steps, gap_n = (pair.x - middle) * n,
+                   gap = enters ? height - way * (height + depth) : -depth + way * (height + depth);
+      const Tensor<1, 3> x_n = pair.x, x = start + way * slide * frame.q + (gap - (start - middle) * n) * n;
+      const SlaveHistory history_n = pair.history;
+      const SlaveMotion motion = compute_slave_motion(
+          pair.corners, pair.corners, PlanedFacet(pair.corners).project(x, {}).weights, x_n, x, 0.);
+      if (gap < 0.)
+        pair.step(law, pair.corners, x, 0.);
+      else
+        pair.history = SlaveHistory();
+      pair.x = x;
+      if (!history_n.is_active && gap >= 0.)
+        continue;
+      double part = 1.;
+      if (!history_n.is_active)
+        part = gap / (gap - gap_n);
+      else if (gap > 0.)
+        part = part_before_leaving(-gap_n, gap - gap_n);
+      sum += compute_friction_account(history_n, pair.history, motion, rule, part).dissipated(1., 1.);
+    }
+    return sum;
+  };
+  for (const bool enters : {true, false})
+    check(std::string(enters ? "entering" : "leaving") + " in one step dissipates what a thousand do",
+          std::abs(dissipated(enters, 1) / dissipated(enters, 1000) - 1.), 0.05);
+
+  const FrictionAccount account =
+      compute_friction_account({{1., 0.}, {0., 0.}, {10. / stiffness.tangential, 0.}, false, 0.5}, rule);
+  check("a node that springs off makes no energy", account.dissipation_n >= 0.);
+  check("what it leaves out is what mean forces take besides",
+        std::abs(account.beyond_n -
+                 (-5. + 0.5 - account.dissipation_n * stiffness.tangential) / stiffness.tangential) *
+            stiffness.tangential,
+        1e-12);
+}
+
 } // namespace
 
 int main() {
+  check_parts_of_steps();
   check_balance<PlanedFacet>("planed");
   check_balance<BilinearFacet>("bilinear");
   check_rotation();

@@ -76,12 +76,10 @@ void test_unloading(const std::string &name, parameters::Scene scene, const doub
     }
   });
   testing::check_unloaded(name + ": ", run, stored);
-  // Areas change while nodes stick, of which the account of friction (I7) keeps a second-order part.
-  check(name + ": nothing has slipped", std::abs(taken_while_pressed) / stored, 1e-4);
+  check(name + ": nothing has slipped", taken_while_pressed / stored, 1e-10);
   const double released = run.problem.state().energies.friction;
-  // In a lift of one step the trapezoidal account (I7) is off by a part of what was stored.
   check(name + ": at most what springs held is released when it lifts",
-        std::abs(released) <= in_springs + 0.02 * stored);
+        released >= 0. && released <= in_springs);
 }
 
 } // namespace
@@ -151,7 +149,7 @@ int main(int argc, char *argv[]) {
     check("inclined cut, penalty " + print(factor) + " E/h", stress_error(run, exact),
           run.problem.state().body_pair_loads[0].deepest / edge);
     check("inclined cut sticks, penalty " + print(factor) + " E/h",
-          std::abs(run.problem.state().energies.friction) / run.problem.state().energies.elastic, 1e-4);
+          run.problem.state().energies.friction / run.problem.state().energies.elastic, 1e-10);
   }
   // What augmentation leaves, along the cut too, in each of two steps, is part of the travel: of the upper
   // part's facets, which are slaves.

@@ -2,6 +2,7 @@
 // Penalties that are far too low or far too high, and matrices that lose most digits, are reported; others
 // are not.
 #include "billet/diagnostic_kinds.h"
+#include "billet/errors.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -27,15 +28,19 @@ std::array<unsigned int, 3> count(const std::string &scene, const double factor,
   parameters.solver.force_tolerance = force_tolerance;
   SceneRun run(parameters);
   std::array<unsigned int, 3> n{};
-  run.finish([&](const NewtonReport &report) {
-    // A penalty that is much too low is raised, or, where bodies hardly move, warned about.
-    n[0] += find(report.diagnostics, diagnostic::penalty_too_low) != nullptr ||
-                    find(report.diagnostics, diagnostic::penalty_raised) != nullptr
-                ? 1
-                : 0;
+  const auto look = [&](const NewtonReport &report) {
+    // A penalty that is much too low is warned about.
+    n[0] += find(report.diagnostics, diagnostic::penalty_too_low) != nullptr ? 1 : 0;
     n[1] += find(report.diagnostics, diagnostic::round_off_limits_forces) != nullptr ? 1 : 0;
     n[2] += find(report.diagnostics, diagnostic::ill_conditioned) != nullptr ? 1 : 0;
-  });
+  };
+  try {
+    run.finish(look);
+  } catch (const SolutionFailure &failure) { // nodes are deeper than contact follows them
+    if (std::string(failure.what()).find("a larger 'Normal penalty'") == std::string::npos)
+      throw;
+    ++n[0];
+  }
   return n;
 }
 

@@ -41,7 +41,9 @@ public:
   /// scene says.
   void start_step(double t_n, double t);
   /// As FacetContact's.
-  void set_start_weight(const double weight) { contact_->set_start_weight(weight); }
+  void set_friction_account(const double start_weight, const bool is_static) {
+    contact_->set_friction_account(start_weight, is_static);
+  }
   /// Of the augmented Lagrangian, as FacetContact's. The error is on this rank, relative to what the pair
   /// asks for; 0 if it asks for none.
   void restart() { contact_->restart(); }

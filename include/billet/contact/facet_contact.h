@@ -154,8 +154,11 @@ public:
   /// After add_forces().
   FacetContactLoad compute_load() const;
 
-  /// θ of FrictionRule, by which friction is accounted for: ½ unless it is set.
-  void set_start_weight(const double weight) { start_weight_ = weight; }
+  /// Of FrictionRule, by which friction is accounted for: ½ and false unless they are set.
+  void set_friction_account(const double start_weight, const bool is_static) {
+    start_weight_ = start_weight;
+    is_static_ = is_static;
+  }
 
   /// By friction in this step, of this rank [energy].
   double local_dissipation() const;
@@ -277,7 +280,7 @@ private:
     double area = 0.;     ///< of all
     bool rests = false;   ///< touches without pressing
     // By friction in this step, this rank's part [energy]:
-    double dissipation = 0., damping = 0.;
+    double dissipation = 0., damping = 0., taken_beyond = 0.;
 
     bool presses() const { return touched.exists() && (contact.gap < 0. || rests); }
   };
@@ -403,6 +406,7 @@ private:
   std::vector<Augmentation> last_augmentations_; ///< of slaves, in this step
   double stiffening_ = 1.;                       ///< of all penalties, by stiffen()
   double start_weight_ = 0.5;
+  bool is_static_ = false;
   /// Of slaves; empty if none is allowed and no gap is closed; < 0: a gap that counts as closed.
   std::vector<double> initial_depths_;
   double allowed_part_ = 1., allowed_part_n_ = 1.;

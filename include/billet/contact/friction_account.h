@@ -10,7 +10,9 @@ namespace billet {
 struct FrictionRule {
   double stiffness;          ///< k_t [stress/length]
   double start_weight = 0.5; ///< θ: ½ is the trapezoidal rule, 0 the value at the end of the step
-  /// Whether the springs store energy, at the start and at the end: what augmentation holds is no stretch.
+  /// In statics no integrator takes works by this rule: it is one of the path between two equilibria.
+  bool is_static = false;
+  /// Whether springs store energy, at the start and at the end: what augmentation holds is no stretch.
   bool stores_n = true, stores = true;
 };
 
@@ -20,6 +22,7 @@ struct FrictionStep {
   std::array<double, 2> traction;   ///< 0 where it does not touch any longer
   std::array<double, 2> motion;     ///< Δg_t of the whole step, relative to what it touches, or has left
   bool touches;                     ///< at the end
+  double part_in_contact = 1.;      ///< φ: of the step, if it enters or leaves in it
 };
 
 /// What a node's friction takes from the motion in a step, eq. (E4) of doc/theory.md, with A the area of the
@@ -28,15 +31,29 @@ struct FrictionStep {
 /// For θ = ½, L = 0: all that is not stored is dissipated. For θ = 0, D = −A t·γ is what the return map
 /// dissipates over the slip γ = Δg_t + (t − t_n)/k_t, and L = A |t − t_n|²/(2 k_t) is what the end value
 /// takes besides; a node that leaves dissipates what its spring held. If springs store nothing, L = 0.
+///
+/// In statics dissipation never falls, (I8): D = ½ A_n <−t_n·γ> + ½ A <−t·γ>, with φ Δg_t in γ. That is W as
+/// above, but for what a change of area makes of stored energy, and slip that turns back within the step. A
+/// node that leaves has D = A_n <Ψ_n − ½ φ t_n·Δg_t>. What mean forces take of the rest of the motion of
+/// nodes that enter or leave is `beyond`.
 struct FrictionAccount {
   // Parts of D and L per area at the start and at the end of the step [energy/length²].
   double dissipation_n = 0., dissipation = 0.;
   double damping = 0.;
+  double beyond_n = 0., beyond = 0.;
 
   double dissipated(const double area_n, const double area) const {
     return area_n * dissipation_n + area * dissipation;
   }
+  double taken_beyond(const double area_n, const double area) const {
+    return area_n * beyond_n + area * beyond;
+  }
 };
+
+/// φ of a node that was `depth` deep and has been moved by `opening` along the normal since.
+inline double part_before_leaving(const double depth, const double opening) {
+  return opening > depth ? depth / opening : 1.;
+}
 
 FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule);
 

@@ -45,7 +45,7 @@ namespace billet {
 /// front again. It would jump to its full depth there, in a step or two, with energy from nowhere. Not where
 /// another tool is near, nor of a part of the surface that it comes to from the front.
 ///
-/// Facets between whose nodes the tool could enter unseen (FacetDivision) are divided, (M41): each into n × m
+/// Facets between whose nodes the tool could enter unseen (FacetDivision) are divided, (M43): each into n × m
 /// facets that are bilinear as well, whose corners inside are points of contact like nodes. A point's
 /// position is Σ N_a x_a of the facet's nodes, which take its force and its stiffness by the same N_a. All of
 /// the above holds for the parts as it stands: what they are to their corners is what facets are to nodes.
@@ -65,8 +65,11 @@ public:
   void start_step(const Placement &from, const Placement &to, double duration);
   /// The part of the initial penetration that counts as none at the end of the step.
   void set_allowed_part(const double part) { allowed_part_ = part; }
-  /// θ of FrictionRule, by which friction is accounted for: ½ unless it is set.
-  void set_start_weight(const double weight) { start_weight_ = weight; }
+  /// Of FrictionRule, by which friction is accounted for: ½ and false unless they are set.
+  void set_friction_account(const double start_weight, const bool is_static) {
+    start_weight_ = start_weight;
+    is_static_ = is_static;
+  }
   /// Changes where it moves to.
   void set_placement(const Placement &to) { placement_ = to; }
 
@@ -419,6 +422,8 @@ private:
   void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
   /// Adds what friction has dissipated. In explicit scenes, only that of nodes that have lifted off.
   void add_friction(ContactLoad &load) const;
+  /// Calls visit(account, area_n, area) for the corners of all facets.
+  template <class Visit> void visit_friction(const Visit &visit) const;
   void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
@@ -463,6 +468,7 @@ private:
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
   double start_weight_ = 0.5;
+  bool is_static_ = false;
   double tool_reach_ = 0.;
   double unresolved_length_ = 0.;      ///< of the longest facet that has too few parts, on any rank [length]
   double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]
