@@ -97,6 +97,7 @@ void BodyContact::collect(const NodeKeys &keys) {
       areas_.push_back(boundary.area_vector().norm());
       facet.reach = std::max(contact_reach(boundary), 1.1 * pair_.overlap.closed_gap);
       facet.bulge = bulge_of(boundary, pair_.correction);
+      facet.wall = boundary.thickness;
       constexpr double part_of_facet = 0.4; // all methods find nodes there, and no element is as thin
       depths_.push_back(part_of_facet * std::min(std::sqrt(areas_.back()), boundary.thickness));
       for (unsigned int a = 0; a < 4; ++a) {

@@ -72,9 +72,10 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
       const facet::Expansion slave_n = corners_of(facets[f], positions_n),
                              target_n = corners_of(facets[target], positions_n);
       const Tensor<1, 3> area_vector = target_n.mean_area_vector();
-      const double half = 0.5 * depth * facets[target].reach,
-                   limit = (slave_n.e_0 - target_n.e_0) * area_vector > -half * area_vector.norm() ? 2. * half
-                                                                                                   : half;
+      const double within_step = depth * facets[target].reach,
+                   at_start = 0.5 * std::min(within_step, facets[target].wall);
+      const bool was_behind = (slave_n.e_0 - target_n.e_0) * area_vector < -at_start * area_vector.norm();
+      const double limit = was_behind ? at_start : within_step;
       const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift, raise,
                                            facets[f].bulge, facets[target].bulge);
       if (overlap.exists)

@@ -41,7 +41,8 @@ void ImplicitDynamics::declare(ParameterHandler &prm) {
                     "and grows no faster than the error allows. 0: steps follow the iterations alone.");
   prm.declare_entry("Reference displacement", "0", Patterns::Double(),
                     "What the error tolerance is a part of. 0: the largest displacement so far (root mean "
-                    "square over the mass), and no less than a millionth of the scene's radius. [length]");
+                    "square over the mass), where the motion of whole bodies counts up to the largest one's "
+                    "radius of gyration, and no less than a millionth of the scene's radius. [length]");
   prm.declare_entry("Largest drift", "0.05", Patterns::Double(),
                     "The run ends where the energies fail to balance by more than this part of the largest "
                     "energy so far. 0: it goes on, and 5 % are told.");

@@ -75,6 +75,22 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
   v_n_ += held_n_.velocity;
   v_ = v_n_;
   a_ = a_n_;
+  Vector positions = discretization.make_owned_vector();
+  body_axes_.resize(discretization.owned_dofs().n_elements());
+  for (std::size_t b = 0; b < discretization.n_bodies(); ++b)
+    for (const auto &element : nodes_.elements(b))
+      for (const unsigned int node : element)
+        for (unsigned int i = 0; i < 3; ++i) {
+          const DofIndex dof = nodes_.dofs(node)[i];
+          if (!discretization.owned_dofs().is_element(dof))
+            continue;
+          positions(dof) = get_vector(nodes_.positions().data(), node)[i];
+          body_axes_[discretization.owned_dofs().index_within_set(dof)] = {b, i};
+        }
+  positions.compress(dealii::VectorOperation::insert);
+  for (const Spread &spread : spread_of_bodies(positions))
+    if (spread.mass > 0.)
+      largest_gyration_ = std::max(largest_gyration_, std::sqrt(spread.square / spread.mass));
   constexpr std::size_t n_fields =
       13; // displacements, velocities, accelerations, forces and rates of both ends
   inertia_memory_.set(n_fields * discretization.owned_dofs().n_elements() * sizeof(double));
@@ -179,6 +195,39 @@ NodalVectors ImplicitMotion::nodal(const Vector &field) const {
 
 double ImplicitMotion::mean_size(const Vector &field) const {
   return std::sqrt(std::max(0., field * inertia_.times(ghosted(field))) / inertia_.total());
+}
+
+std::vector<ImplicitMotion::Spread> ImplicitMotion::spread_of_bodies(const Vector &field) const {
+  constexpr std::size_t n_sums = 7; // of each body Σ m x and Σ m by axis, Σ m x²
+  std::vector<double> sums(n_sums * discretization_.n_bodies());
+  std::size_t k = 0;
+  for (const DofIndex dof : discretization_.owned_dofs()) {
+    const BodyAxis at = body_axes_[k++];
+    double *sum = &sums[n_sums * at.body];
+    const double x = field(dof), m = lumped_(dof);
+    sum[at.axis] += m * x;
+    sum[3 + at.axis] += m;
+    sum[6] += m * x * x;
+  }
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  std::vector<Spread> spreads;
+  for (std::size_t body = 0; body < discretization_.n_bodies(); ++body) {
+    const double *sum = &sums[n_sums * body];
+    double square = sum[6];
+    for (unsigned int i = 0; i < 3; ++i)
+      square -= sum[3 + i] > 0. ? sum[i] * sum[i] / sum[3 + i] : 0.;
+    spreads.push_back({std::max(0., square), sum[3]});
+  }
+  return spreads;
+}
+
+double ImplicitMotion::displacement_to_resolve(const Vector &displacements) const {
+  constexpr double least = 1e-6; // of the scene's radius: at the start nothing has moved yet
+  double own = 0.;
+  for (const Spread &spread : spread_of_bodies(displacements))
+    own += spread.square;
+  return std::max({std::sqrt(own / inertia_.total()), std::min(mean_size(displacements), largest_gyration_),
+                   least * discretization_.radius()});
 }
 
 Vector ImplicitMotion::driving_forces(const Vector &forces) const {
@@ -383,11 +432,9 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
   Vector change = end_accelerations();
   change -= a_n_;
   const double error = integrator_.error_factor() * step_ * step_ * mean_size(change);
-  constexpr double least = 1e-6; // of the scene's radius: at the start nothing has moved yet
-  const double reference =
-      parameters_.reference_displacement > 0.
-          ? parameters_.reference_displacement
-          : std::max({largest_displacement_, mean_size(displacements), least * discretization_.radius()});
+  const double reference = parameters_.reference_displacement > 0.
+                               ? parameters_.reference_displacement
+                               : std::max(largest_displacement_, displacement_to_resolve(displacements));
   return error / (parameters_.error_tolerance * reference);
 }
 
@@ -415,7 +462,7 @@ void ImplicitMotion::commit(const Vector &displacements, const Vector &increment
   a_n_ = end_accelerations();
   held_n_ = held_;
   if (parameters_.error_tolerance > 0. && parameters_.reference_displacement == 0.)
-    largest_displacement_ = std::max(largest_displacement_, mean_size(displacements));
+    largest_displacement_ = std::max(largest_displacement_, displacement_to_resolve(displacements));
 }
 
 void ImplicitMotion::commit_tool(const std::size_t tool, const double offset, const double exerted,

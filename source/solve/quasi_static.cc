@@ -632,7 +632,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     }
     if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) || goes_through_tool(report) ||
         goes_through(true, report) || turns_too_far(t, report) || penetrates(report) ||
-        contact_makes_energy(t, report) || loses_energy(t, report) || loses_bodies(t, report))
+        contact_is_out_of_balance(t, report) || loses_energy(t, report) || loses_bodies(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();

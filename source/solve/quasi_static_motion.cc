@@ -102,6 +102,8 @@ namespace {
 
 // Part of the largest energy that contact may make, and give back of what it took.
 constexpr double may_make = 0.005;
+// And that it may take in a step, but for friction.
+constexpr double may_take = 0.01;
 
 } // namespace
 
@@ -154,29 +156,41 @@ void QuasiStatic::damp_contact() {
   motion_->damp_contact(contact_forces_n_);
 }
 
-bool QuasiStatic::contact_makes_energy(const double t, NewtonReport &report) {
-  if (!motion_ || motion_->damps_contact())
+double QuasiStatic::taken_by_contact(const ContactLoss &loss) const {
+  return std::max(0., motion_->damps_contact() ? loss.total
+                                               : contact_balance_ + loss.total - may_make * largest_energy_);
+}
+
+bool QuasiStatic::contact_is_out_of_balance(const double t, NewtonReport &report) {
+  if (!motion_)
     return false;
   update_largest_energy();
-  report.makes_energy = contact_balance_ + contact_loss(t).total < -may_make * largest_energy_;
-  if (report.makes_energy) {
-    report.converged = false;
-    report.failure = "contact makes energy in the step";
-  }
-  return report.makes_energy;
+  const ContactLoss loss = contact_loss(t);
+  report.makes_energy =
+      !motion_->damps_contact() && contact_balance_ + loss.total < -may_make * largest_energy_;
+  // So long a step that bodies meet in it, rather than at its end.
+  const auto &stepping = scene_.parameters().time_stepping;
+  constexpr double rounding = 1e-9;
+  const bool takes_too_much = stepping.control == parameters::TimeStepping::Control::automatic &&
+                              taken_by_contact(loss) - loss.friction > may_take * largest_energy_ &&
+                              t - state_.time > stepping.smallest_step * (1. + rounding);
+  if (!report.makes_energy && !takes_too_much)
+    return false;
+  report.converged = false;
+  report.is_explained = takes_too_much;
+  report.failure =
+      std::string("contact ") + (report.makes_energy ? "makes" : "takes") + " energy in the step";
+  return true;
 }
 
 void QuasiStatic::book_contact(const ContactLoss &loss) {
-  double taken = 0.;
+  const double taken = taken_by_contact(loss);
   if (motion_->damps_contact()) {
-    taken = std::max(0., loss.total);
     const double by_friction = std::min(taken, loss.friction);
     contact_losses_.add(ContactLosses::friction, by_friction);
     contact_losses_.add(ContactLosses::impacts, taken - by_friction);
-  } else {
-    taken = std::max(0., contact_balance_ + loss.total - may_make * largest_energy_);
+  } else
     contact_losses_.add(ContactLosses::crossings, taken);
-  }
   contact_balance_ += loss.total - taken;
   state_.energies.numerical += taken;
 }

@@ -12,9 +12,10 @@ class FacetOverlaps {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// Up to so many times a target's reach a slave facet may be behind it: within a step, and if its middle
-  /// was behind it by half of that already when the step began. So a wall is not glued to its own far side,
-  /// nor lost by a step's first guess that is far off.
+  /// Up to so many times a target's reach a slave facet may be behind it within a step, so that it is not lost
+  /// by a first guess that is far off. If its middle was behind it already when the step began, by more than
+  /// half of that or of the wall: up to that. So a wall is not glued to its own far side, nor to the far side
+  /// of what comes near it from the front.
   static constexpr double depth = 10.;
 
   /// Lists the pairs that may come to overlap before positions move by more than `margin` relative to each

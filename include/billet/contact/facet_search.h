@@ -6,6 +6,7 @@
 #include "billet/geometry/surface_patch.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace billet {
@@ -19,6 +20,8 @@ struct SurfaceFacet {
   /// fraction of the facet's size, and less than the wall below it is thick.
   double reach;
   FacetBulge bulge{}; ///< of the smooth surface that the facet stands for; 0 if it stands for itself
+  /// Undeformed thickness of the element below it, where it is known [length].
+  double wall = std::numeric_limits<double>::infinity();
 };
 
 /// The projection onto the smooth surface that a facet stands for, from that onto the facet.

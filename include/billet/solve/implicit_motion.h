@@ -122,6 +122,16 @@ private:
   Vector accelerations_by(const Vector &forces) const;
   Vector ghosted(const Vector &owned) const;
   double mean_size(const Vector &field) const;
+  /// Of a body, about the mean of the field over its mass.
+  struct Spread {
+    double square; ///< Σ m x²
+    double mass;
+  };
+  std::vector<Spread> spread_of_bodies(const Vector &field) const;
+  /// What the error tolerance is a part of, (I4): the displacements, root mean square over the mass. How far
+  /// bodies have gone together counts up to the largest one's radius of gyration: a long flight makes the
+  /// impact at its end no larger.
+  double displacement_to_resolve(const Vector &displacements) const;
   NodalVectors nodal(const Vector &field) const;
 
   const Scene &scene_;
@@ -146,7 +156,12 @@ private:
   NodalVectors displaced_;             ///< at the last add_loads()
   HeldRates held_n_, held_;
   Vector held_change_;
-  double round_off_force_ = 0., largest_displacement_ = 0.;
+  double round_off_force_ = 0., largest_displacement_ = 0., largest_gyration_ = 0.;
+  struct BodyAxis {
+    std::size_t body;
+    unsigned int axis;
+  };
+  std::vector<BodyAxis> body_axes_; ///< of owned dofs
 };
 
 } // namespace billet

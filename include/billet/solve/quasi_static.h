@@ -201,7 +201,10 @@ private:
   void raise_penalties(const std::vector<double> &factors, NewtonReport &report);
   /// Computes all forces at the start of the step.
   void evaluate_start();
-  bool contact_makes_energy(double t, NewtonReport &report);
+  /// What of that is lost for good.
+  double taken_by_contact(const ContactLoss &loss) const;
+  /// Whether contact makes energy in the step, or takes so much that the step is too long: then it fails.
+  bool contact_is_out_of_balance(double t, NewtonReport &report);
   void book_contact(const ContactLoss &loss);
   void update_largest_energy();
 

@@ -357,7 +357,7 @@ FIXED = (
     "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
     "bars.explicit/number type=float", "upset/force=0.01,penalty=10", "laden.explicit/load=0.001,penalty=1", "laden.implicit/spring=1",
     "twist/mu=0.3,moment=0.0001", "drag/facets=planed,smoothing=0.5", "clip/margin=0.1", "bars.explicit/edges=true,penalty=1",
-    "strike.explicit/feature=apex", "strike.explicit/feature=rectangle,speed=0.3", "strike.implicit/feature=disc,speed=0.3", "strike.implicit/radius=0.01", "press.explicit/strained=True,law=elastoplastic,strain=-2.99573", "stretch.explicit/kinematics=Hencky,strain=0.5",
+    "strike.explicit/feature=apex", "strike.explicit/feature=rectangle,speed=0.3", "strike.implicit/feature=disc,speed=0.3", "strike.implicit/radius=0.1", "press.explicit/strained=True,law=elastoplastic,strain=-2.99573", "stretch.explicit/kinematics=Hencky,strain=0.5",
     "stretch.implicit/kinematics=neo-Hookean,strain=-1", "upset/strained=True,aspect=0.001,strain=-2.99573",
     "slide/target error=0.1,mu=0.2 like mu=0.2,augmentation=0.0001,first step=0.005,largest step=0.005,tolerance=1e-09",
 )
