@@ -10,6 +10,18 @@ namespace billet {
 
 using dealii::Tensor;
 
+namespace {
+
+/// 1 where facets face each other within 60 degrees, 0 from 80 degrees on.
+double facing_part(const Tensor<1, 3> &area_vector, const Tensor<1, 3> &other) {
+  constexpr double least = 0.17, enough = 0.5;
+  const double cosine = -(area_vector * other) / (area_vector.norm() * other.norm());
+  const double z = std::clamp((cosine - least) / (enough - least), 0., 1.);
+  return z * z * (3. - 2. * z);
+}
+
+} // namespace
+
 void FacetOverlaps::rebuild(const FacetSearch &search, const Positions &positions_n,
                             const Positions &positions, const double margin, const bool with_self,
                             const bool two_pass) {
@@ -75,7 +87,10 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
       const double within_step = depth * facets[target].reach,
                    at_start = 0.5 * std::min(within_step, facets[target].wall);
       const bool was_behind = (slave_n.e_0 - target_n.e_0) * area_vector < -at_start * area_vector.norm();
-      const double limit = was_behind ? at_start : within_step;
+      const double facing = facing_part(slave_n.mean_area_vector(), area_vector);
+      const double limit = facing * (was_behind ? at_start : within_step);
+      if (!(limit > 0.))
+        continue;
       const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift, raise,
                                            facets[f].bulge, facets[target].bulge);
       if (overlap.exists)

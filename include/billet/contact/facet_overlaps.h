@@ -12,10 +12,11 @@ class FacetOverlaps {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// Up to so many times a target's reach a slave facet may be behind it within a step, so that it is not lost
-  /// by a first guess that is far off. If its middle was behind it already when the step began, by more than
-  /// half of that or of the wall: up to that. So a wall is not glued to its own far side, nor to the far side
-  /// of what comes near it from the front.
+  /// Up to so many times a target's reach a slave facet may be behind it within a step, so that it is not
+  /// lost by a first guess that is far off. If its middle was behind it already when the step began, by more
+  /// than half of that or of the wall: up to that. So a wall is not glued to its own far side, nor to the far
+  /// side of what comes near it from the front. Facets that are nearly at right angles when the step begins
+  /// do not count: the face on which a box stands touches none of its sides, whose planes it is far behind.
   static constexpr double depth = 10.;
 
   /// Lists the pairs that may come to overlap before positions move by more than `margin` relative to each
