@@ -53,7 +53,9 @@ bool RigidContact::lets_nodes_through() const {
     const auto start = surface.project(from, nodes_[i].patch), end = surface.project(to, nodes_[i].patch);
     const bool starts_inside = start.exists && start.gap < 0., ends_inside = end.exists && end.gap < 0.;
     if (starts_inside || ends_inside) {
-      if (start.exists && end.exists && start.normal * end.normal < 0.)
+      // From one side to the other; or, deep inside, off the end of the tool to a side: an edge cuts in.
+      const double turned = start.exists && end.exists ? start.normal * end.normal : 1.;
+      if (turned < 0. || (turned < 0.5 && std::max(start.gap, end.gap) < -deep))
         return true;
       continue;
     }
