@@ -75,8 +75,8 @@ bool ForceSpread::is_uniform() const {
 }
 
 bool ForceSpread::has_few_nodes() const {
-  constexpr double enough = 5.;
-  return force > 0. && effective_nodes() < enough && !is_uniform();
+  constexpr double enough = 5., counts = 0.05;
+  return force > 0. && effective_nodes() < enough && !is_uniform() && indentation > counts * deformation;
 }
 
 bool ForceSpread::is_coarse_on_curves() const {
@@ -106,10 +106,10 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
     for (const auto &element : discretization.elements(b))
       for (const unsigned int v : element.cell->vertex_indices()) {
         const auto &X = element.cell->vertex(v);
-        double images = 1.;
+        Images images;
         for (const Hold &hold : scene.bodies()[b].holds)
-          if (hold.on_plane && std::abs(X * hold.normal - hold.offset) > tolerance)
-            images *= 2.;
+          if (hold.on_plane)
+            (std::abs(X * hold.normal - hold.offset) > tolerance ? images.apart : images.on_it) *= 2.;
         images_[element.dofs[std::size_t{3} * v]] = images;
         for (unsigned int i = 0; i < 3; ++i) {
           box[i] = std::max(box[i], -X[i]);
@@ -125,7 +125,11 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
   }
 }
 
-ForceSpread ContactReview::spread_of(const std::vector<ContactNodeReport> &reports) const {
+ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<ContactNodeReport> &reports) const {
+  double young_modulus = std::numeric_limits<double>::infinity();
+  for (const std::size_t body : pair.bodies)
+    young_modulus = std::min(young_modulus, scene_.bodies()[body].young_modulus);
+
   // Nodes at the border of a rank have parts of their areas on several.
   Vector additive = discretization_.make_additive_vector();
   for (const auto &node : reports) {
@@ -136,7 +140,7 @@ ForceSpread ContactReview::spread_of(const std::vector<ContactNodeReport> &repor
   Vector sums = discretization_.make_owned_vector();
   sums = additive;
   constexpr double coarse = 3.14159265358979 / 8.; // facet size / radius: four facets on a quarter turn
-  std::vector<double> own(6);
+  std::vector<double> own(7);
   double coarsest = 0.;
   for (const auto &node : reports) {
     if (!discretization_.owned_dofs().is_element(node.dofs[0]))
@@ -144,7 +148,8 @@ ForceSpread ContactReview::spread_of(const std::vector<ContactNodeReport> &repor
     const double force = sums(node.dofs[0]), area = sums(node.dofs[1]);
     if (!(force > 0.) || !(area > 0.))
       continue;
-    const double images = images_.at(node.dofs[0]), pressure = force / area;
+    const auto [images, on_it] = images_.at(node.dofs[0]);
+    const double pressure = force / area;
     own[0] += images * force;
     own[1] += images * force * force;
     own[2] += 1.;
@@ -152,6 +157,7 @@ ForceSpread ContactReview::spread_of(const std::vector<ContactNodeReport> &repor
     own[4] += pressure * pressure;
     if (node.facet_size * node.curvature > coarse)
       own[5] += images * force;
+    own[6] += 0.5 * on_it * force * force / (young_modulus * node.facet_size);
     coarsest = std::max(coarsest, node.facet_size * node.curvature);
   }
   dealii::Utilities::MPI::sum(own, discretization_.communicator(), own);
@@ -161,7 +167,8 @@ ForceSpread ContactReview::spread_of(const std::vector<ContactNodeReport> &repor
           own[3],
           own[4],
           own[5],
-          dealii::Utilities::MPI::max(coarsest, discretization_.communicator())};
+          dealii::Utilities::MPI::max(coarsest, discretization_.communicator()),
+          own[6]};
 }
 
 void ContactReview::add(const Solution &solution) {
@@ -191,7 +198,9 @@ void ContactReview::add(const Solution &solution) {
       continue;
     pair.largest_force = force;
     pair.time = state.time;
-    pair.spread = spread_of(reports[p]);
+    pair.spread = spread_of(pair, reports[p]);
+    const EnergyLedger &energies = state.energies;
+    pair.spread.deformation = energies.elastic + energies.plastic + energies.hourglass + energies.contact;
   }
   const EnergyLedger &ledger = state.energies;
   for (std::size_t i = 0; i < paths_.size(); ++i) {
@@ -318,12 +327,13 @@ void ContactReview::save(StateWriter &writer) const {
     numbers.insert(numbers.end(),
                    {pair.has_touched ? 1. : 0., pair.largest_force, pair.time, pair.spread.force,
                     pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
-                    pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest});
+                    pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest,
+                    pair.spread.indentation, pair.spread.deformation});
   writer.write("contact review", numbers);
 }
 
 void ContactReview::load(const StateReader &reader) {
-  constexpr std::size_t of_pair = 10;
+  constexpr std::size_t of_pair = 12;
   const std::vector<double> numbers = reader.read("contact review");
   if (numbers.size() !=
       tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size())
@@ -339,7 +349,7 @@ void ContactReview::load(const StateReader &reader) {
     pair.has_touched = next[0] > 0.;
     pair.largest_force = next[1];
     pair.time = next[2];
-    pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9]};
+    pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9], next[10], next[11]};
     next += of_pair;
   }
 }

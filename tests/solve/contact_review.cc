@@ -30,6 +30,7 @@ ForceSpread spread(const std::vector<double> &forces, const double images = 1.) 
     result.pressures += force;
     result.pressure_squares += force * force;
   }
+  result.indentation = 1.;
   return result;
 }
 
@@ -70,6 +71,9 @@ int main() {
     check("two nodes are few", spread({1., 0.9}).has_few_nodes());
     check("mirror images count", !spread({1., 0.5}, 4.).has_few_nodes());
     check("many are not few", !spread({1., 0.9, 0.9, 0.9, 0.9, 0.4, 0.4, 0.4, 0.4}).has_few_nodes());
+    ForceSpread bent = spread({1.});
+    bent.deformation = 21.;
+    check("nor where the bodies hardly indent each other", !bent.has_few_nodes());
     check("without force there is nothing", !ForceSpread().has_few_nodes());
     ForceSpread curved = spread({1., 1.});
     curved.on_coarse_curves = 1.;

@@ -51,11 +51,16 @@ struct ForceSpread {
   double nodes = 0., pressures = 0., pressure_squares = 0.; ///< Σ 1, Σ p, Σ p² of the nodes themselves
   double on_coarse_curves = 0.; ///< force of nodes with fewer than four facets on a quarter of the radius
   double coarsest = 0.;         ///< facet size / radius of the tool, largest
+  /// Of the indentations of single nodes, Σ F²/(2 E h), and all that bodies and contacts have taken by then
+  /// [energy].
+  double indentation = 0., deformation = 0.;
 
   /// By how many equal forces: (Σ m F)²/Σ m F².
   double effective_nodes() const { return squares > 0. ? force * force / squares : 0.; }
   /// Whether pressures are alike, as of a flat face on another, which needs no more nodes.
   bool is_uniform() const;
+  /// Too few for the indentation, if that is a part of the deformation that counts: a strip that bends over a
+  /// roll needs no more than a row of nodes.
   bool has_few_nodes() const;
   bool is_coarse_on_curves() const;
 };
@@ -87,14 +92,18 @@ private:
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  ForceSpread spread_of(const std::vector<ContactNodeReport> &reports) const;
+  ForceSpread spread_of(const Pair &pair, const std::vector<ContactNodeReport> &reports) const;
   void judge_pairs(DiagnosticList &diagnostics) const;
   void judge_paths(DiagnosticList &diagnostics) const;
   void judge_forces(DiagnosticList &diagnostics) const;
 
   const Scene &scene_;
   const Discretization &discretization_;
-  std::map<DofIndex, double> images_; ///< of nodes on this rank, by first dof, with symmetry planes
+  /// Of a node, with symmetry planes.
+  struct Images {
+    double apart = 1., on_it = 1.; ///< elsewhere, itself included, and in the same place
+  };
+  std::map<DofIndex, Images> images_; ///< by first dof, on this rank
   std::vector<double> sections_;      ///< of the bodies: the largest face of the box around [length²]
   std::vector<Pair> pairs_;           ///< with tools first
   std::vector<LoadPath> paths_;
