@@ -101,7 +101,7 @@ class Runner:
                     rows = [row for row in csv.DictReader(stream) if None not in row.values()]
                 wanted = [name for name in (rows[0] if rows else {}) if name in ("time", "total_iterations", "total_cuts")
                           or name.endswith(("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "_energy", "_work",
-                                            "_dissipation", "energy_drift", "momentum_x", "momentum_y", "momentum_z"))]
+                                            "_dissipation", "energy_drift", "travel_x", "travel_y", "travel_z", "turn", "momentum_x", "momentum_y", "momentum_z"))]
                 history = {name: [float(row[name]) for row in rows] for name in wanted}
             pictures = sorted(results.glob("fields_*.pvtu"))
             return {"code": None if out_of_time else done.code, "limit": seconds, "seconds": done.seconds,
