@@ -27,12 +27,13 @@ OF_THE_MESH = {"bricks-may-lock", "coarse-on-tool", "element-too-soft", "element
                "few-contact-nodes", "flat-elements", "pressure-checkerboard", "tool-smaller-than-facets"}
 OUTCOMES = ("right", "warned", "stopped", "wrong", "no end", "crashed", "refused", "unclear")
 SECONDS, REFERENCE_SECONDS = 40, 300  # of a processor
+UNKNOWN = 0.25  # error of a reference without another one
 
 
 @dataclass(frozen=True)
 class Reference:
-    """What a run is compared with. `scene` is run for it, and `finer`, if the comparison fails: where both differ by more
-    than half of what is allowed, nothing is judged. Without scenes it is a closed form, which the judge has."""
+    """What a run is compared with. `scene` is run for it, and `finer`, if the comparison fails: a run is wrong
+    only if it is off by what is allowed and twice the difference of both. Without scenes it is a closed form, which the judge has."""
 
     scene: dict | None
     finer: dict | None = None
@@ -128,29 +129,31 @@ class Runner:
         return worst, why, errors
 
     def _compare(self, run, reference):
-        error, sure = self._error(run, reference)
-        if math.isnan(error) or not sure:
-            return "unclear", f"{reference.name}: {sure or 'the reference does not hold'}", error
-        if error <= reference.allowed:
+        error, doubt = self._error(run, reference)
+        if not math.isnan(error) and error <= reference.allowed:
             return "right", "", error
-        warnings = set(run.warnings) - reference.excused
         said = f"off by {100 * error:.3g} % ({reference.name})"
+        warnings = set(run.warnings) - reference.excused
         if warnings:
             return "warned", said + f"; warned: {', '.join(sorted(warnings))}", error
+        if math.isnan(error) or error <= reference.allowed + 2 * doubt:
+            return "unclear", said + f", references by {100 * doubt:.3g} %", error
         return "wrong", said + (f"; only: {', '.join(run.warnings)}" if run.warnings else ""), error
 
     def _error(self, run, reference):
-        """And whether the reference holds where the run is off."""
+        """And by how much references differ, where the run is off."""
         if reference.scene is None:
-            return reference.judge(run, None), True
+            return reference.judge(run, None), 0.0
         first = self.run(reference.scene, REFERENCE_SECONDS)
         error = reference.judge(run, first) if first.finished else math.nan
-        if error <= reference.allowed or reference.finer is None:
-            return error, first.finished
+        if error <= reference.allowed:
+            return error, 0.0
+        if reference.finer is None:
+            return error, UNKNOWN
         second = self.run(reference.finer, REFERENCE_SECONDS)
         if not second.finished:
-            return error, False
-        return reference.judge(run, second), first.finished and reference.judge(first, second, True) <= 0.5 * reference.allowed
+            return error, UNKNOWN
+        return reference.judge(run, second), reference.judge(first, second, True) if first.finished else UNKNOWN
 
 
 OUTCOMES_BY_WEIGHT = ("right", "unclear", "warned", "wrong")

@@ -409,7 +409,7 @@ def plate_and_edge(second, y, z, angle, speed, refined=1):
     solid = elastic(1000, Density=1e-3)
     flier = {"Initial velocity": f"{-speed} ; 0 ; 0", "Material": solid,
              "Mesh": box((4 * refined, refined, 4 * refined), (0, 0, -2), (4, 0.1, 2),
-                         **{"Rotation axis": "0, 1, 0", "Rotation angle": angle, "Translation": f"{2.02 + 2 * abs(math.sin(math.radians(angle))):.6g}, {y}, {z}"})}
+                         **{"Rotation axis": "0, 1, 0", "Rotation angle": angle, "Translation": f"{2.02 - math.tan(math.radians(angle)) * (0.05 - z):.6g}, {y}, {z}"})}
     scene = {"Bodies": {"A": flier}, "Time stepping": {"Scheme": "explicit", "End time": f"{0.01 + 0.8 / speed:.6g}"}, "Output": ONE_PICTURE}
     pair = {"Body": "A", "Boundary ids": "0, 1, 2, 3, 4, 5"}
     if second:
