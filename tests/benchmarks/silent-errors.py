@@ -22,11 +22,13 @@ parser.add_argument("--only", default="", help="runs whose name has this in it")
 options = parser.parse_args()
 options.large, options.ranks = False, 1
 
+is_part = options.family or options.only
 runner = Runner(options.folder)
 families = options.family or list(FAMILIES)
 cases = [case for name in families for case in FAMILIES[name]() if options.only in case.name]
 if options.quick:
     cases = cases[::10]
+options.quick = options.quick or bool(is_part)  # only a whole run is published
 
 
 def file_of(case):
