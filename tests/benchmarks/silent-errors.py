@@ -15,7 +15,8 @@ from silent_errors_scenes import FAMILIES
 
 parser = argparse.ArgumentParser(prog="scripts/benchmarks silent-errors")
 parser.add_argument("--family", action="append", choices=FAMILIES, help="only these; more than once for more than one")
-parser.add_argument("--quick", action="store_true", help="every tenth run")
+parser.add_argument("--every", type=int, default=1, metavar="N", help="every N-th run of each family (1)")
+parser.add_argument("--quick", action="store_true", help="every tenth run, and no page")
 parser.add_argument("--jobs", type=int, default=1, help="runs at a time (1)")
 parser.add_argument("--folder", default=str(ROOT / "results/silent-errors"), help="where runs are kept (%(default)s)")
 parser.add_argument("--only", default="", help="runs whose name has this in it")
@@ -25,9 +26,8 @@ options.large, options.ranks = False, 1
 is_part = options.family or options.only
 runner = Runner(options.folder)
 families = options.family or list(FAMILIES)
-cases = [case for name in families for case in FAMILIES[name]() if options.only in case.name]
-if options.quick:
-    cases = cases[::10]
+every = 10 if options.quick else options.every
+cases = [case for name in families for case in [c for c in FAMILIES[name]() if options.only in c.name][::every]]
 options.quick = options.quick or bool(is_part)  # only a whole run is published
 
 
