@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from billet_runs import ROOT, publish, table  # finds billet_trade, too
 from silent_errors_runs import OUTCOMES, SECONDS, Runner, prm
-from silent_errors_scenes import FAMILIES
+from silent_errors_scenes import ABOUT, FAMILIES
 
 parser = argparse.ArgumentParser(prog="scripts/benchmarks silent-errors")
 parser.add_argument("--family", action="append", choices=FAMILIES, help="only these; more than once for more than one")
@@ -63,11 +63,18 @@ bad = [[case.family, case.name, why] for case, outcome, why, _ in results if out
 others = [[case.family, outcome, case.name, why[:200].replace("|", "/")] for case, outcome, why, _ in results
           if outcome in ("no end", "crashed", "refused", "unclear")]
 
+reasons = Counter((case.family, re.sub(r"\d[\d.e+-]*|'[^']*'", "…", why)[:160].replace("|", "/")) for case, outcome, why, _ in results if outcome == "stopped")
+stops = [[family, times, why] for (family, why), times in sorted(reasons.items())]
+
 publish(
     "silent-errors", "Runs that are wrong in silence", options,
-    f"Each run counts once. *Right*: its force (of impacts: the impulse) is what the reference has. *Warned*: it is off and a warning says so. *Stopped*: the program "
-    f"ended it with a message. *Wrong*: it is off, or ended without a message, in silence. *No end*: within {SECONDS} s of a processor. *Unclear*: the reference changes with smaller steps.",
+    f"Each run counts once. *Right*: its force (of impacts: the impulse) is what the reference has. *Warned*: it is off and a warning says so. *Stopped*: the program ended it "
+    f"with a message. *Wrong*: it is off, or ended without a message, in silence. *No end*: within {SECONDS} s of a processor. *Unclear*: it is off by less than three times what "
+    "two references differ by. Where the reference has the run's own mesh, no warning about the mesh excuses a difference."
+    + (f" Every {every}th run of each family (`--every {every}`)." if every > 1 else ""),
     table(["family", "runs"] + list(OUTCOMES) + ["finished"], rows),
+    "## What runs are compared with", table(["family", "scenes", "reference"], [[name, *ABOUT[name]] for name in families]),
     *(["## Wrong in silence", table(["family", "settings", "how far"], bad)] if bad else ["No run is wrong in silence."]),
-    *(["## Not judged", table(["family", "outcome", "settings", "why"], others)] if others else []))
+    *(["## Not judged", table(["family", "outcome", "settings", "why"], others)] if others else []),
+    *(["## Stopped", table(["family", "times", "with"], stops)] if stops else []))
 sys.exit(1 if bad else 0)

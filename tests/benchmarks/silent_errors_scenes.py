@@ -580,3 +580,27 @@ def pins():
 
 FAMILIES = {"bending": bending, "flights": flights, "blocks": pressed_blocks, "ironing": ironing, "stacks": stacks, "turning tools": turning_tools,
             "removal": removals, "pins": pins, "explicit": explicit, "penalties": penalties, "friction account": friction_account}
+
+# What each family is, and what its runs are compared with.
+ABOUT = {
+    "bending": ("A strip of 60 x 1 x 1 mm between two rolls, bent by 8 mm: meshes, elements, laws, radii, tangents, line search, steps, penalties",
+                "force within 3 % of the same mesh with penalty 300 and steps of 0.02, no warning about the mesh excuses; and within 10 % of 120 x 4 one-point elements, any warning excuses"),
+    "flights": ("Two bodies in implicit dynamics, apart by 100 times the thickness of the thinner one: oblique, with spin, tilted; steps up to the whole run",
+                "impulse on the flier within 3 % of the same bodies that start just before the impact, in fixed steps of 2e-5 or 4e-5"),
+    "blocks": ("Two elastic blocks, pressed into each other by 10 to 80 % of the upper one's height: gaps of 0 to 10, both orders, friction, steps, penalties",
+               "force within 3 % of the same meshes and penalty, from touching on, in steps of 0.02"),
+    "ironing": ("A rounded elastic die, pressed into a soft slab and drawn along it: both orders, steps of 0.02 to 0.3, penalties of 10 to 1000",
+                "force within 5 % of the same mesh and penalty in steps of 0.02"),
+    "stacks": ("Two to five plates, clamped by friction, sheared or twisted until one face slides",
+               "force of the upper pair within 5 % of the same mesh with penalty 300 in steps of 0.05"),
+    "turning tools": ("A plane on a ring, a ball and a roll on a block, pressed and turned 0.1 to 20 times with default steps",
+                      "force and moment at the end within 3 % of a quarter of a turn in steps of 0.02: once all slides, they stay"),
+    "removal": ("A bent strip, a dented block, two clamped plates, whose tool is removed at once or released in 0.02 to 0.5",
+                "no energy that appears after the removal: plastic and elastic within 5 % of both before it"),
+    "pins": ("A pin in a lug of its radius, 12 to 96 facets around, with equal and unequal facets, with and without a surface correction",
+             "force within 5 % of 192 matching facets with penalty 100, any warning excuses"),
+    "explicit": ("Balls of 0.1 to 2 facets on points of a facet; a plate that flies with its edge at the edge of a tool, or of a plate; 0.01 to 0.3 of the wave speed",
+                 "change of velocity or momentum within 10 % of the same scene with four to six times finer meshes, any warning excuses"),
+    "penalties": ("Slabs and blocks, pressed on a plane or on another at penalties of 0.01 to 1e4 E/h, in all schemes", "closed form within 5 %"),
+    "friction account": ("A block that slides, spins, or goes down a slope, on a tool and on a body, with all methods of integration; a snap-fit in statics",
+                         "frictional dissipation within 2 % of the energy that is gone and of a closed form; snap-fit: within 5 % of steps of 0.01")}
