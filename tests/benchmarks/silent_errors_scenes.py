@@ -131,7 +131,7 @@ FLIGHT_NUMERICS = {"default": {}, "steps up to the end": {"largest": 1.0}, "firs
                    "by iterations alone, steps up to 0.3": {"largest": 0.3, "tolerance": 0}}
 
 
-def flight(target, flier, speed, oblique, spin, distance, after, slave, tilt=0.0, initial=None, largest=None, tolerance=None, fixed=None):
+def flight(target, flier, speed, oblique, spin, distance, after, slave, faces, tilt=0.0, initial=None, largest=None, tolerance=None, fixed=None):
     """The flier comes from above. `tilt`: its angle about y when it would touch the undeformed target; `spin`: in radians over a
     flight of its own size; `initial` and `largest` are parts of the run."""
     counts, size, is_held = TARGETS[target]
@@ -152,10 +152,11 @@ def flight(target, flier, speed, oblique, spin, distance, after, slave, tilt=0.0
                         "Material": solid, "Initial velocity": f"{velocity} ; 0 ; {fall}"}}
     names = ("flier", "target") if slave == "flier" else ("target", "flier")
     every = "0, 1, 2, 3, 4, 5"
+    ids = {"all": {"flier": every, "target": every}, "facing": {"flier": "0, 1, 4", "target": "5"}}[faces]
     steps = stepping(end, initial and initial * end, largest and largest * end) if not fixed else \
         {"End time": f"{end:.12g}", "Step control": "fixed", "Initial step": f"{fixed:.12g}"}
     return {"Bodies": bodies,
-            "Contact pairs": {"face": {"Body": names[0], "Boundary ids": every, "Second body": names[1], "Second boundary ids": every}},
+            "Contact pairs": {"face": {"Body": names[0], "Boundary ids": ids[names[0]], "Second body": names[1], "Second boundary ids": ids[names[1]]}},
             "Time stepping": {"Scheme": "implicit dynamics", **steps}, "Implicit dynamics": {"Error tolerance": tolerance}, "Output": ONE_PICTURE}
 
 
@@ -165,7 +166,7 @@ def flights():
         target, flier = list(TARGETS)[i % 4], list(FLIERS)[(i // 4) % 2]
         thickness = min(TARGETS[target][1][2], FLIERS[flier][1][2])
         knobs = dict(target=target, flier=flier, speed=(10, 1, 30)[i % 3], oblique=(0, 0.5, 0, 1)[(i // 2) % 4], spin=(0, 0, 1)[(i // 3) % 3],
-                     tilt=(0, 20, 0, 45, 10)[i % 5], slave=("flier", "target")[(i // 2) % 2])
+                     tilt=(0, 20, 0, 45, 10)[i % 5], slave=("flier", "target")[(i // 2) % 2], faces=("all", "facing")[(i // 4) % 2 ^ i % 2])
         far, near, after = 100 * thickness, 0.004 * knobs["speed"] ** 0.5, 0.03
         step = 2e-5 if knobs["speed"] > 1 else 4e-5
         start = [knobs["oblique"] * knobs["speed"], 0, -knobs["speed"]]
@@ -409,7 +410,7 @@ def plate_and_edge(second, y, z, angle, speed, refined=1):
     solid = elastic(1000, Density=1e-3)
     flier = {"Initial velocity": f"{-speed} ; 0 ; 0", "Material": solid,
              "Mesh": box((4 * refined, refined, 4 * refined), (0, 0, -2), (4, 0.1, 2),
-                         **{"Rotation axis": "0, 1, 0", "Rotation angle": angle, "Translation": f"{2.02 - math.tan(math.radians(angle)) * (0.05 - z):.6g}, {y}, {z}"})}
+                         **{"Rotation axis": "0, 1, 0", "Rotation angle": angle, "Translation": f"{2.02 + 0.05 * abs(math.tan(math.radians(angle))) - math.tan(math.radians(angle)) * (0.05 - z):.6g}, {y}, {z}"})}
     scene = {"Bodies": {"A": flier}, "Time stepping": {"Scheme": "explicit", "End time": f"{0.01 + 0.8 / speed:.6g}"}, "Output": ONE_PICTURE}
     pair = {"Body": "A", "Boundary ids": "0, 1, 2, 3, 4, 5"}
     if second:
@@ -565,10 +566,10 @@ def pin(facets, more, slave, correction, largest=None):
 
 
 def pins():
-    fine = pin(192, 0, "pin", False, 0.1)
-    fine["Contact pairs"]["fit"]["Normal penalty"] = 100
     cases = []
     for slave in ("pin", "lug"):
+        fine = pin(192, 0, slave, False, 0.1)
+        fine["Contact pairs"]["fit"]["Normal penalty"] = 100
         for facets in (12, 16, 20, 24, 32, 48, 64, 96):
             for more in (0, 1, 2):
                 for correction in (False, True):
