@@ -17,6 +17,7 @@ parser = argparse.ArgumentParser(prog="scripts/benchmarks silent-errors")
 parser.add_argument("--family", action="append", choices=FAMILIES, help="only these; more than once for more than one")
 parser.add_argument("--every", type=int, default=1, metavar="N", help="every N-th run of each family (1)")
 parser.add_argument("--quick", action="store_true", help="every tenth run, and no page")
+parser.add_argument("--kept", action="store_true", help="report the runs that are kept, and run no others but references")
 parser.add_argument("--jobs", type=int, default=1, help="runs at a time (1)")
 parser.add_argument("--folder", default=str(ROOT / "results/silent-errors"), help="where runs are kept (%(default)s)")
 parser.add_argument("--only", default="", help="runs whose name has this in it")
@@ -28,6 +29,9 @@ runner = Runner(options.folder)
 families = options.family or list(FAMILIES)
 every = 10 if options.quick else options.every
 cases = [case for name in families for case in [c for c in FAMILIES[name]() if options.only in c.name][::every]]
+planned = Counter(case.family for case in cases)
+if options.kept:
+    cases = [case for case in cases if runner.has(case.scene)]
 options.quick = options.quick or bool(is_part)  # only a whole run is published
 
 
@@ -58,7 +62,7 @@ for family in families:
     total = sum(of.values())
     ended = sum(of[name] for name in ("right", "warned", "wrong", "unclear"))
     if total:
-        rows.append([family, total] + [of[name] for name in OUTCOMES] + [f"{100 * ended / total:.0f} %"])
+        rows.append([family, total if total == planned[family] else f"{total} of {planned[family]}"] + [of[name] for name in OUTCOMES] + [f"{100 * ended / total:.0f} %"])
 bad = [[case.family, case.name, why] for case, outcome, why, _ in results if outcome == "wrong"]
 others = [[case.family, outcome, case.name, why[:200].replace("|", "/")] for case, outcome, why, _ in results
           if outcome in ("no end", "crashed", "refused", "unclear")]

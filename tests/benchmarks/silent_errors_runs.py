@@ -79,10 +79,15 @@ class Runner:
         self.program = Path(PROGRAM).resolve()
         self.fingerprint = hashlib.sha256(self.program.read_bytes()).hexdigest()
 
+    def _file(self, text):
+        return self.folder / f"{hashlib.sha256((self.fingerprint + text).encode()).hexdigest()[:24]}.json"
+
+    def has(self, scene):
+        return self._file(prm.text(scene)).exists()
+
     def run(self, scene, seconds=SECONDS):
         text = prm.text(scene)
-        key = hashlib.sha256((self.fingerprint + text).encode()).hexdigest()[:24]
-        file = self.folder / f"{key}.json"
+        file = self._file(text)
         record = read_json(file)
         if record is None or (record["code"] is None and record["limit"] < seconds):
             record = self._execute(text, seconds)
