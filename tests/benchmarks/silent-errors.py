@@ -17,7 +17,7 @@ parser = argparse.ArgumentParser(prog="scripts/benchmarks silent-errors")
 parser.add_argument("--family", action="append", choices=FAMILIES, help="only these; more than once for more than one")
 parser.add_argument("--every", type=int, default=1, metavar="N", help="every N-th run of each family (1)")
 parser.add_argument("--quick", action="store_true", help="every tenth run, and no page")
-parser.add_argument("--kept", action="store_true", help="report the runs that are kept, and run no others but references")
+parser.add_argument("--kept", action="store_true", help="report the runs that are kept, with their references")
 parser.add_argument("--jobs", type=int, default=1, help="runs at a time (1)")
 parser.add_argument("--folder", default=str(ROOT / "results/silent-errors"), help="where runs are kept (%(default)s)")
 parser.add_argument("--only", default="", help="runs whose name has this in it")
@@ -31,7 +31,9 @@ every = 10 if options.quick else options.every
 cases = [case for name in families for case in [c for c in FAMILIES[name]() if options.only in c.name][::every]]
 planned = Counter(case.family for case in cases)
 if options.kept:
-    cases = [case for case in cases if runner.has(case.scene)]
+    # What was stopped was compared with nothing.
+    cases = [case for case in cases if runner.has(case.scene)
+             and (not runner.run(case.scene).finished or all(runner.has(r.scene) for r in case.references if r.scene))]
 options.quick = options.quick or bool(is_part)  # only a whole run is published
 
 
