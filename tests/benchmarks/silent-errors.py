@@ -77,7 +77,8 @@ publish(
     f"Each run counts once. *Right*: its force (of impacts: the impulse) is what the reference has. *Warned*: it is off and a warning says so. *Stopped*: the program ended it "
     f"with a message. *Wrong*: it is off, or ended without a message, in silence. *No end*: within {SECONDS} s of a processor. *Unclear*: it is off by less than three times what "
     "two references differ by. Where the reference has the run's own mesh, no warning about the mesh excuses a difference."
-    + (f" Every {every}th run of each family (`--every {every}`)." if every > 1 else ""),
+    + (f" Every {every}th run of each family (`--every {every}`)." if every > 1 else "")
+    + (" Only some runs of the plan, those that were kept (`--kept`)." if options.kept and len(cases) < sum(planned.values()) else ""),
     table(["family", "runs"] + list(OUTCOMES) + ["finished"], rows),
     "## What runs are compared with", table(["family", "scenes", "reference"], [[name, *ABOUT[name]] for name in families]),
     *(["## Wrong in silence", table(["family", "settings", "how far"], bad)] if bad else ["No run is wrong in silence."]),
