@@ -3,7 +3,6 @@
 
 import csv
 import hashlib
-import json
 import math
 import os
 import sys
