@@ -6,6 +6,7 @@ import unittest
 
 from hand_set import beside_hand_set
 from profile_words import no_better, without_errors
+from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, force_curve, prm
 
 
 class Counting(unittest.TestCase):
@@ -27,6 +28,45 @@ class Profiles(unittest.TestCase):
     def test_reasons(self):
         self.assertEqual(without_errors({}), "")
         self.assertIn("a (given up)", without_errors({"a": "given up"}))
+
+
+class Told(Runner):
+    """Runs by the text of their scenes: end forces at times 0.5 and 1, exit code, warnings."""
+
+    def __init__(self, runs):
+        self.runs = {prm.text(scene): what for scene, what in runs}
+
+    def run(self, scene, seconds=0):
+        force, code, keys = self.runs[prm.text(scene)]
+        history = {"time": [0.5, 1.0], "c.force_x": [0.0, 0.0], "c.force_y": [0.0, 0.0], "c.force_z": [0.5 * force, force]}
+        return Kept({"code": code, "stderr": "said" if code else "", "seconds": 1, "history": history, "bodies": {},
+                     "records": [{"key": key, "severity": "warning"} for key in keys]})
+
+
+class SilentErrors(unittest.TestCase):
+    def outcome(self, force, code=0, keys=(), first=100.0, second=100.0):
+        scenes = [{"a": i} for i in range(3)]
+        runner = Told(zip(scenes, [(force, code, keys), (first, 0, ()), (second, 0, ())]))
+        reference = Reference(scenes[1], scenes[2], frozenset(OF_THE_MESH), force_curve(["c"]))
+        return runner.outcome(Case("family", "name", scenes[0], (reference,)))[0]
+
+    def test_outcomes(self):
+        self.assertEqual(self.outcome(98), "right")
+        self.assertEqual(self.outcome(90), "wrong")
+        self.assertEqual(self.outcome(0), "wrong")
+        self.assertEqual(self.outcome(90, keys=["penalty-too-low"]), "warned")
+        self.assertEqual(self.outcome(90, keys=["element-too-stiff"]), "wrong")  # the reference has this element, too
+        self.assertEqual(self.outcome(90, first=106), "unclear")
+        self.assertEqual(self.outcome(90, code=3), "stopped")
+        self.assertEqual(self.outcome(90, code=None), "no end")
+        self.assertEqual(self.outcome(90, code=-11), "crashed")
+
+    def test_clock(self):
+        """A run that touches at half of its time, beside a reference that touches at once."""
+        run, reference = (Told([({}, what)]).run({}) for what in ((100.0, 0, ()), (100.0, 0, ())))
+        self.assertAlmostEqual(force_curve(["c"])(run, reference), 0)
+        self.assertAlmostEqual(force_curve(["c"], lambda time: 2 * time - 1)(run, reference), 0.5)
+        self.assertAlmostEqual(force_curve(["c"], lambda time: 2 * time - 1)(run, reference, True), 0)
 
 
 if __name__ == "__main__":
