@@ -40,13 +40,12 @@ std::vector<LoadPath> find_load_paths(const std::size_t n_bodies,
 void PathSoftness::add(const double time, const double penetration, const double deformation,
                        const double all_energy) {
   const Sample now = {time, penetration, deformation, all_energy};
-  if (has_begun_ && (last_.penetration > 0. || penetration > 0.)) {
+  if (last_.penetration > 0. || penetration > 0.) {
     const double half = 0.5 * (time - last_.time);
     penetration_ += half * (last_.penetration + penetration);
     deformation_ += half * (last_.deformation + deformation);
     all_ += half * (last_.all + all_energy);
   }
-  has_begun_ = true;
   last_ = now;
 }
 
@@ -57,16 +56,15 @@ double PathSoftness::part() const {
 }
 
 void PathSoftness::save(std::vector<double> &numbers) const {
-  numbers.insert(numbers.end(), {has_begun_ ? 1. : 0., last_.time, last_.penetration, last_.deformation,
-                                 last_.all, penetration_, deformation_, all_});
+  numbers.insert(numbers.end(), {last_.time, last_.penetration, last_.deformation, last_.all, penetration_,
+                                 deformation_, all_});
 }
 
 void PathSoftness::load(const double *numbers) {
-  has_begun_ = numbers[0] > 0.;
-  last_ = {numbers[1], numbers[2], numbers[3], numbers[4]};
-  penetration_ = numbers[5];
-  deformation_ = numbers[6];
-  all_ = numbers[7];
+  last_ = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  penetration_ = numbers[4];
+  deformation_ = numbers[5];
+  all_ = numbers[6];
 }
 
 bool ForceSpread::is_uniform() const {

@@ -47,6 +47,9 @@ int main() {
   {
     // k = 1/(1/k_b + 1/k_c): too small by the part k_b/(k_b + k_c).
     check("the part by which springs in series are softer", std::abs(softness(3., 7.) - 0.3), 1e-12);
+    PathSoftness single;
+    single.add(1., 0.2, 0.8, 1.);
+    check("a run of one step is judged, too", std::abs(single.part() - 0.2), 1e-12);
     check("beside much other energy it is no matter", softness(3., 7., 0.01) == 0.);
     PathSoftness path;
     path.add(0., 0., 1., 1.);

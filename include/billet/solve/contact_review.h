@@ -32,7 +32,7 @@ public:
   /// The part by which forces of driven tools are too small; 0 where contact is no matter for the scene.
   double part() const;
 
-  static constexpr std::size_t n_numbers = 8;
+  static constexpr std::size_t n_numbers = 7;
   void save(std::vector<double> &numbers) const;
   void load(const double *numbers);
 
@@ -40,9 +40,8 @@ private:
   struct Sample {
     double time = 0., penetration = 0., deformation = 0., all = 0.;
   };
-  Sample last_;
+  Sample last_; ///< at time 0 nothing
   double penetration_ = 0., deformation_ = 0., all_ = 0.; ///< integrals over time
-  bool has_begun_ = false;
 };
 
 /// How a pair's force is spread over nodes, each counted with its mirror images.
