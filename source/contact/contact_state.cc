@@ -21,6 +21,7 @@ void restore(RowReader &row, Frame &frame) {
 }
 
 constexpr std::size_t pressed_width = 8;                  // of a node that may press
+constexpr std::size_t pressed_slave_width = 6;            // of a slave of a body
 constexpr std::size_t gap_width = 4, friction_width = 20; // of a node on a tool
 constexpr std::size_t behind_width = 4;                   // of a node that may be behind a tool
 constexpr std::size_t areas_width = 4;                    // of a facet
@@ -316,8 +317,8 @@ void FacetContact::save(StateWriter &writer) const {
   writer.write_rows("touched", touch_width, keys, touches);
   std::vector<double> pressed;
   for (const auto &slave : pressed_n_)
-    RowWriter(pressed).number(slave.pressure).number(slave.depth);
-  writer.write_rows("pressed", 2, keys, pressed);
+    RowWriter(pressed).number(slave.pressure).number(slave.depth).number(slave.area).vector(slave.normal);
+  writer.write_rows("pressed", pressed_slave_width, keys, pressed);
   if (edges_)
     write_list(writer, "edges", dealii::Utilities::MPI::this_mpi_process(communicator_), edges_->offsets());
   if (is_augmented || has_depths)
@@ -351,9 +352,14 @@ void FacetContact::load(const StateReader &reader) {
     for (unsigned int rank = 0; rank < reader.n_ranks(); ++rank)
       edges_->add_offsets(read_list(reader, "edges", rank));
   if (reader.has("pressed")) {
-    const std::vector<double> pressed = reader.read_rows("pressed", 2, keys, &is_known);
-    for (std::size_t s = 0; s < slaves_.size(); ++s)
-      pressed_n_[s] = {pressed[2 * s], pressed[2 * s + 1]};
+    const std::vector<double> pressed = reader.read_rows("pressed", pressed_slave_width, keys, &is_known);
+    for (std::size_t s = 0; s < slaves_.size(); ++s) {
+      RowReader row(&pressed[pressed_slave_width * s]);
+      pressed_n_[s].pressure = row.number();
+      pressed_n_[s].depth = row.number();
+      pressed_n_[s].area = row.number();
+      row.vector(pressed_n_[s].normal);
+    }
   }
   const std::vector<double> start = reader.read("start");
   const bool is_augmented = start.at(1) != 0., has_depths = start.at(2) != 0.;

@@ -302,6 +302,15 @@ SlaveMotion FacetContact::compute_motion_after_contact(const std::size_t s, cons
                               positions_n_[node], positions_[node], duration);
 }
 
+double FacetContact::own_part(const std::size_t s) const {
+  double n_own = 0., n_facets = 0.;
+  search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
+    n_facets += 1.;
+    n_own += f < exchange_.n_own_facets() ? 1. : 0.;
+  });
+  return n_own / n_facets;
+}
+
 void FacetContact::account_for_friction(const std::size_t s, const SlaveMotion &motion) {
   const FrictionRule rule{stiffness_[s].tangential, start_weight_, is_static_, lifts_n_.empty(),
                           lifts_.empty()};
@@ -310,14 +319,9 @@ void FacetContact::account_for_friction(const std::size_t s, const SlaveMotion &
     part = part_in_contact(states_[s].contact.gap + motion.lift, states_[s].contact.normal, motion);
   else if (is_static_ && !history_[s].is_active)
     part = part_before_leaving(pressed_n_[s].depth,
-                               motion.displacement * (motion.rotation * touched_n_[s].projection.normal));
+                               motion.displacement * (motion.rotation * pressed_n_[s].normal));
   const FrictionAccount account = compute_friction_account(history_n_[s], history_[s], motion, rule, part);
-  double n_own = 0., n_facets = 0.;
-  search_.visit_around(slaves_[s].node, [&](const unsigned int f) {
-    n_facets += 1.;
-    n_own += f < exchange_.n_own_facets() ? 1. : 0.;
-  });
-  const double own = n_own / n_facets;
+  const double own = own_part(s);
   states_[s].dissipation = own * account.dissipated(history_n_[s].area, history_[s].area);
   states_[s].damping = own * history_[s].area * account.damping;
   states_[s].taken_beyond = own * account.taken_beyond(history_n_[s].area, history_[s].area);
@@ -605,14 +609,9 @@ StepWorks FacetContact::compute_step_works(const double weight) const {
       const SlaveMotion motion = compute_slave_motion(
           corners_n, moved_.corners(facet), PlanedFacet(corners_n).project(positions_n_[node], {}).weights,
           positions_n_[node], positions_[node], duration_);
-      const Tensor<1, 3> normal = motion.rotation * touched_n_[s].projection.normal;
-      double area = 0.;
-      search_.visit_around(node, [&](const unsigned int f) {
-        if (f < exchange_.n_own_facets())
-          area += moved_.areas(f).share(corner_of(search_.facets()[f], node), normal);
-      });
-      works.add(before.pressure * area, 0., before.depth, 0., ramp_depth - motion.displacement * normal,
-                ramp_depth, weight);
+      const Tensor<1, 3> normal = motion.rotation * before.normal;
+      works.add(before.pressure * own_part(s) * before.area, 0., before.depth, 0.,
+                ramp_depth - motion.displacement * normal, ramp_depth, weight);
     }
   }
   works.touching = dealii::Utilities::MPI::sum(works.touching, communicator_);
@@ -627,7 +626,8 @@ void FacetContact::commit() {
     touched_n_[s] = state.touched;
     pressed_n_[s] = {};
     if (state.presses() && state.traction.pressure > 0.)
-      pressed_n_[s] = {state.traction.pressure, std::max(0., -(state.contact.gap + augmentation(s)))};
+      pressed_n_[s] = {state.traction.pressure, std::max(0., -(state.contact.gap + augmentation(s))),
+                       state.area, state.contact.normal};
   }
   base_ = history_n_ = history_;
   for (std::size_t s = 0; s < lifts_.size(); ++s) // what leaves the facet begins without when it comes back

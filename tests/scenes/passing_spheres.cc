@@ -36,9 +36,8 @@ int main(int argc, char *argv[]) {
         mirrored.add(std::hypot(forces[i][0] + there[0], forces[i][2] - there[2]) / largest_force);
       }
       check(name + "mirrored force", mirrored.value(), 1e-5);
-      // What is added for nodes that enter within a step (Q2) is not quite what is taken for those that
-      // leave.
-      check(name + "work", std::abs(state.energies.external) / largest_energy, 5e-3);
+      // (Q2) follows a node that leaves on the one facet that had most of it, one that enters on all.
+      check(name + "work", std::abs(state.energies.external) / largest_energy, 1e-3);
     } else
       check(name + "work", std::abs(state.energies.external / state.energies.friction - 1.), 0.03);
     check(name + "elastic energy at the end", state.energies.elastic / largest_energy, 1e-10);

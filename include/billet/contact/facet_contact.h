@@ -342,6 +342,8 @@ private:
   bool is_resting(const TouchedFacet &below, std::size_t s, double on_it) const;
   SlaveMotion compute_motion(std::size_t s, double duration) const;
   /// That of slave s, which does not press, against the facet that it touched at the start of the step.
+  /// The part of the facets around a slave that this rank owns.
+  double own_part(std::size_t s) const;
   SlaveMotion compute_motion_after_contact(std::size_t s, double duration) const;
   /// Takes note of what friction has dissipated at slave s. Of a node that several ranks have, each takes the
   /// part of its facets, by their number.
@@ -387,6 +389,8 @@ private:
   struct PressureHistory {
     double pressure = 0.; ///< [stress]
     double depth = 0.;    ///< [length]
+    double area = 0.;     ///< of the facets of all ranks [length²]
+    dealii::Tensor<1, 3> normal;
   };
   std::vector<PressureHistory> pressed_n_;
   std::vector<unsigned int> n_changes_;      ///< of slaves, if they are counted
