@@ -637,6 +637,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
     }
   }
   diagnostics.report(review.finish());
+  diagnostics.report(problem.check_stabilisation());
   if (watch)
     report_errors(make_report(*watch, report), problem, discretization, parameters, review, outputs);
   if (errors) {

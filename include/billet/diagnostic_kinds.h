@@ -234,6 +234,31 @@ inline const DiagnosticKind
                      "its place is arbitrary.",
                      "Hold it by a support or a symmetry plane, or end the run before it is unloaded");
 
+inline const DiagnosticKind stabilisation_too_strong(
+    "stabilisation-too-strong", Severity::warning,
+    "The viscous forces of 'Stabilise = until touched' did more than 0.1 % of all work.",
+    "Let the body touch at the start or move over a shorter way, close small gaps by 'Initial gap = close "
+    "within', or hold it by a support or a symmetry plane");
+
+inline const DiagnosticKind stabilised_at_end(
+    "stabilised-at-end", Severity::note,
+    "At the end of the run contact still leaves a rigid-body mode of a body free, and only the viscous "
+    "forces "
+    "of 'Stabilise = until touched' resist it. Where the body stands along that mode is arbitrary.",
+    "Hold the mode by a support or a symmetry plane, or use friction");
+
+inline const DiagnosticKind
+    stabilised_loads("stabilised-loads", Severity::warning,
+                     "At the end of the run the viscous forces of 'Stabilise = until touched' bear more than "
+                     "0.1 % of the forces: contact does not hold the body yet, or no longer.",
+                     "Check whether the body reaches what it is to touch, or hold it by a support or a "
+                     "symmetry plane");
+
+inline const DiagnosticKind needless_stabilisation(
+    "needless-stabilisation", Severity::note,
+    "'Stabilise = until touched' has no effect on a body that supports and symmetry planes hold.",
+    "Set 'Stabilise = no'");
+
 inline const DiagnosticKind exact_tangent(
     "exact-tangent", Severity::note,
     "Newton's method failed with the chosen 'Contact tangent'; the exact one is used from here on.", "");
@@ -244,10 +269,10 @@ inline const DiagnosticKind stalled_step(
     "step was accepted with a residual of at most 2 % of the forces.",
     "Compare the forces with those of a run with a smaller 'Largest step' or a lower 'Normal penalty'");
 
-inline const DiagnosticKind
-    direct_solver("direct-solver", Severity::note,
-                  "The iterative linear solver failed; a direct solver replaces it whenever that happens.",
-                  "");
+inline const DiagnosticKind direct_solver("direct-solver", Severity::note,
+                                          "The iterative linear solver failed, or the matrix is nearly "
+                                          "singular; a direct solver replaces it whenever that happens.",
+                                          "");
 
 inline const DiagnosticKind solver_memory("solver-memory", Severity::note,
                                           "Memory that the iterative linear solver takes.", "");

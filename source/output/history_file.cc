@@ -19,17 +19,26 @@ std::string column_name(std::string name) {
   return name;
 }
 
+/// Whether viscous forces hold bodies of a static scene until contact does.
+bool has_stabilised_bodies(const Scene &scene) {
+  const auto &bodies = scene.parameters().bodies;
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const parameters::Body &body) { return body.is_stabilised.value; });
+}
+
 } // namespace
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
     : name_(folder + "/history.csv"), columns_(columns(scene)),
-      has_stabilisation_(scene.capabilities().stabilisation) {
+      has_stabilisation_(scene.capabilities().stabilisation),
+      has_viscous_forces_(has_stabilised_bodies(scene)) {
   begin(scene);
 }
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, const double time)
     : name_(folder + "/history.csv"), columns_(columns(scene)),
-      has_stabilisation_(scene.capabilities().stabilisation) {
+      has_stabilisation_(scene.capabilities().stabilisation),
+      has_viscous_forces_(has_stabilised_bodies(scene)) {
   namespace fs = std::filesystem;
   std::error_code error;
   std::string first_line;
@@ -86,7 +95,7 @@ std::string HistoryFile::columns(const Scene &scene) {
              : is_dynamic ? ",numerical_dissipation"
                           : "")
          << (!is_explicit && scene.capabilities().stabilisation ? ",hourglass_energy" : "")
-         << ",external_work,energy_drift"
+         << (has_stabilised_bodies(scene) ? ",viscous_dissipation" : "") << ",external_work,energy_drift"
          << (is_dynamic ? ",momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
                           "angular_momentum_z"
                         : "");
@@ -108,6 +117,8 @@ void HistoryFile::write(const StepReport &report, const SolutionState &state) {
     stream_ << "," << energies.numerical;
   if (has_stabilisation_)
     stream_ << "," << energies.hourglass;
+  if (has_viscous_forces_)
+    stream_ << "," << energies.viscous;
   stream_ << "," << energies.external << "," << energies.drift();
   if (is_dynamic)
     write_momenta(state);

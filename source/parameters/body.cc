@@ -348,6 +348,10 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
                     "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or "
                     "with a normal and "
                     "the distance along it, '1, 1, 0 = 3.5'. [length]");
+  prm.declare_entry(
+      "Stabilise", "no", Patterns::Selection("no|until touched"),
+      "Of static scenes. until touched: a weak viscous force holds a body that neither supports "
+      "nor contact hold at the start, and fades once contact supports it.");
   prm.enter_subsection("Mesh");
   Mesh::declare(prm);
   prm.leave_subsection();
@@ -443,6 +447,7 @@ void Body::parse(Reader &reader) {
     reader.reject("Initial velocity", "three expressions, separated by semicolons");
   initial_velocity =
       reader.located("Initial velocity", std::array<std::string, 3>{velocity[0], velocity[1], velocity[2]});
+  is_stabilised = reader.located("Stabilise", reader.text("Stabilise") != "no");
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));

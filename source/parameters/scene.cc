@@ -215,6 +215,10 @@ private:
   void check(const Body &body, const SceneFile::Path &path) const {
     if (scene_.is_dynamic())
       require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
+    if (scene_.is_dynamic() && body.is_stabilised.value)
+      throw InputError(body.is_stabilised.origin +
+                       ": found 'until touched', allowed is 'no', since 'Scheme' is " + name_of_scheme() +
+                       ": the mass of a body resists its motion");
     if (scene_.is_explicit()) {
       if (body.element.value == Body::ElementType::full)
         throw InputError(body.element.origin +

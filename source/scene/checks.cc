@@ -119,9 +119,17 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
                          bodies_[b].holds[h].name.substr(std::string("symmetry plane ").size()) +
                          "', allowed are planes that hold boundary faces of body '" + bodies_[b].name +
                          "'; none lies in it");
-    if (std::any_of(body_pairs_.begin(), body_pairs_.end(), [b](const BodyPair &pair) {
+    const bool may_touch_bodies =
+        std::any_of(body_pairs_.begin(), body_pairs_.end(), [b](const BodyPair &pair) {
           return pair.bodies[0] != pair.bodies[1] && (pair.bodies[0] == b || pair.bodies[1] == b);
-        }))
+        });
+    const auto &is_stabilised = parameters_.bodies[b].is_stabilised;
+    if (is_stabilised.value && !may_touch_bodies &&
+        std::none_of(pairs_.begin(), pairs_.end(), [b](const auto &pair) { return pair.body == b; }))
+      throw InputError(is_stabilised.origin + ": found 'until touched', allowed is 'no': body '" +
+                       bodies_[b].name +
+                       "' has no contact pair with a tool or another body that could support it");
+    if (may_touch_bodies)
       continue; // another body may hold it, which shows when both are meshed
     touching.insert(touching.end(), holding.begin(), holding.end());
     // What tools touch at a restart is not known here.
@@ -129,7 +137,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
         parameters_.restart.is_wanted() &&
         std::any_of(pairs_.begin(), pairs_.end(), [b](const auto &pair) { return pair.body == b; });
     const auto free_motion = find_free_motion(touching, centre, size);
-    if (free_motion && !may_touch)
+    if (free_motion && !may_touch && !is_stabilised.value)
       throw InputError(parameters_.bodies[b].origin +
                        ": the body is without support: at the start neither supports, nor symmetry planes, "
                        "nor tools that it touches hold its rigid motion with " +

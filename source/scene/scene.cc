@@ -564,7 +564,8 @@ void Scene::describe(std::ostream &stream) const {
     n_elements += n;
     stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_law(body) << ", "
            << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
-           << " supports, " << body.loads.size() << " loads\n";
+           << " supports, " << body.loads.size() << " loads"
+           << (body.is_stabilised.value ? ", stabilised until touched\n" : "\n");
   }
   for (const auto &tool : tools_) {
     stream << "Tool           " << tool.name() << ": rigid " << tool.shapes();
@@ -659,6 +660,8 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
                                {"symmetry planes", body.symmetry_planes.value.size()},
                                {"supports", body.supports.size()},
                                {"loads", body.loads.size()}});
+    if (body.is_stabilised.value)
+      scene["bodies"].back()["stabilised"] = "until touched";
   }
   scene["tools"] = Json::array();
   for (const auto &tool : tools_) {

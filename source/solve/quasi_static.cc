@@ -96,8 +96,10 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   });
   state_.displacements = u_n_;
   choose_unknown_tools({});
-  if (!scene.parameters().is_dynamic())
+  if (!scene.parameters().is_dynamic()) {
     prepare_support_check();
+    prepare_stabilisation();
+  }
   if (scene.parameters().is_dynamic())
     motion_ = std::make_unique<ImplicitMotion>(scene_, discretization_, supports_);
   if (scene.parameters().restart.is_wanted()) // load() does the rest
@@ -227,6 +229,7 @@ bool QuasiStatic::compute_residual(const Epetra_Vector &x, Epetra_Vector &residu
   contact_bears_ = contact_size > 0.;
   force_scale_ = std::max(force_scale_, contact_size);
   total += contact_forces_;
+  add_stabilisation(total);
   for (std::size_t tool = 0; tool < fading_forces_.size(); ++tool)
     if (fading_forces_[tool])
       total.add(fading(time_, tool), *fading_forces_[tool]);
@@ -310,6 +313,7 @@ bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yie
   system.matrix = 0.;
   if (!all_ranks(internal_.assemble_tangent(trial_ghosted_, system, yield_slack)))
     return false;
+  add_stabilisation_tangent(system);
   const TangentSystem contact_system{system.constraints, system.matrix, system.lift, contact_weight()};
   for (auto &contact : contacts_) {
     contact.update(trial_ghosted_);
@@ -327,6 +331,7 @@ bool QuasiStatic::assemble_tangent(const TangentSystem &system, const double yie
   assemble_tool_tangent();
   if (linear_->is_iterative())
     linear_->set_geometry(nodal_geometry());
+  linear_->expect_nearly_singular(stabilisation_ && stabilisation_->acts());
   return linear_->factorize();
 }
 
@@ -473,6 +478,8 @@ bool QuasiStatic::follow_tangent(const double t, NewtonIteration &iteration) {
 void QuasiStatic::start_step(const double t) {
   time_ = t;
   duration_ = t - state_.time;
+  if (stabilisation_)
+    stabilisation_->start_step(duration_);
   for (auto &contact : body_contacts_) {
     contact->start_step(state_.time, t);
     contact->set_friction_account(contact_before(), motion_ == nullptr);
@@ -558,6 +565,8 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
     if (scene_.tools()[i].is_driven() && !fading_forces_[i])
       pressing.push_back(i);
   choose_unknown_tools(pressing);
+  if (stabilisation_)
+    stabilisation_->start_step(t - state_.time);
   if (turns_too_far(t, report))
     return report;
   const bool extrapolates =
@@ -678,6 +687,7 @@ void QuasiStatic::commit(const double t) {
   for (std::size_t i = 0; i < offsets_.size(); ++i)
     last_offset_increments_[i] = offsets_[i] - offsets_n_[i];
   offsets_n_ = offsets_;
+  commit_stabilisation();
   for (std::size_t tool = 0; tool < fading_forces_.size(); ++tool)
     if (fading_forces_[tool])
       state_.energies.external -=
@@ -965,7 +975,7 @@ void QuasiStatic::remove_tools(const double t) {
   if (forces_jump)
     update_accelerations();
   for (const auto &[body, removed] : let_go)
-    if (body_failure_.empty() && !motion_)
+    if (body_failure_.empty() && !motion_ && !is_stabilised(body))
       body_failure_ = describe_freedom(body, removed);
 }
 
@@ -1009,7 +1019,7 @@ std::optional<RigidMotion> QuasiStatic::find_freedom(const std::size_t body) con
 
 void QuasiStatic::check_freedom() const {
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body)
-    if (const auto motion = find_freedom(body))
+    if (const auto motion = is_stabilised(body) ? std::nullopt : find_freedom(body))
       throw InputError(
           scene_.parameters().bodies[body].origin +
           ": the body is without support: at the start neither supports, nor symmetry planes, "

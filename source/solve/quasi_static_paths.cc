@@ -141,6 +141,8 @@ void QuasiStatic::evaluate_start() {
     contact->restart();
   }
   duration_ = 0.;
+  if (stabilisation_)
+    stabilisation_->start_step(0.);
   time_ = t_n;
   offsets_ = offsets_n_;
   choose_unknown_tools({});

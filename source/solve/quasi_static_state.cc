@@ -37,6 +37,7 @@ void QuasiStatic::save(StateWriter &writer) const {
   }
   if (!body_frames_.empty())
     writer.write("free modes", {static_cast<double>(support_.n_free)});
+  save_stabilisation(writer);
   if (tangent_ != scene_.contact_tangent())
     writer.write("exact tangent", {1.});
   if (probe_ && probe_->time > state_.time)
@@ -163,6 +164,7 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
       load_nodal(reader, "internal forces", nodes, internal_forces_n_);
       largest_energy_ = reader.number("largest energy");
     }
+    load_stabilisation(reader);
     if (report.is_exact && reader.has("probe"))
       reader.in("probe", [&] {
         probe_ =

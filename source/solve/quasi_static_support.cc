@@ -54,21 +54,16 @@ void QuasiStatic::prepare_support_check() {
   supported_nodes_.clear();
 }
 
-RigidBodySupport::Result QuasiStatic::find_support(const std::vector<bool> &unloaded_bodies) const {
-  RigidBodySupport support(discretization_.communicator(), body_frames_, unknown_tools_.size());
+void QuasiStatic::add_supports(RigidBodySupport &support) const {
   for (const auto &node : supported_nodes_) {
     dealii::Tensor<1, 3> position = node.position;
     for (unsigned int i = 0; i < 3; ++i)
       position[i] += trial_ghosted_(node.dofs[i]);
     support.add_support(node.body, position, node.normal);
   }
-  const auto add = [&](const std::size_t body, const std::size_t other, const SupportingPoint &point,
-                       const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
-    if (!unloaded_bodies.empty() && (unloaded_bodies[body] || unloaded_bodies[other]))
-      support.add_unloaded_contact(point, of, on);
-    else
-      support.add_contact(point, of, on);
-  };
+}
+
+template <class AddContact> void QuasiStatic::add_supporting_points(const AddContact &add) const {
   for (const auto &contact : contacts_) {
     const std::size_t tool = contact.tool();
     const auto unknown = std::find(unknown_tools_.begin(), unknown_tools_.end(), tool);
@@ -81,14 +76,47 @@ RigidBodySupport::Result QuasiStatic::find_support(const std::vector<bool> &unlo
         on.tool_velocity =
             rate.translation + dealii::cross_product_3d(rate.rotation, point.position - centre);
       }
-      add(contact.body(), contact.body(), point, {contact.body(), {}, {}}, on);
+      add(contact.body(), contact.body(), point, RigidBodySupport::Side{contact.body(), {}, {}}, on);
     });
   }
   for (const auto &contact : body_contacts_)
-    contact->visit_supporting(
-        [&](const SupportingPoint &point, const std::size_t body, const std::size_t other) {
-          add(body, other, point, {body, {}, {}}, {other, {}, {}});
-        });
+    contact->visit_supporting([&](const SupportingPoint &point, const std::size_t body,
+                                  const std::size_t other) {
+      add(body, other, point, RigidBodySupport::Side{body, {}, {}}, RigidBodySupport::Side{other, {}, {}});
+    });
+}
+
+RigidBodySupport::Result QuasiStatic::find_support(const std::vector<bool> &unloaded_bodies) const {
+  RigidBodySupport support(discretization_.communicator(), body_frames_, unknown_tools_.size());
+  add_supports(support);
+  for (std::size_t body = 0; body < body_frames_.size(); ++body)
+    if (is_stabilised(body))
+      support.hold(body);
+  add_supporting_points([&](const std::size_t body, const std::size_t other, const SupportingPoint &point,
+                            const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
+    if (!unloaded_bodies.empty() && (unloaded_bodies[body] || unloaded_bodies[other]))
+      support.add_unloaded_contact(point, of, on);
+    else
+      support.add_contact(point, of, on);
+  });
+  return support.find();
+}
+
+RigidBodySupport::Result QuasiStatic::find_support_by_contact() const {
+  RigidBodySupport support(discretization_.communicator(), body_frames_, unknown_tools_.size());
+  support.weigh_pushes();
+  add_supports(support);
+  if (dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0)
+    for (std::size_t k = 0; k < unknown_tools_.size(); ++k)
+      if (const double load = scene_.tools()[unknown_tools_[k]].load(time_); load != 0.)
+        support.add_load(k, load);
+  add_supporting_points([&](const std::size_t body, const std::size_t other, const SupportingPoint &point,
+                            const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
+    if (is_stabilised(body) || is_stabilised(other))
+      support.add_pushing_contact(point, of, on);
+    else
+      support.add_contact(point, of, on);
+  });
   return support.find();
 }
 
@@ -119,6 +147,8 @@ bool QuasiStatic::loses_bodies(const double t, NewtonReport &report) {
       return true;
     watch_unloaded_bodies(found, t, report);
     support_ = found;
+    if (stabilisation_ && stabilisation_->acts())
+      support_by_contact_ = find_support_by_contact();
     return false;
   }
   return moves_too_far(t, report);

@@ -93,6 +93,34 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
   return combine(factors);
 }
 
+/// The point of the cone r z >= 0 for all rows that is nearest to `aim`, whose length is 1 or less; none if
+/// that is 0. By Moreau's decomposition it is what non-negative multiples of the rows leave of the aim. By
+/// coordinate descent.
+std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector<double> aim) {
+  constexpr double none = 1e-6, small = 1e-2, settled = 1e-6;
+  constexpr unsigned int n_sweeps = 1000;
+  std::vector<double> weights(rows.size(), 0.);
+  double before = std::sqrt(dot(aim, aim));
+  for (unsigned int sweep = 0; sweep < n_sweeps && before > small; ++sweep) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double square = dot(rows[i], rows[i]);
+      if (square <= none * none)
+        continue;
+      const double change = std::max(-weights[i], -dot(rows[i], aim) / square);
+      weights[i] += change;
+      for (std::size_t k = 0; k < aim.size(); ++k)
+        aim[k] += change * rows[i][k];
+    }
+    const double now = std::sqrt(dot(aim, aim));
+    if (before - now <= settled * before)
+      break;
+    before = now;
+  }
+  if (std::sqrt(dot(aim, aim)) <= small)
+    return {};
+  return aim;
+}
+
 /// Takes `motion`'s direction out of the orthonormal `basis`, which holds it, and makes the rest orthonormal.
 void deflate(const std::vector<double> &motion, Rows &basis) {
   Rows left;
@@ -167,6 +195,29 @@ RigidBodySupport::Row RigidBodySupport::row_of(const Tensor<1, 3> &position, con
 
 void RigidBodySupport::add_contact(const SupportingPoint &point, const Side &of, const Side &on) {
   add_both_ways(row_of(point.position, point.normal, of, on));
+  add_friction(point, of, on);
+}
+
+void RigidBodySupport::add_pushing_contact(const SupportingPoint &point, const Side &of, const Side &on) {
+  add_one_way(row_of(point.position, point.normal, of, on));
+  add_friction(point, of, on);
+}
+
+void RigidBodySupport::add_load(const std::size_t tool, const double load) {
+  Row row(n(), 0.);
+  row[6 * bodies_.size() + tool] = load < 0. ? -1. : 1.;
+  add_one_way(row);
+}
+
+void RigidBodySupport::hold(const std::size_t body) {
+  for (std::size_t i = 6 * body; i < 6 * body + 6; ++i) {
+    Row row(n(), 0.);
+    row[i] = 1.;
+    add_both_ways(row);
+  }
+}
+
+void RigidBodySupport::add_friction(const SupportingPoint &point, const Side &of, const Side &on) {
   if (point.friction == SupportingPoint::Friction::none)
     return;
   const bool slips = point.friction == SupportingPoint::Friction::slips;
@@ -176,14 +227,13 @@ void RigidBodySupport::add_contact(const SupportingPoint &point, const Side &of,
   add_both_ways(row_of(point.position, across, of, on));
   const Row row = row_of(point.position, along, of, on);
   if (slips)
-    one_way_.insert(one_way_.end(), row.begin(), row.end());
+    add_one_way(row);
   else
     add_both_ways(row);
 }
 
 void RigidBodySupport::add_unloaded_contact(const SupportingPoint &point, const Side &of, const Side &on) {
-  const Row row = row_of(point.position, point.normal, of, on);
-  one_way_.insert(one_way_.end(), row.begin(), row.end());
+  add_one_way(row_of(point.position, point.normal, of, on));
 }
 
 RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
@@ -227,11 +277,12 @@ RigidBodySupport::Result RigidBodySupport::find() const {
                                        std::numeric_limits<double>::max(), 0., values, vectors);
   // Of modes that differ in the motion of tools only one counts.
   constexpr double none = 1e-10, alike = 1e-3;
-  Rows basis, bodies;
+  Rows basis, bodies, all;
   for (std::size_t k = 0; k < size && (largest == 0. || values[k] <= none * largest); ++k) {
     Row motion(size), of_bodies;
     for (std::size_t i = 0; i < size; ++i)
       motion[i] = vectors(i, k);
+    all.push_back(motion);
     of_bodies.assign(motion.begin(), motion.begin() + static_cast<std::ptrdiff_t>(n_of_bodies));
     for (const auto &other : bodies) {
       const double along = dot(of_bodies, other);
@@ -247,19 +298,51 @@ RigidBodySupport::Result RigidBodySupport::find() const {
     basis.push_back(motion);
   }
   Result result;
-  if (basis.empty())
+  if (pushes_)
+    result.is_free.assign(bodies_.size(), false);
+  if (basis.empty() && !pushes_)
     return result;
   Rows one_way;
   for (const auto &part : dealii::Utilities::MPI::all_gather(communicator_, one_way_))
     for (auto row = part.begin(); row != part.end(); row += static_cast<std::ptrdiff_t>(size))
       one_way.emplace_back(row, row + static_cast<std::ptrdiff_t>(size));
-  result.sliding = mode_of(basis.front());
+  if (!basis.empty())
+    result.sliding = mode_of(basis.front());
   while (const auto motion = find_unresisted(basis, one_way)) {
     if (!result.free)
       result.free = mode_of(*motion);
     ++result.n_free;
     deflate(*motion, basis);
   }
+  if (!pushes_)
+    return result;
+  // Tools that move without bodies count here: a body may follow them.
+  Rows parts;
+  for (const auto &row : one_way) {
+    std::vector<double> part;
+    for (const auto &motion : all)
+      part.push_back(dot(row, motion));
+    parts.push_back(std::move(part));
+  }
+  result.free.reset();
+  for (std::size_t i = 0; i < n_of_bodies; ++i)
+    for (const double sign : {-1., 1.}) {
+      if (result.is_free[i / 6])
+        continue;
+      std::vector<double> aim;
+      for (const auto &motion : all)
+        aim.push_back(sign * motion[i]);
+      const auto factors = project_on_cone(parts, std::move(aim));
+      if (!factors)
+        continue;
+      result.is_free[i / 6] = true;
+      Row motion(size, 0.);
+      for (std::size_t k = 0; k < all.size(); ++k)
+        for (std::size_t j = 0; j < size; ++j)
+          motion[j] += (*factors)[k] * all[k][j];
+      if (!result.free)
+        result.free = mode_of(motion);
+    }
   return result;
 }
 

@@ -119,6 +119,13 @@ bool TangentSolver::factorize() {
                   static_cast<std::size_t>(matrix_->NumMyNonzeros()));
   if (!iterative_)
     return factorize_directly();
+  if (is_nearly_singular_) {
+    diagnostics_.emplace_back(
+        diagnostic::direct_solver,
+        "While viscous forces alone hold rigid-body modes, a direct solver replaces the "
+        "iterative one");
+    return factorize_directly();
+  }
   if (pause_ > 0) {
     --pause_;
     return factorize_directly();

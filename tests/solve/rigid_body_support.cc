@@ -127,5 +127,52 @@ int main(int argc, char **argv) {
     touch(support, z, Friction::sticks, {}, first, second);
     check("two that hold each other: six in common", support.find().n_free == 6);
   }
+  const auto push = [](RigidBodySupport &support, const Tensor<1, 3> &face, const Friction friction,
+                       const RigidBodySupport::Side &of = first,
+                       const RigidBodySupport::Side &on = standing) {
+    support.weigh_pushes();
+    for (const auto &corner : corners(face))
+      support.add_pushing_contact({corner, -face, friction, {}}, of, on);
+  };
+  {
+    RigidBodySupport support = one_cube();
+    push(support, z, Friction::sticks);
+    const auto found = support.find();
+    check("a tool that sticks to a loose body and pushes it: it may let go",
+          found.is_free[0] && found.free && found.free->body == 0);
+    push(support, -z, Friction::none);
+    check("until it lies on a table", !support.find().is_free[0]);
+  }
+  {
+    RigidBodySupport support = one_cube(1);
+    push(support, z, Friction::sticks, first, {{}, 0, -z});
+    push(support, -z, Friction::none);
+    check("a tool without a load holds nothing on a table", support.find().is_free[0]);
+    support.add_load(0, 5.);
+    check("with a load it does", !support.find().is_free[0]);
+  }
+  {
+    RigidBodySupport support = one_cube(1);
+    push(support, z, Friction::sticks, first, {{}, 0, -z});
+    push(support, -z, Friction::none);
+    support.add_load(0, -5.);
+    check("unless that draws it up", support.find().is_free[0]);
+  }
+  {
+    RigidBodySupport support(MPI_COMM_WORLD, {{Tensor<1, 3>(), 2.}, {2. * z, 2.}}, 0);
+    push(support, -z, Friction::sticks);
+    push(support, z, Friction::sticks, first, second);
+    const auto found = support.find();
+    check("two that lie on each other may both lift off", found.is_free[0] && found.is_free[1]);
+    support.hold(1);
+    check("a hold of the upper one holds both", !support.find().is_free[0] && !support.find().is_free[1]);
+  }
+  {
+    RigidBodySupport support(MPI_COMM_WORLD, {{Tensor<1, 3>(), 2.}, {9. * z, 2.}}, 0);
+    push(support, -z, Friction::sticks);
+    push(support, z, Friction::none);
+    const auto found = support.find();
+    check("of two bodies that do not touch one is free", !found.is_free[0] && found.is_free[1]);
+  }
   return billet::testing::exit_code();
 }

@@ -47,6 +47,7 @@ private:
 
   std::string name_, columns_;
   bool has_stabilisation_;
+  bool has_viscous_forces_; ///< of stabilised bodies, in statics
   std::ofstream stream_;
 };
 

@@ -113,6 +113,7 @@ struct Body {
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z
   Located<std::vector<SymmetryPlane>> symmetry_planes;
+  Located<bool> is_stabilised; ///< by viscous forces, until contact supports it
 
   static void declare(dealii::ParameterHandler &prm, const std::vector<std::string> &support_names,
                       const std::vector<std::string> &load_names);

@@ -6,6 +6,7 @@
 #include "billet/contact/rigid_contact.h"
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/contact_losses.h"
+#include "billet/solve/contact_stabilisation.h"
 #include "billet/solve/error_control.h"
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
@@ -110,7 +111,11 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override { return linear_->name(); }
-  DiagnosticList initial_diagnostics() const override { return RigidContact::check_small_tools(contacts_); }
+  DiagnosticList initial_diagnostics() const override;
+  /// Messages about stabilised bodies at the end of the run.
+  DiagnosticList check_stabilisation() const;
+  /// Of static scenes with bodies that are stabilised, or null.
+  const ContactStabilisation *stabilisation() const { return stabilisation_.get(); }
   bool solves_iteratively() const override { return linear_->is_iterative(); }
   const InternalForces &internal_forces() const { return internal_; }
   const std::vector<RigidContact> &contacts() const { return contacts_; }
@@ -335,6 +340,22 @@ private:
   void prepare_support_check();
   /// What holds the bodies at the trial state.
   RigidBodySupport::Result find_support(const std::vector<bool> &unloaded_bodies = {}) const;
+  template <class AddContact> void add_supporting_points(const AddContact &add) const;
+  void add_supports(RigidBodySupport &support) const;
+  // Bodies that viscous forces hold, in solve/quasi_static_stabilisation.cc.
+  /// After prepare_support_check(). Collective.
+  void prepare_stabilisation();
+  bool is_stabilised(const std::size_t body) const {
+    return stabilisation_ != nullptr && stabilisation_->acts_on(body);
+  }
+  /// The residual of an unloaded body is small beside the forces of its steady motion, too.
+  void add_stabilisation(Vector &residual);
+  void add_stabilisation_tangent(const TangentSystem &system) const;
+  void commit_stabilisation();
+  void save_stabilisation(StateWriter &writer) const;
+  void load_stabilisation(StateReader &reader);
+  /// What supports and contact resist at the trial state, contact of stabilised bodies in one sense only.
+  RigidBodySupport::Result find_support_by_contact() const;
   /// Notes which bodies contact presses, and warns of those that nothing presses any more and that may lift
   /// off.
   void watch_unloaded_bodies(const RigidBodySupport::Result &found, double t, NewtonReport &report);
@@ -435,6 +456,9 @@ private:
   };
   std::vector<SupportedNode> supported_nodes_;
   std::vector<double> most_stored_; ///< in the springs of all contacts of each body, so far [energy]
+  std::unique_ptr<ContactStabilisation> stabilisation_; ///< of static scenes with such bodies
+  std::vector<bool> needs_no_stabilisation_;            ///< of bodies that supports hold; or empty
+  RigidBodySupport::Result support_by_contact_;         ///< of the last step, while bodies are stabilised
   StepEnergy step_energy_;
   RigidBodySupport::Result support_; ///< at the end of the last accepted step
   SolutionState state_;

@@ -47,6 +47,15 @@ public:
   void add_contact(const SupportingPoint &point, const Side &of, const Side &on);
   /// Adds one that no force presses: it resists a motion into the surface only, and has no friction.
   void add_unloaded_contact(const SupportingPoint &point, const Side &of, const Side &on);
+  /// Asks for Result::is_free. On all ranks.
+  void weigh_pushes() { pushes_ = true; }
+  /// Adds one whose normal resists a motion into the surface only, and friction as in add_contact(). Such
+  /// points hold a body only from both sides: a tool that pushes a loose body does not.
+  void add_pushing_contact(const SupportingPoint &point, const Side &of, const Side &on);
+  /// Adds the load of a driven tool, which resists a motion of the tool against it.
+  void add_load(std::size_t tool, double load);
+  /// Adds a hold of the whole body.
+  void hold(std::size_t body);
 
   /// A mode of one body; its motion is RigidMotion's.
   struct Mode {
@@ -57,6 +66,9 @@ public:
     std::size_t n_free = 0;      ///< modes of the bodies that nothing resists
     std::optional<Mode> free;    ///< one of them: of the body that moves most in it
     std::optional<Mode> sliding; ///< one that only points resist that slip
+    /// Of each body, if weigh_pushes(): whether it takes part in a mode that nothing resists. `free` is one
+    /// of these modes then.
+    std::vector<bool> is_free;
   };
   /// Sums over all ranks; the result is the same on each. Collective.
   Result find() const;
@@ -69,12 +81,15 @@ private:
   Row row_of(const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &direction, const Side &of,
              const Side &on) const;
   void add_both_ways(const Row &row);
+  void add_one_way(const Row &row) { one_way_.insert(one_way_.end(), row.begin(), row.end()); }
+  void add_friction(const SupportingPoint &point, const Side &of, const Side &on);
   Mode mode_of(const Row &motion) const;
 
   MPI_Comm communicator_;
   std::vector<Body> bodies_;
   std::size_t n_tools_;
-  std::vector<double> gram_;    ///< Σ r rᵀ of rows that resist both ways, n × n
+  std::vector<double> gram_; ///< Σ r rᵀ of rows that resist both ways, n × n
+  bool pushes_ = false;
   std::vector<double> one_way_; ///< rows that resist r z < 0 only, one after the other
 };
 

@@ -20,7 +20,7 @@ struct EnergyLedger {
   double plastic = 0.;
   double contact = 0.;   ///< stored in penalty springs
   double friction = 0.;  ///< dissipated
-  double viscous = 0.;   ///< dissipated by bulk viscosity
+  double viscous = 0.;   ///< dissipated by bulk viscosity, and in statics by stabilisation
   double hourglass = 0.; ///< stored by the stabilisation of one-point elements
   double numerical = 0.; ///< dissipated by implicit time integration
   double external = 0.;  ///< work of tools, prescribed displacements and loads

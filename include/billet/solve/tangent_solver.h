@@ -25,6 +25,8 @@ public:
   /// ... after that, the next one.
   void set_matrix(const Epetra_CrsMatrix &matrix);
 
+  /// Whether the next matrices are nearly singular: a direct solver, if there is an iterative one, does those.
+  void expect_nearly_singular(const bool is) { is_nearly_singular_ = is; }
   bool is_iterative() const { return iterative_ != nullptr; }
   /// Only of use where it is iterative; see IterativeSolver.
   void set_geometry(NodalGeometry geometry);
@@ -59,6 +61,7 @@ private:
   std::unique_ptr<IterativeSolver> iterative_;
   std::unique_ptr<LinearSolver> direct_;
   bool is_direct_now_;
+  bool is_nearly_singular_ = false;
   unsigned int n_failures_ = 0; ///< of the iterative solver in succession
   unsigned int pause_ = 0;      ///< matrices for which it is not tried
   bool has_reported_memory_ = false, is_ill_conditioned_ = false;

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bodies that viscous forces hold until tools and bodies do, (Q7): their forces are those of the scene in
+// which they touch at the start, energies balance, a checkpoint in the middle of the fading changes nothing,
+// and where the forces do much of all work a warning says so.
+#include "restart_run.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::QuasiStaticRun;
+using billet::testing::SceneRun;
+
+namespace {
+
+parameters::Scene read() { return testing::read_test_scene("loose_bodies.prm"); }
+
+/// The same without gaps, by bodies that stand on each other and are held at the start by nothing else.
+parameters::Scene without_gaps() {
+  parameters::Scene scene = read();
+  for (auto &body : scene.bodies)
+    body.is_stabilised.value = false;
+  scene.bodies[0].mesh.translation[2] = -0.2;
+  scene.bodies[1].mesh.translation[2] = -0.3;
+  scene.tools[0].motion.translation.value[2] = "-0.3 - 0.05*t";
+  return scene;
+}
+
+void set_way(parameters::Scene &scene, const std::string &way) {
+  scene.tools[0].motion.translation.value[2] = way;
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool is_first = billet::testing::is_first_rank();
+  const auto check_here = [&](const std::string &name, const auto... values) {
+    if (is_first)
+      check(name, values...);
+  };
+  {
+    SceneRun touching(without_gaps()), loose(read());
+    touching.finish();
+    billet::testing::WorstError drift;
+    double last_factor = 1.;
+    bool comes_back = false;
+    loose.finish([&](const NewtonReport &) {
+      const EnergyLedger &energies = loose.problem.state().energies;
+      drift.add(std::abs(energies.drift()));
+      const double factor = loose.problem.stabilisation()->factor(0);
+      comes_back = comes_back || factor > last_factor;
+      last_factor = factor;
+    });
+    const EnergyLedger &energies = loose.problem.state().energies;
+    const double force = touching.load(0).force.norm();
+    check_here("the force is that of bodies that touch at the start",
+               (loose.load(0).force - touching.load(0).force).norm(), 0.01 * force);
+    check_here("that of the table, too", (loose.load(1).force - touching.load(1).force).norm(), 0.01 * force);
+    check_here("energies balance", drift.value(), 0.01 * energies.external);
+    const ContactStabilisation &stabilisation = *loose.problem.stabilisation();
+    check_here("viscous forces have done work", energies.viscous > 0.);
+    check_here("which is in the account",
+               std::abs(energies.viscous - stabilisation.work(0) - stabilisation.work(1)),
+               1e-12 * energies.viscous);
+    check_here("and less than a thousandth of all", energies.viscous, 1e-3 * energies.external);
+    check_here("they have gone and did not come back", !stabilisation.acts() && !comes_back);
+    check_here("without a message", loose.problem.check_stabilisation().empty());
+  }
+  {
+    parameters::Scene scene = read();
+    set_way(scene, "-0.300005*t");
+    SceneRun run(scene);
+    run.finish();
+    const DiagnosticList messages = run.problem.check_stabilisation();
+    const Diagnostic *found = find(messages, diagnostic::stabilisation_too_strong);
+    const double part = run.problem.stabilisation()->work(0) / run.problem.state().energies.external;
+    check_here("bodies that are hardly pressed: a warning", found != nullptr && part > 1e-3);
+    check_here("with the factor", found != nullptr && std::abs(*found->measure() / (1e3 * part) - 1.) < 0.2);
+  }
+  {
+    parameters::Scene scene = read();
+    set_way(scene, "-0.28*t");
+    SceneRun run(scene);
+    run.finish();
+    check_here("bodies that nothing stops: a warning",
+               find(run.problem.check_stabilisation(), diagnostic::stabilised_loads) != nullptr &&
+                   run.problem.stabilisation()->factor(0) == 1.);
+  }
+  {
+    parameters::Scene scene = read();
+    for (auto &pair : scene.pairs)
+      pair.friction_coefficient = 0.;
+    {
+      SceneRun run(scene);
+      run.finish();
+      check_here("without friction an eccentric block is squeezed out: a warning",
+                 find(run.problem.check_stabilisation(), diagnostic::stabilisation_too_strong) != nullptr);
+    }
+    scene.bodies[1].mesh.translation = dealii::Tensor<1, 3>({-0.1, -0.15, 0.});
+    SceneRun run(scene);
+    run.finish();
+    const DiagnosticList messages = run.problem.check_stabilisation();
+    check_here("a block in the middle could slide: a note",
+               messages.size() == 2 && find(messages, diagnostic::stabilised_at_end) != nullptr);
+  }
+  {
+    // A force presses in place of a given motion.
+    parameters::Scene scene = read();
+    set_way(scene, "0");
+    scene.tools[0].motion.control = parameters::Motion::Control::force;
+    scene.tools[0].motion.load.value = "10*t";
+    scene.tools[0].motion.direction = dealii::Tensor<1, 3>({0., 0., -1.});
+    SceneRun run(scene);
+    run.finish();
+    check_here("a force pushes them together, too", std::abs(run.load(1).force[2] - 10.), 0.01 * 10.);
+    check_here("its work over the gaps is no reason to warn",
+               run.problem.check_stabilisation().empty() && !run.problem.stabilisation()->acts());
+  }
+  {
+    // Pressed, then die and table go apart.
+    parameters::Scene scene = read();
+    set_way(scene, "-0.7*min(t, 0.5) + (t > 0.6)*(t - 0.6)");
+    scene.tools[1].motion.translation.value[2] = "-(t > 0.6)*(t - 0.6)";
+    SceneRun run(scene);
+    bool is_told = false, was_told_before = false;
+    try {
+      run.finish([&](const NewtonReport &report) {
+        is_told = is_told || find(report.diagnostics, diagnostic::unsupported_body) != nullptr;
+        was_told_before = was_told_before || (is_told && run.control.time() < 0.6);
+      });
+    } catch (const SolutionFailure &failure) {
+      is_told = std::string(failure.what()).find("is unsupported") != std::string::npos;
+    }
+    check_here("bodies that lose their contacts afterwards: as without viscous forces",
+               is_told && !was_told_before && run.control.time() > 0.6 &&
+                   !run.problem.stabilisation()->acts());
+  }
+  {
+    parameters::Scene scene = read();
+    // What Newton's method leaves depends on round-off, and so on the ranks; weak modes make it larger.
+    scene.solver.force_tolerance = 1e-11;
+    scene.solver.linear_solver.value = parameters::Solver::LinearSolver::klu; // adds up in the same order
+    billet::testing::set_fixed_steps(scene, 25);
+    double middle = 0.;
+    {
+      SceneRun run(scene);
+      while (!run.control.is_finished()) {
+        run.advance();
+        const double factor = run.problem.stabilisation()->factor(0);
+        if (middle == 0. && factor > 0. && factor < 0.05)
+          middle = run.control.time();
+      }
+    }
+    check_here("there is a step in the middle of the fading", middle > 0.5 && middle < 1.);
+    billet::testing::test_going_on<QuasiStaticRun>(
+        "loose bodies", scene, {0.24, middle},
+        [](QuasiStaticRun &run, const double until, auto &history) { run.run(until, history); }, 1e-5);
+  }
+  return is_first ? billet::testing::exit_code() : 0;
+}
