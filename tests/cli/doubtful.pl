@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Usage: doubtful.pl TABLE BILLET      in an empty current folder
 #
-# Each line of TABLE is a scene that billet must run, check or stop with these warnings, or with none:
+# Each line of TABLE is a scene that billet must run, check, refuse or stop with these warnings and errors, or with no
+# warning:
 #
-#   SCENE: EDIT -> KEYS      SCENE.prm of this folder or of its folder 'doubtful', changed by EDIT (edit_scene.pl) if there
-#                            is one, is run
+#   SCENE: EDIT -> KEYS      SCENE.prm of this folder or of its folders 'doubtful' and 'files', changed by EDIT
+#                            (edit_scene.pl) if there is one, is run
 #   check SCENE: EDIT -> KEYS    the same, with --check
 #
 # KEYS are separated by commas. 'key' must be printed; 'key = 10 +- 0.2' must have this measure, the first number in its
-# text, to this part; '! key' must not be printed; 'none' stands for no warning at all, 'code 3' for the exit code, which
-# is 0 else. '#' begins a comment. After NAME := EDIT, NAME stands for EDIT.
+# text, to this part; 'key ~ words' must have these words; '! key' must not be printed; 'none' stands for no warning at
+# all, 'code 6' for the exit code. That is else 2 for 'bad-input', 3 for 'solution-failed', and 0. '#' begins a comment.
+# After NAME := EDIT, NAME stands for EDIT.
 use strict;
 use warnings;
 use File::Basename;
@@ -25,7 +27,7 @@ enter_folder();
 sub scene_text
 {
   my ($name) = @_;
-  my ($file) = grep { -e } "$here/doubtful/$name.prm", "$here/$name.prm", "$here/../../prm/$name.prm";
+  my ($file) = grep { -e } map { "$here/$_$name.prm" } 'doubtful/', '', 'files/', '../../prm/';
   die "there is no scene '$name'\n" unless defined $file;
   return read_text($file);
 }
@@ -34,8 +36,9 @@ sub scene_text
 sub fault
 {
   my ($keys, $code, $said) = @_;
-  my @told = $said =~ /^warning\[([\w-]+)\]/mg;
-  my $expected_code = $keys =~ /\bcode (\d+)/ ? $1 : 0;
+  my @told = $said =~ /^(?:warning|error)\[([\w-]+)\]/mg;
+  my $expected_code =
+      $keys =~ /\bcode (\d+)/ ? $1 : $keys =~ /\bbad-input\b/ ? 2 : $keys =~ /\bsolution-failed\b/ ? 3 : 0;
   return "exit code $code, not $expected_code" unless $code == $expected_code;
   for my $key (grep { !/^code / } split /\s*,\s*/, $keys)
   {
@@ -43,8 +46,11 @@ sub fault
     elsif ($key =~ /^! (.*)/) { return "warns of $1" if grep { $_ eq $1 } @told }
     else
     {
-      my ($name, $value, $part) = $key =~ /^([\w-]+)(?: = (\S+) \+- (\S+))?$/ or die "$table: '$key' is no key\n";
+      my ($name, $value, $part, $words) = $key =~ /^([\w-]+)(?: = (\S+) \+- (\S+)| ~ (.+))?$/
+          or die "$table: '$key' is no key\n";
       return "does not warn of $name, but of (@told)" unless grep { $_ eq $name } @told;
+      return "$name does not say '$words'"
+          unless !defined $words || $said =~ /^(?:warning|error)\[\Q$name\E\].*\Q$words\E/m;
       next unless defined $value;
       my ($found) = $said =~ /^warning\[\Q$name\E\]: [^\d\n]*?([\d.]+(?:e[-+]?\d+)?)/m;
       return "$name says $found, not $value" unless defined $found && abs($found - $value) <= $part * abs($value);
