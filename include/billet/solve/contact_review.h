@@ -40,7 +40,7 @@ private:
   struct Sample {
     double time = 0., penetration = 0., deformation = 0., all = 0.;
   };
-  Sample last_; ///< at time 0 nothing
+  Sample last_;                                           ///< at time 0 nothing
   double penetration_ = 0., deformation_ = 0., all_ = 0.; ///< integrals over time
 };
 

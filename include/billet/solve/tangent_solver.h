@@ -25,7 +25,8 @@ public:
   /// ... after that, the next one.
   void set_matrix(const Epetra_CrsMatrix &matrix);
 
-  /// Whether the next matrices are nearly singular: a direct solver, if there is an iterative one, does those.
+  /// Whether the next matrices are nearly singular: a direct solver, if there is an iterative one, does
+  /// those.
   void expect_nearly_singular(const bool is) { is_nearly_singular_ = is; }
   bool is_iterative() const { return iterative_ != nullptr; }
   /// Only of use where it is iterative; see IterativeSolver.
