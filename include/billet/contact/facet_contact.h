@@ -341,9 +341,9 @@ private:
   /// Whether slave s was before this facet by no more than `on_it` at the start of the step, or behind it.
   bool is_resting(const TouchedFacet &below, std::size_t s, double on_it) const;
   SlaveMotion compute_motion(std::size_t s, double duration) const;
-  /// That of slave s, which does not press, against the facet that it touched at the start of the step.
   /// The part of the facets around a slave that this rank owns.
   double own_part(std::size_t s) const;
+  /// That of slave s, which does not press, against the facet that it touched at the start of the step.
   SlaveMotion compute_motion_after_contact(std::size_t s, double duration) const;
   /// Takes note of what friction has dissipated at slave s. Of a node that several ranks have, each takes the
   /// part of its facets, by their number.
