@@ -597,18 +597,13 @@ StepWorks FacetContact::compute_step_works(const double weight) const {
     const PressureHistory &before = pressed_n_[s];
     const double ramp_depth =
         initial_depths_.empty() ? 0. : (allowed_part_n_ - allowed_part_) * initial_depths_[s];
-    const unsigned int node = slaves_[s].node;
     if (state.presses() && state.traction.pressure > 0.) {
       const double depth = std::max(0., -(state.contact.gap + augmentation(s)));
       const double closing = ramp_depth - compute_motion(s, duration_).displacement * state.contact.normal;
       works.add(before.pressure * state.own_area, state.traction.pressure * state.own_area, before.depth,
                 depth, closing, ramp_depth, weight);
     } else if (before.pressure > 0. && touched_n_[s].exists()) {
-      const unsigned int facet = touched_n_[s].facet;
-      const FacetCorners corners_n = corners_of(search_.facets()[facet], positions_n_);
-      const SlaveMotion motion = compute_slave_motion(
-          corners_n, moved_.corners(facet), PlanedFacet(corners_n).project(positions_n_[node], {}).weights,
-          positions_n_[node], positions_[node], duration_);
+      const SlaveMotion motion = compute_motion_after_contact(s, duration_);
       const Tensor<1, 3> normal = motion.rotation * before.normal;
       works.add(before.pressure * own_part(s) * before.area, 0., before.depth, 0.,
                 ramp_depth - motion.displacement * normal, ramp_depth, weight);
