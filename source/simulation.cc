@@ -589,8 +589,9 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
                : problem.has_soft_penalties()  ? EnergyWatch::Cause::soft_penalties
                : has_inexact_dissipation(scene, discretization, problem)
                    ? EnergyWatch::Cause::inexact_dissipation
-               : has_sticking_overlaps ? EnergyWatch::Cause::sticking_overlaps
-                                       : EnergyWatch::Cause::steps;
+               : has_sticking_overlaps          ? EnergyWatch::Cause::sticking_overlaps
+               : problem.contact_makes_energy() ? EnergyWatch::Cause::contact_edges
+                                                : EnergyWatch::Cause::steps;
       }));
       if (!energies.imbalance().empty()) {
         outputs.snapshots.write(problem);
@@ -638,6 +639,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   }
   diagnostics.report(review.finish());
   diagnostics.report(problem.check_stabilisation());
+  diagnostics.report(problem.check_balance());
   if (watch)
     report_errors(make_report(*watch, report), problem, discretization, parameters, review, outputs);
   if (errors) {

@@ -753,6 +753,15 @@ double FacetContact::excessive_penetration() const {
   return largest;
 }
 
+double FacetContact::closing_of_new_contacts() const {
+  double largest = 0.;
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    if (states_[s].presses() && states_[s].traction.pressure > 0. && !(pressed_n_[s].pressure > 0.))
+      largest = std::max(largest, -(compute_motion(s, duration_).displacement * states_[s].contact.normal) /
+                                      sizes_[s]);
+  return largest;
+}
+
 double FacetContact::augmentation_error() const {
   double worst = penetration().of_facet;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {

@@ -955,6 +955,20 @@ double RigidContact::excessive_penetration() const {
   return largest;
 }
 
+double RigidContact::closing_of_new_contacts() const {
+  double largest = 0.;
+  if (!knows_pressures_)
+    return largest;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const NodeState &state = states_[i];
+    const PressureHistory &before = pressed_n_[i];
+    if (state.pressure > 0. && !(before.pressure > 0.))
+      largest = std::max(largest, state.normal * (placement_.to_space(before.position) - state.position) /
+                                      nodes_[i].size);
+  }
+  return largest;
+}
+
 bool RigidContact::has_touching_nodes() const {
   return std::any_of(states_.begin(), states_.end(),
                      [](const NodeState &state) { return state.status != ContactStatus::open; });

@@ -86,10 +86,11 @@ void InternalForces::commit() {
     block->commit();
 }
 
-InternalForces::Energies InternalForces::compute_energies(const Vector &displacements) const {
+InternalForces::Energies InternalForces::compute_energies(const Vector &displacements,
+                                                          const Beat beat) const {
   std::array<double, 3> sums{};
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (const auto &summary : summarize(b, displacements)) {
+    for (const auto &summary : summarize(b, displacements, beat)) {
       sums[0] += summary.elastic_energy;
       sums[1] += summary.plastic_work;
       sums[2] += summary.hourglass_energy;
@@ -101,12 +102,12 @@ InternalForces::Energies InternalForces::compute_energies(const Vector &displace
   return {totals[0], totals[1], totals[2]};
 }
 
-std::vector<ElementSummary> InternalForces::summarize(const std::size_t body,
-                                                      const Vector &displacements) const {
+std::vector<ElementSummary> InternalForces::summarize(const std::size_t body, const Vector &displacements,
+                                                      const Beat beat) const {
   std::vector<ElementSummary> result;
   const auto &elements = discretization_.elements(body);
   for (std::size_t e = 0; e < elements.size(); ++e)
-    result.push_back(blocks_[body]->summarize(e, gather(displacements, elements[e].dofs)));
+    result.push_back(blocks_[body]->summarize(e, gather(displacements, elements[e].dofs), beat));
   return result;
 }
 

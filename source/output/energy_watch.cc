@@ -20,6 +20,9 @@ std::string EnergyWatch::advise(const Cause cause) {
     return "the areas of overlapping facets change while friction sticks. Choose 'Facets = bilinear' for "
            "these "
            "contact pairs";
+  case Cause::contact_edges:
+    return "contact makes energy, as where an edge of the second body slides along facets of the first. Swap "
+           "'Body' and 'Second body' of that contact pair, or use smaller facets there";
   case Cause::unstable_law:
     return "the law of an elastic body has lost its ellipticity. Reduce the strains, or choose the "
            "'Kinematics' "

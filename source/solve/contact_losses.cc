@@ -28,6 +28,16 @@ constexpr std::array<Description, 3> descriptions{
 
 double ContactLosses::total() const { return std::accumulate(energies_.begin(), energies_.end(), 0.); }
 
+double ContactLosses::give_back(const double energy) {
+  double left = energy;
+  for (const Cause cause : {crossings, impacts}) {
+    const double part = std::min(left, energies_[cause]);
+    energies_[cause] -= part;
+    left -= part;
+  }
+  return energy - left;
+}
+
 DiagnosticList ContactLosses::watch(const double largest_energy, const double time) {
   if (!(largest_energy > 0.))
     return {};

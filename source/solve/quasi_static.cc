@@ -639,9 +639,10 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
           return report;
       }
     }
-    if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(report) || goes_through_tool(report) ||
-        goes_through(true, report) || turns_too_far(t, report) || penetrates(report) ||
-        contact_is_out_of_balance(t, report) || loses_energy(t, report) || loses_bodies(t, report))
+    if (is_probing_ || is_lost_in_round_off(t, report) || !is_accurate(t, report) ||
+        goes_through_tool(report) || goes_through(true, report) || turns_too_far(t, report) ||
+        penetrates(report) || meets_too_early(t, report) || contact_is_out_of_balance(t, report) ||
+        loses_energy(t, report) || loses_bodies(t, report))
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();
@@ -678,6 +679,9 @@ void QuasiStatic::commit(const double t) {
   const StepWorks works = compute_step_works();
   if (motion_)
     book_contact(contact_loss(t));
+  else
+    contact_balance_ += trial_contact_loss_;
+  element_balance_ += trial_imbalance_;
   has_lost_pace_ = false;
   // When the forces go they leave a measure for what is small.
   lasting_scale_ = std::max(lasting_scale_, 1e-3 * force_scale_);
@@ -751,7 +755,7 @@ void QuasiStatic::commit(const double t) {
   }
   state_.time = t;
   state_.displacements = u_n_;
-  const auto energies = internal_.compute_energies(state_.displacements);
+  const InternalForces::Energies &energies = trial_energies_;
   if (!motion_) { // what the trapezoidal rule misses where elements begin to yield, (Q5)
     const EnergyLedger &before = state_.energies;
     const double dissipated = std::abs(energies.plastic - before.plastic);

@@ -20,6 +20,7 @@ StepWorks QuasiStatic::compute_step_works() const {
 }
 
 bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
+  trial_contact_loss_ = 0.;
   if (motion_ || (contacts_.empty() && body_contacts_.empty()))
     return false;
   Vector increment = trial_, mean = internal_forces_;
@@ -29,7 +30,8 @@ bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
   mean = contact_forces_;
   mean += contact_forces_n_;
   const double contact_work = 0.5 * (mean * increment);
-  const StepEnergy::Works works{contact_loss(t).total,
+  trial_contact_loss_ = contact_loss(t).total;
+  const StepEnergy::Works works{trial_contact_loss_,
                                 std::max(std::abs(internal_work), std::abs(contact_work)), largest_energy_};
   const double floor = round_off_force_ * discretization_.radius();
   const StepEnergy::Verdict verdict = step_energy_.judge(state_.time, t - state_.time, works, floor);
@@ -41,6 +43,7 @@ bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
   text << "contact " << (works.imbalance > 0. ? "loses" : "makes") << " energy in the step to time " << t
        << ": " << percent << " % of all work so far";
   if (verdict == StepEnergy::Verdict::jump) {
+    trial_contact_loss_ = 0.;
     report.diagnostics.push_back(Diagnostic(diagnostic::energy_imbalance, text.str())
                                      .time(t)
                                      .measure("part of all work [%]", percent)
@@ -57,6 +60,23 @@ bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
   report.is_explained = true;
   report.failure = text.str();
   return true;
+}
+
+DiagnosticList QuasiStatic::check_balance() const {
+  constexpr double doubtful = 0.1; // of all work
+  const double floor = round_off_force_ * discretization_.radius();
+  if (motion_ || !(std::abs(contact_balance_) > std::max(doubtful * largest_energy_, floor)))
+    return {};
+  const double percent = 100. * contact_balance_ / largest_energy_;
+  std::ostringstream text;
+  text.precision(3);
+  text << "In the whole run contact " << (percent > 0. ? "has lost " : "has made ") << std::abs(percent)
+       << " % of all work";
+  return {Diagnostic(diagnostic::energy_imbalance, text.str())
+              .time(state_.time)
+              .measure("part of all work [%]", percent)
+              .advice("Forces of contact do not fit its motion: reduce 'Largest step', or use a finer mesh "
+                      "where bodies touch, and check in the field output that they touch where they should")};
 }
 
 } // namespace billet

@@ -5,6 +5,8 @@
 
 #include <Epetra_Vector.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace billet {
@@ -19,6 +21,7 @@ void QuasiStatic::start_motion() {
   });
   support_forces_n_ = support_forces_;
   contact_forces_n_ = contact_forces_;
+  internal_forces_n_ = internal_forces_;
   for (const auto &contact : contacts_)
     state_.tool_loads[contact.tool()] += contact.compute_load();
   check_before_start([&] { update_accelerations(); });
@@ -85,19 +88,6 @@ bool QuasiStatic::extrapolate_motion(const double t) {
   return at_guess <= at_start;
 }
 
-bool QuasiStatic::is_accurate(NewtonReport &report) {
-  if (motion_)
-    motion_->finish_contact(contact_forces_);
-  time_error_ = motion_ ? motion_->step_error(trial_) : 0.;
-  if (time_error_ <= 1.)
-    return true;
-  report.converged = false;
-  std::ostringstream message;
-  message << "the error of the step's time integration is " << time_error_ << " times the 'Error tolerance'";
-  report.failure = message.str();
-  return false;
-}
-
 namespace {
 
 // Part of the largest energy that contact may make, and give back of what it took.
@@ -106,6 +96,59 @@ constexpr double may_make = 0.005;
 constexpr double may_take = 0.01;
 
 } // namespace
+
+bool QuasiStatic::may_be_cut(const double t) const {
+  const auto &stepping = scene_.parameters().time_stepping;
+  constexpr double rounding = 1e-9;
+  return stepping.control == parameters::TimeStepping::Control::automatic &&
+         t - state_.time > stepping.smallest_step * (1. + rounding);
+}
+
+double QuasiStatic::element_imbalance() const {
+  Vector increment = trial_, mean = internal_forces_;
+  increment -= u_n_;
+  mean += internal_forces_n_;
+  const double dissipated = std::abs(trial_energies_.plastic - state_.energies.plastic);
+  const double missed = trial_energies_.elastic + trial_energies_.plastic + trial_energies_.hourglass -
+                        state_.energies.elastic - state_.energies.plastic - state_.energies.hourglass -
+                        0.5 * (mean * increment);
+  return missed - std::clamp(missed, -dissipated, dissipated);
+}
+
+double QuasiStatic::energy_error(const double imbalance) const {
+  constexpr double of_run = 0.02, of_rest = 0.05, always = 1e-4; // of the largest energy; of what is left
+  const double largest = std::max(largest_energy_, 0.5 * std::abs(state_.energies.total()));
+  const double allowed =
+      std::max(always * largest, of_rest * (of_run * largest - std::abs(element_balance_)));
+  return allowed > 0. ? std::abs(imbalance) / allowed : 0.;
+}
+
+bool QuasiStatic::is_accurate(const double t, NewtonReport &report) {
+  trial_energies_ = internal_.compute_energies(trial_ghosted_, Beat::evaluated);
+  time_error_ = 0.;
+  if (!motion_)
+    return true;
+  motion_->finish_contact(contact_forces_);
+  time_error_ = motion_->step_error(trial_);
+  std::ostringstream message;
+  message.precision(3);
+  message << "the error of the step's time integration is " << time_error_ << " times the 'Error tolerance'";
+  trial_imbalance_ = element_imbalance();
+  if (may_be_cut(t)) {
+    const double error = energy_error(trial_imbalance_);
+    if (error > std::max(1., time_error_)) {
+      message.str("");
+      message << "the work of the elements' forces in the step differs from their energy by " << error
+              << " times what is allowed";
+    }
+    time_error_ = std::max(time_error_, error);
+  }
+  if (time_error_ <= 1.)
+    return true;
+  report.converged = false;
+  report.failure = message.str();
+  return false;
+}
 
 QuasiStatic::ContactLoss QuasiStatic::contact_loss(const double t) const {
   const double before = contact_before();
@@ -169,17 +212,35 @@ bool QuasiStatic::contact_is_out_of_balance(const double t, NewtonReport &report
   report.makes_energy =
       !motion_->damps_contact() && contact_balance_ + loss.total < -may_make * largest_energy_;
   // So long a step that bodies meet in it, rather than at its end.
-  const auto &stepping = scene_.parameters().time_stepping;
-  constexpr double rounding = 1e-9;
-  const bool takes_too_much = stepping.control == parameters::TimeStepping::Control::automatic &&
-                              taken_by_contact(loss) - loss.friction > may_take * largest_energy_ &&
-                              t - state_.time > stepping.smallest_step * (1. + rounding);
+  const bool takes_too_much =
+      taken_by_contact(loss) - loss.friction > may_take * largest_energy_ && may_be_cut(t);
   if (!report.makes_energy && !takes_too_much)
     return false;
   report.converged = false;
   report.is_explained = takes_too_much;
   report.failure =
       std::string("contact ") + (report.makes_energy ? "makes" : "takes") + " energy in the step";
+  return true;
+}
+
+bool QuasiStatic::meets_too_early(const double t, NewtonReport &report) {
+  constexpr double most = 0.1; // facet sizes
+  if (!motion_ || !may_be_cut(t))
+    return false;
+  const std::vector<double> closings =
+      of_contacts([](const auto &contact) { return contact.closing_of_new_contacts(); });
+  const double largest =
+      dealii::Utilities::MPI::max(closings.empty() ? 0. : *std::max_element(closings.begin(), closings.end()),
+                                  discretization_.communicator());
+  if (!(largest > most))
+    return false;
+  std::ostringstream text;
+  text.precision(3);
+  text << "nodes close by " << largest << " facet sizes in the step in which they touch, allowed are "
+       << most;
+  report.converged = false;
+  report.is_explained = true;
+  report.failure = text.str();
   return true;
 }
 
@@ -193,6 +254,10 @@ void QuasiStatic::book_contact(const ContactLoss &loss) {
     contact_losses_.add(ContactLosses::crossings, taken);
   contact_balance_ += loss.total - taken;
   state_.energies.numerical += taken;
+  // Areas that change take energy at one time and give it back at another.
+  const double returned = contact_losses_.give_back(std::max(0., -contact_balance_));
+  contact_balance_ += returned;
+  state_.energies.numerical -= returned;
 }
 
 } // namespace billet

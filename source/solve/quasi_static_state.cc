@@ -30,10 +30,11 @@ void QuasiStatic::save(StateWriter &writer) const {
   save_nodal(writer, "support forces", nodes, support_forces_n_);
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
+  save_nodal(writer, "internal forces", nodes, internal_forces_n_);
   if (!motion_) {
     save_nodal(writer, "contact forces", nodes, contact_forces_n_);
-    save_nodal(writer, "internal forces", nodes, internal_forces_n_);
     writer.write("largest energy", {largest_energy_});
+    writer.write("contact balance", {contact_balance_});
   }
   if (!body_frames_.empty())
     writer.write("free modes", {static_cast<double>(support_.n_free)});
@@ -50,7 +51,7 @@ void QuasiStatic::save(StateWriter &writer) const {
     writer.write("kinetic energy", {state_.energies.kinetic});
     save_nodal(writer, "contact forces", nodes, contact_forces_n_);
     writer.write("contact balance", {contact_balance_, contact_losses_.total(), largest_energy_,
-                                     motion_->damps_contact() ? 1. : 0.});
+                                     motion_->damps_contact() ? 1. : 0., element_balance_});
     writer.write("contact losses", contact_losses_.save());
     motion_->save(writer, nodes);
   }
@@ -156,14 +157,17 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
       if (reader.has("contact losses"))
         contact_losses_.load(reader.read("contact losses"));
       largest_energy_ = balance.at(2);
+      element_balance_ = balance.at(4);
       if (balance.at(3) != 0.)
         motion_->damp_contact(contact_forces_n_); // the next step begins with that anew
     }
-    if (!motion_ && reader.has("internal forces")) {
+    if (!motion_ && reader.has("contact balance")) {
       load_nodal(reader, "contact forces", nodes, contact_forces_n_);
-      load_nodal(reader, "internal forces", nodes, internal_forces_n_);
       largest_energy_ = reader.number("largest energy");
+      contact_balance_ = reader.number("contact balance");
     }
+    if (reader.has("internal forces"))
+      load_nodal(reader, "internal forces", nodes, internal_forces_n_);
     load_stabilisation(reader);
     if (report.is_exact && reader.has("probe"))
       reader.in("probe", [&] {

@@ -54,6 +54,12 @@ int main() {
                 "Choose 'Facets = bilinear'"));
   }
   {
+    EnergyWatch watch(EnergyWatch::Balance::is_told);
+    check("of edges that slide on facets, too",
+          tells(watch.check(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::contact_edges)),
+                "Swap 'Body' and 'Second body'"));
+  }
+  {
     EnergyWatch watch(EnergyWatch::Balance::is_told), other(EnergyWatch::Balance::is_told);
     check("and of laws",
           tells(watch.check(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::unstable_law)),

@@ -64,6 +64,7 @@ public:
   /// As RigidContact::penetration().
   Penetration penetration() const { return contact_->penetration(); }
   double excessive_penetration() const { return contact_->excessive_penetration(); }
+  double closing_of_new_contacts() const { return contact_->closing_of_new_contacts(); }
   const std::string &name() const { return pair_.name; }
   /// The part of the motion from these displacements to those (ghosted) in which no node of either body goes
   /// through the other's facets, see FacetPaths. Collective.

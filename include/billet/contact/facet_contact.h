@@ -212,6 +212,9 @@ public:
   Penetration penetration() const;
   /// The same, as part of the reach of the facets that they touch.
   double excessive_penetration() const;
+  /// The most by which a node of this rank closes in the step that presses at its end and did not at its
+  /// start, as part of the size of its facets.
+  double closing_of_new_contacts() const;
 
   /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
   template <class Visit> void visit_touching(const Visit &visit) const {

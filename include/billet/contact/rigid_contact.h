@@ -154,6 +154,9 @@ public:
   Penetration penetration() const;
   /// The same, as part of what is little enough: a fifth of a facet, and 0.4 of the element behind the node.
   double excessive_penetration() const;
+  /// The most by which a node of this rank closes in the step that presses at its end and did not at its
+  /// start, as part of the size of its facets.
+  double closing_of_new_contacts() const;
   /// Whether a node of this rank touches the tool, at the last update().
   bool has_touching_nodes() const;
   /// Whether a node of this rank has gone through the tool, from side to side, in the step, (M38): of tools

@@ -35,11 +35,12 @@ public:
     double plastic = 0.;
     double hourglass = 0.; ///< stored by the stabilisation
   };
-  /// At committed history; on all ranks the same.
-  Energies compute_energies(const Vector &displacements) const;
+  /// At a history and the displacements that belong to it; on all ranks the same.
+  Energies compute_energies(const Vector &displacements, Beat beat = Beat::committed) const;
 
   /// One entry for each owned element of the body, in the order of Discretization::elements().
-  std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements) const;
+  std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements,
+                                        Beat beat = Beat::committed) const;
 
   /// Doubles of history on this rank.
   std::size_t history_size() const;

@@ -62,6 +62,9 @@ struct PointStress {
 };
 using ElementStress = std::array<PointStress, n_element_points>;
 
+/// Whose history: that at the start of the step, or that of the last evaluate().
+enum class Beat { committed, evaluated };
+
 /// All elements of one body on one rank: the same law, history in one array. The law is fixed when the block
 /// is made; nothing is decided per element. History advances in two beats: evaluate() computes the end of the
 /// step from the history at its start, as often as it is called; commit() makes the last evaluation the new
@@ -83,8 +86,9 @@ public:
 
   virtual void commit() = 0;
 
-  /// At committed history and the displacements that belong to it.
-  virtual ElementSummary summarize(std::size_t element, const ElementVectors &displacements) const = 0;
+  /// At a history and the displacements that belong to it.
+  virtual ElementSummary summarize(std::size_t element, const ElementVectors &displacements,
+                                   Beat beat = Beat::committed) const = 0;
 
   /// Doubles of history kept per element, both beats counted.
   virtual std::size_t history_size() const = 0;

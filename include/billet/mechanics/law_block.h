@@ -89,14 +89,15 @@ public:
 
   void commit() override { history_n_ = history_; }
 
-  ElementSummary summarize(const std::size_t element, const ElementVectors &displacements) const override {
+  ElementSummary summarize(const std::size_t element, const ElementVectors &displacements,
+                           const Beat beat) const override {
     ElementSummary summary;
     const Reference &reference = elements_[element];
     Kinematics kinematics;
     if (!Element::compute(reference, displacements, kinematics))
       return summary;
     double reference_volume = 0.;
-    const ElementHistory &histories = history_at(history_n_, element);
+    const ElementHistory &histories = history_at(beat == Beat::committed ? history_n_ : history_, element);
     for (unsigned int q = 0; q < n_points; ++q) {
       const auto &history = histories.points[q];
       const double w = Element::reference_volume(reference, q);

@@ -22,7 +22,14 @@ public:
   static constexpr double doubtful_drift = 0.05;
 
   /// Why energies may fail to balance: what can be done differs.
-  enum class Cause { steps, soft_penalties, sticking_overlaps, unstable_law, inexact_dissipation };
+  enum class Cause {
+    steps,
+    soft_penalties,
+    sticking_overlaps,
+    contact_edges,
+    unstable_law,
+    inexact_dissipation
+  };
   /// In words, and what to do.
   static std::string advise(Cause cause);
 

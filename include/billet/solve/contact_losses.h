@@ -19,6 +19,8 @@ public:
   };
 
   void add(const Cause cause, const double energy) { energies_[cause] += energy; }
+  /// Takes up to this energy back from what areas and impacts have taken; returns how much.
+  double give_back(double energy);
   double of(const Cause cause) const { return energies_[cause]; }
   double total() const;
 

@@ -114,6 +114,8 @@ public:
   DiagnosticList initial_diagnostics() const override;
   /// Messages about stabilised bodies at the end of the run.
   DiagnosticList check_stabilisation() const;
+  /// Of static scenes, at the end of the run: whether contact has lost or made energy all in all.
+  DiagnosticList check_balance() const;
   /// Of static scenes with bodies that are stabilised, or null.
   const ContactStabilisation *stabilisation() const { return stabilisation_.get(); }
   bool solves_iteratively() const override { return linear_->is_iterative(); }
@@ -123,6 +125,10 @@ public:
   const Supports &supports() const { return supports_; }
   /// See PenaltyWatch::has_soft_pairs().
   bool has_soft_penalties() const { return soft_penalties_.has_soft_pairs(); }
+  /// Whether contact between bodies makes most of what the energies of a dynamic scene fail to balance by.
+  bool contact_makes_energy() const {
+    return !body_contacts_.empty() && -contact_balance_ > 0.5 * std::abs(state_.energies.drift());
+  }
 
   /// The state at the end of the last accepted step.
   void save(StateWriter &writer) const;
@@ -165,7 +171,14 @@ private:
   // Of dynamic scenes; at the start, and where forces jump:
   void start_motion();
   void update_accelerations();
-  bool is_accurate(NewtonReport &report);
+  bool is_accurate(double t, NewtonReport &report);
+  /// Whether steps may become smaller.
+  bool may_be_cut(double t) const;
+  /// What the work of the elements' forces in the step misses of their energy, but for what plastic flow
+  /// explains [energy].
+  double element_imbalance() const;
+  /// That as part of what is allowed, (I9).
+  double energy_error(double imbalance) const;
   /// Of contact's forces in the residual.
   double contact_weight() const { return motion_ ? motion_->contact_weight() : 1.; }
   /// Of the contact forces at the start of a step in their mean.
@@ -210,6 +223,9 @@ private:
   double taken_by_contact(const ContactLoss &loss) const;
   /// Whether contact makes energy in the step, or takes so much that the step is too long: then it fails.
   bool contact_is_out_of_balance(double t, NewtonReport &report);
+  /// Whether nodes close by so much, in the step in which they begin to press, that what happens after the
+  /// touch is unknown: then it fails. Of dynamic scenes.
+  bool meets_too_early(double t, NewtonReport &report);
   void book_contact(const ContactLoss &loss);
   void update_largest_energy();
 
@@ -399,9 +415,9 @@ private:
   Vector contact_forces_, contact_forces_n_;   ///< −F_c
   Vector internal_forces_, internal_forces_n_; ///< of static scenes
   Vector bare_forces_n_; ///< what the integrator takes for F_n: support_forces_n_, or without contact
-  // Of dynamic scenes: what contact has taken and not yet given back; what is lost of it; the largest energy
-  // so far.
-  double contact_balance_ = 0.;
+  // What contact has taken and not yet given back, of static scenes in all steps that are no jumps; what is
+  // lost of it in dynamic scenes; the largest energy so far.
+  double contact_balance_ = 0., trial_contact_loss_ = 0.;
   ContactLosses contact_losses_;
   double largest_energy_ = 0.;
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
@@ -414,6 +430,9 @@ private:
   double time_ = 0.;     ///< end of the step that is tried
   double duration_ = 0.; ///< of that step; 0 while its first guess is made
   double time_error_ = 0.;
+  InternalForces::Energies trial_energies_;
+  // Of dynamic scenes: what the work of the elements' forces misses of their energy, in the step and so far.
+  double trial_imbalance_ = 0., element_balance_ = 0.;
   std::vector<double> offsets_, offsets_n_; ///< of all tools, beyond their prescribed motion
   std::vector<double> last_offset_increments_;
   struct ProbedState {
