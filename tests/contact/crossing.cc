@@ -56,6 +56,14 @@ SurfaceSide cylinder(const Point &x, const double radius, const double depth) {
           gap < -depth};
 }
 
+/// The body below z = 0 and a second plane through the y axis, whose normal has this component along z.
+SurfaceSide edge(const Point &x, const double along_z) {
+  const Point normals[2] = {at(0., 0., 1.), at(std::sqrt(1. - along_z * along_z), 0., along_z)};
+  const double gaps[2] = {x * normals[0], x * normals[1]};
+  const std::size_t nearest = gaps[0] > gaps[1] ? 0 : 1;
+  return {gaps[nearest] < 0. ? Side::behind : Side::front, std::abs(gaps[nearest]), normals[nearest], false};
+}
+
 template <class Surface>
 double free_part(const Point &from, const Point &to, const Surface &surface,
                  unsigned int *n_evaluations = nullptr) {
@@ -89,6 +97,16 @@ void check_formulas() {
         tolerance(2.));
   check("plate, from below", std::abs(free_part(at(0., 0., -1.05), at(0., 0., 0.95), thin) - 1.025 / 2.),
         tolerance(2.));
+
+  // Down at 0.05 beside the edge of a block, to where its side is nearer; and of a blade, to its middle.
+  const auto block = [](const Point &x) { return edge(x, -0.1); };
+  check("edge of a block, past its middle", free_part(at(-0.05, 0., 1.), at(-0.05, 0., -0.2), block) == 1.);
+  const double c = -0.9, s = std::sqrt(1. - c * c), middle = 0.05 * s / (1. - c);
+  check(
+      "edge of a blade, to its middle",
+      std::abs(free_part(at(-0.05, 0., 1.), at(-0.05, 0., -1.), [c](const Point &x) { return edge(x, c); }) -
+               (1. + middle) / 2.),
+      tolerance(2.));
 
   const auto half = [](const Point &x) { return half_plane(x, 0.2); };
   check("border, through", std::abs(free_part(at(-0.5, 0., 1.), at(-0.5, 0., -3.), half) - 1.2 / 4.),

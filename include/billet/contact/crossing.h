@@ -42,9 +42,12 @@ double find_free_part(const Locate &locate, const double length, const double re
     return 1.;
   State state = here.side == Side::behind ? State::inside : State::outside;
   dealii::Tensor<1, 3> entry = here.normal;
+  // The other side of a wall or of a sharp wedge. The faces of a block at an edge are no such sides: a node may
+  // be nearer to either.
+  constexpr double opposite = -0.5;
   const auto is_through = [&](const SurfaceSide &there) {
     return (there.side == Side::behind && there.is_too_deep) ||
-           (there.side != Side::beyond && there.normal * entry < 0.);
+           (there.side != Side::beyond && there.normal * entry < opposite);
   };
   constexpr double slack = 0.1; // of the way: jumps are larger
   for (double s = 0.; s < 1.;) {
