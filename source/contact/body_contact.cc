@@ -77,8 +77,7 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   const auto stiffness = compute_stiffness(scene);
   settings.touching_gap *= std::min(1., most_stiffening_);
   contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, stiffness, sizes_);
-  // In a crease of its own a body's nodes go through facets that contact leaves out.
-  if (!scene.parameters().is_explicit() && !pair_.is_self_contact)
+  if (!scene.parameters().is_explicit())
     paths_ = std::make_unique<FacetPaths>(communicator, settings.partners, keys_, facets_, depths_);
 }
 
