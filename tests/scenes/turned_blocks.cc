@@ -43,6 +43,7 @@ void test(const std::string &name, const Facets facets, const Passes passes) {
   parameters::Scene parameters = testing::read_shipped_scene("turned_blocks.prm");
   parameters.pairs[0].facets.value = facets;
   parameters.pairs[0].passes = passes;
+  parameters.time_stepping.initial_step = 1.; // twice the scene's: 10 degrees
   SceneRun blocks(parameters);
   blocks.advance();
   const auto pressed = node_states(blocks);
