@@ -98,15 +98,18 @@ void RigidContact::divide_facets(const Discretization &discretization,
   for (std::size_t f = 0; f < corners.size(); ++f) {
     const auto x = [&](const unsigned int a) { return nodes_[corners[f][a]].reference; };
     const double area = 0.5 * dealii::cross_product_3d(x(3) - x(0), x(2) - x(1)).norm();
-    const std::array<double, 2> values{area / (n_parts[f][0] * n_parts[f][1]), 1.};
+    const unsigned int n = n_parts[f][0] * n_parts[f][1];
+    const std::array<double, 3> values{area / n, 1., n > 1 ? 1. : 0.};
     for (const unsigned int i : corners[f])
-      sums.add(2, nodes_[i].dofs.data(), values.data());
+      sums.add(3, nodes_[i].dofs.data(), values.data());
   }
   sums.compress(dealii::VectorOperation::add);
   Vector ghosted = discretization.make_ghosted_vector();
   ghosted = sums;
-  for (auto &node : nodes_)
+  for (auto &node : nodes_) {
     node.spacing = std::sqrt(ghosted(node.dofs[0]) / ghosted(node.dofs[1]));
+    node.is_divided = ghosted(node.dofs[2]) > 0.;
+  }
 
   std::vector<Facet> whole;
   for (std::size_t f = 0; f < corners.size(); ++f)
@@ -162,6 +165,7 @@ void RigidContact::divide(const std::array<unsigned int, 4> &corners,
       }
       node.reference = dealii::Point<3>(position);
       node.spacing = std::sqrt(area / divided.n_parts);
+      node.is_divided = true;
       grid.push_back(static_cast<unsigned int>(nodes_.size()));
       nodes_.push_back(node);
       points_.push_back(point);
@@ -178,6 +182,22 @@ void RigidContact::divide(const std::array<unsigned int, 4> &corners,
       facets_.push_back(part);
     }
   divided_.push_back(divided);
+}
+
+void RigidContact::harden_springs() {
+  if (!is_explicit_ || pair_.input->has_own_penalty)
+    return;
+  constexpr double hardening = 0.002; // part of what is between points, or of the tool's thickness
+  for (auto &node : nodes_)
+    if (node.is_divided)
+      node.hardening_depth =
+          hardening *
+          (thickness_of_thin_tool_ > 0. ? std::min(node.spacing, thickness_of_thin_tool_) : node.spacing);
+}
+
+double RigidContact::stiffness_ahead(const std::size_t i) const {
+  const double gap = states_[i].gap;
+  return nodes_[i].spring().slope(std::max(0., -gap) + std::max(0., nodes_[i].gap_n - gap));
 }
 
 bool RigidContact::is_far(DividedFacet &divided) {

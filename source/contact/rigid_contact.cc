@@ -20,9 +20,12 @@ namespace {
 /// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
 constexpr double fading_width = 0.05;
 
-/// In explicit scenes what springs hold that is deeper than this part of the facets around a node stands on
-/// an area that does not change: that of the last step in which the node was not so deep.
-constexpr double depth_on_current_areas = 0.1;
+/// In explicit scenes what springs hold that are deeper than this stands on an area that does not change:
+/// that of the last step in which the node was not so deep. None of what springs hold that harden, so that no
+/// energy comes or goes where the normal jumps, as at an edge of the tool.
+template <class Node> double depth_on_current_areas(const Node &node) {
+  return std::isinf(node.hardening_depth) ? 0.1 * node.spacing : 0.;
+}
 
 /// Of a surface whose normal turns like this.
 double largest_curvature(const dealii::Tensor<2, 3> &turning) {
@@ -67,6 +70,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
   }
   friction_ = friction_n_;
   measure_tool();
+  harden_springs();
   remember_positions();
   remember_pressures();
   memory_.set(nodes_.size() * (sizeof(Node) + sizeof(NodeState)) + facets_.size() * sizeof(Facet));
@@ -177,19 +181,19 @@ void RigidContact::update(const NodalVectors &displacements) {
 }
 
 RigidContact::Fading RigidContact::fade(const RigidSurface::Border &border, const double width,
-                                        const double penalty, const double gap) {
+                                        const HardeningSpring &penalty, const double gap) {
   const double q = border.beyond / width, left = 1. - q * q;
   const double slope = -4. * q * left / width, bend = (12. * q * q - 4.) / (width * width); // s′, s″
-  const double depth = std::min(gap, 0.), spring = 0.5 * penalty * depth * depth;
+  const double depth = std::max(-gap, 0.), spring = penalty.energy(depth), pressure = penalty.pressure(depth);
   const Tensor<1, 3> &n = border.normal, &e = border.outward;
   Fading fading;
   fading.share = left * left;
   fading.push = -spring * slope * e;
-  fading.pressure_slope = -penalty * depth * slope * e;
-  fading.tangent = penalty * depth * slope * (dealii::outer_product(n, e) + dealii::outer_product(e, n)) +
+  fading.pressure_slope = pressure * slope * e;
+  fading.tangent = -pressure * slope * (dealii::outer_product(n, e) + dealii::outer_product(e, n)) +
                    spring * (bend * dealii::outer_product(e, e) + slope * border.spreading);
   // |s′|/d <= 4/w², |s″| <= 8/w².
-  fading.stiffness = -2. * penalty * depth * std::abs(slope) + 12. * spring / (width * width);
+  fading.stiffness = 2. * pressure * std::abs(slope) + 12. * spring / (width * width);
   return fading;
 }
 
@@ -271,7 +275,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
     border.normal = placement_.rotation * border.normal;
     border.outward = placement_.rotation * border.outward;
     border.spreading = placement_.rotation * border.spreading * dealii::transpose(placement_.rotation);
-    fading = fade(border, width, node.stiffness.normal, border.gap - lift_of(node));
+    fading = fade(border, width, node.spring(), border.gap - lift_of(node));
     state.share = fading.share;
     state.fading_stiffness = fading.stiffness;
   }
@@ -292,7 +296,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   }
   if constexpr (std::is_same_v<Law, Frictionless>) {
     if (touches) {
-      const double penalty = state.share * node.stiffness.normal;
+      const double penalty = state.share * node.spring().secant(std::max(-state.gap, 0.));
       const FrameTraction t = compute_frictionless_traction(penalty, state.gap);
       state.status = t.status;
       state.pressure = t.pressure;
@@ -353,7 +357,7 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
 
   // A node that enters within the step has slid along the tool for the part φ = g/(g − g_n) of it only.
   ContactStiffness stiffness = node.stiffness;
-  stiffness.normal *= state.share;
+  stiffness.normal = state.share * node.spring().secant(std::max(-state.gap, 0.));
   double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ
   if (!history_n.is_active && node.gap_n > node.touching_gap && state.gap < 0.) {
     fraction = state.gap / (state.gap - node.gap_n);
@@ -490,7 +494,7 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
     // w (Σ w_b v_b)² <= w Σ w_b v_b²
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
       bounds[std::size_t{nodal_stride} * local_nodes_[parent]] +=
-          weight * (area * std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential));
+          weight * (area * std::max(stiffness_ahead(i), nodes_[i].stiffness.tangential));
     });
   });
   add_friction(load);
@@ -501,9 +505,11 @@ void RigidContact::add_crossings(Crossings &crossings) const {
   if (is_removed_ || duration_ == 0.)
     return;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (is_owned_[i])
-      crossings.add(nodes_[i].stiffness.normal * nodes_[i].spacing * nodes_[i].spacing, states_[i].gap,
-                    states_[i].gap - nodes_[i].gap_n);
+    if (is_owned_[i]) {
+      const Node &node = nodes_[i];
+      const double moved = states_[i].gap - node.gap_n;
+      crossings.add(node.spring().slope(moved) * node.spacing * node.spacing, states_[i].gap, moved);
+    }
 }
 
 void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &velocities,
@@ -515,21 +521,20 @@ void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &veloc
     if (!is_owned_[i] || std::abs(states_[i].gap) >= 2. * step * v.norm())
       continue;
     const auto projection = tool_.surface().project(placement_.to_tool(states_[i].position), node.patch);
-    crossings.add(node.stiffness.normal * node.spacing * node.spacing, states_[i].gap,
-                  step * (v * (placement_.rotation * projection.normal)));
+    const double moved = step * (v * (placement_.rotation * projection.normal));
+    crossings.add(node.spring().slope(moved) * node.spacing * node.spacing, states_[i].gap, moved);
   }
 }
 
 double RigidContact::stored_energy(const std::size_t i) const {
   // What augmented tractions hold is no stretch of a spring.
   const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
-  return 0.5 * states_[i].share * nodes_[i].stiffness.normal * gap * gap +
+  return states_[i].share * nodes_[i].spring().energy(gap) +
          (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
 }
 
 RigidContact::Springs RigidContact::springs_of(const std::size_t i, const double energy) const {
-  const double depth = depth_on_current_areas * nodes_[i].spacing;
-  const double limit = 0.5 * nodes_[i].stiffness.normal * depth * depth;
+  const double limit = nodes_[i].spring().energy(depth_on_current_areas(nodes_[i]));
   if (!is_explicit_ || energy <= limit)
     return {energy, energy, 1.};
   const double share = std::sqrt(limit / energy);
@@ -539,14 +544,17 @@ RigidContact::Springs RigidContact::springs_of(const std::size_t i, const double
 void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) {
   const FacetStates states = states_of(facet);
   std::array<double, 4> areas{}, energies{};
-  double depth = 0.; // that goes with the largest energy
+  double depth = 0.;     // that goes with the largest energy
+  double hardening = 1.; // of the stiffest spring
   for (unsigned int a = 0; a < 4; ++a)
     if (states[a]->status != ContactStatus::open) {
       const Springs springs = springs_of(facet.nodes[a]);
       if (springs.share == 1.)
         facet.shallow_areas[a] = not_touching; // what it is here is found below
       energies[a] = springs.on_current_area;
-      depth = std::max(depth, 2. * springs.energy / nodes_[facet.nodes[a]].stiffness.normal);
+      const double stiffness = nodes_[facet.nodes[a]].stiffness.normal;
+      depth = std::max(depth, 2. * springs.energy / stiffness);
+      hardening = std::max(hardening, stiffness_ahead(facet.nodes[a]) / stiffness);
     }
   if (!touches(states))
     return;
@@ -579,15 +587,14 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
     Tensor<1, 3> force = by_area[b];
     load.force += force;
     load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), force);
-    add_bound(nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas * nodes_[i].spacing) *
+    add_bound(hardening * nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas(nodes_[i])) *
               (nodes_[i].spacing + depth));
     if (states[b]->status != ContactStatus::open) {
       if (facet.shallow_areas[b] == not_touching)
         facet.shallow_areas[b] = areas[b];
       force += add_to_load(load, facet, b, areas[b]);
       add_bound(largest_area(facet, b, areas[b]) *
-                (std::max(nodes_[i].stiffness.normal, nodes_[i].stiffness.tangential) +
-                 states[b]->fading_stiffness));
+                (std::max(stiffness_ahead(i), nodes_[i].stiffness.tangential) + states[b]->fading_stiffness));
     }
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
       add_vector(forces.data(), local_nodes_[parent], weight * force);
@@ -617,7 +624,7 @@ double RigidContact::stiffness_against_tool() const {
             ? dealii::cross_product_3d(tool_.rotation_axis(), state.position - placement_.moved_centre())
             : tool_.force_direction();
     const double normal = a * n;
-    sum += area * nodes_[i].stiffness.normal * normal * normal;
+    sum += area * stiffness_ahead(i) * normal * normal;
     if (pair_.has_friction())
       sum += area * nodes_[i].stiffness.tangential * (a * a - normal * normal);
   };

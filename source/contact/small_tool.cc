@@ -40,6 +40,7 @@ bool RigidContact::lets_nodes_through() const {
   // Chords that cut less deep graze it.
   const double deep = 0.1 * thickness_of_thin_tool_, fine = 0.125 * thickness_of_thin_tool_;
   constexpr double middle = 0.45; // beyond it the other side is about as near
+  constexpr double square = 1e-6; // cosine: what lies in one side of a square edge may come in by the other
   const RigidSurface &surface = tool_.surface();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (states_[i].status != ContactStatus::open &&
@@ -55,7 +56,7 @@ bool RigidContact::lets_nodes_through() const {
     if (starts_inside || ends_inside) {
       // From one side to the other; or, deep inside, off the end of the tool to a side: an edge cuts in.
       const double turned = start.exists && end.exists ? start.normal * end.normal : 1.;
-      if (turned < 0. || (turned < 0.5 && std::max(start.gap, end.gap) < -deep))
+      if (turned < -square || (turned < 0.5 && std::max(start.gap, end.gap) < -deep))
         return true;
       continue;
     }

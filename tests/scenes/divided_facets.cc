@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Facets that are divided, since the tool could enter between their nodes: how many parts they have; forces
 // that are those of the stored energy, and together the load on the tool; a uniform pressure that stays a
-// uniform stress; the tangent; and a ball that bounces off the middle of a facet.
+// uniform stress; the tangent; springs that harden; a ball that bounces off the middle of a facet, and a
+// plate that bounces off the edge of a tool.
 #include "billet/contact/facet_division.h"
+#include "billet/contact/hardening_spring.h"
 
 #include "explicit_run.h"
 #include "tangent_check.h"
@@ -48,16 +50,17 @@ void test_parts() {
 
 /// A block on a tool, displaced at will, without a motion.
 struct Pressed {
-  explicit Pressed(const SurfacePart &part)
-      : scene(read(part)), discretization(scene, MPI_COMM_WORLD), nodes(discretization),
+  explicit Pressed(const SurfacePart &part, const bool hardens = true)
+      : scene(read(part, hardens)), discretization(scene, MPI_COMM_WORLD), nodes(discretization),
         contact(scene, 0, discretization, parameters::ContactTangent::consistent), u(nodes.make_vectors()),
         forces(u), bounds(u) {
     contact.bind(nodes);
   }
-  static parameters::Scene read(const SurfacePart &part) {
+  static parameters::Scene read(const SurfacePart &part, const bool hardens) {
     parameters::Scene parameters = testing::read_test_scene("hard_blow.prm");
     parameters.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
     parameters.tools[0].surface = testing::make_surface(part.shape, part.lines);
+    parameters.pairs[0].has_own_penalty = !hardens;
     return parameters;
   }
   ContactLoad press() {
@@ -121,7 +124,7 @@ void test_potential(const std::string &name, const SurfacePart &part) {
 }
 
 void test_patch() {
-  Pressed on_plane({"plane", ""}), on_box(box);
+  Pressed on_plane({"plane", ""}), on_box(box, false);
   for (auto *block : {&on_plane, &on_box}) {
     for (unsigned int node = 0; node < block->nodes.size(); ++node) // it spreads, and sinks in
       add_vector(block->u.data(), node,
@@ -136,6 +139,28 @@ void test_patch() {
   }
   check("uniform pressure on divided facets: that of whole ones", error / largest, 1e-12);
   check("uniform pressure on divided facets: as stiff", bound <= 0.);
+}
+
+/// At d = d_0 the pressure is 2 k d and the slope 4 k; forces and slopes are derivatives.
+void test_hardening() {
+  const HardeningSpring spring{3., 0.5}, linear{3.};
+  check("hardening: as stiff again", std::abs(spring.pressure(0.5) - 3.) + std::abs(spring.slope(0.5) - 12.),
+        1e-15);
+  check("hardening: energy", std::abs(spring.energy(0.5) - 0.5625), 1e-15);
+  testing::WorstError error;
+  for (const double depth : {0.01, 0.3, 0.9, 4.}) {
+    const double h = 1e-4 * depth;
+    const auto slope_of = [&](const auto &function) {
+      return testing::central_difference([&](const double x) { return function(depth + x); }, h);
+    };
+    const double pressure = slope_of([&](const double d) { return spring.energy(d); });
+    const double slope = slope_of([&](const double d) { return spring.pressure(d); });
+    error.add(std::abs(pressure / spring.pressure(depth) - 1.));
+    error.add(std::abs(slope / spring.slope(depth) - 1.));
+  }
+  check("hardening: derivatives", error.value(), 1e-7);
+  check("linear springs", linear.pressure(0.3) == 3. * 0.3 && linear.slope(7.) == 3. &&
+                              linear.energy(0.3) == 0.5 * 3. * 0.3 * 0.3);
 }
 
 void test_tangent() {
@@ -170,6 +195,25 @@ void test_bounce() {
   check("bounce off a facet: it does not pass", run.state().momentum[2] > 0.5 * start);
 }
 
+/// A plate that flies with its edge at the edge of a thin tool, between its nodes. On a mesh three times as
+/// fine it comes back with 0.94 of its momentum.
+void test_edge() {
+  parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
+  scene.bodies[0].mesh.arguments = "4, 1, 4 : 2.02, 0.33, -1.73 : 6.02, 0.43, 2.27 : true";
+  scene.bodies[0].initial_velocity.value = {"-20", "0", "0"};
+  scene.pairs[0].boundary_ids.value = {0, 1, 2, 3, 4, 5};
+  scene.tools[0].surface =
+      testing::make_surface("extruded profile", "set Corners = -2, 0 ; 2, 0 ; 2, 0.1 ; -2, 0.1 ; -2, 0\n"
+                                                "set Outside = right\nset Axis = 0, -1, 0\n"
+                                                "set Direction = 1, 0, 0\nset Length = 4");
+  scene.time_stepping.end_time = 0.04;
+  ExplicitRun run(scene);
+  double start = 0.;
+  run.finish(1e-4, [&] { start = std::min(start, run.state().momentum[0]); });
+  check("edge of a tool: energy", run.worst_drift, 0.03);
+  check("edge of a tool: the plate comes back", run.state().momentum[0] > -0.75 * start);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -179,7 +223,9 @@ int main(int argc, char *argv[]) {
   test_potential("ridge", {"extruded profile", "set Corners = -1, -1 ; 0.23, 0.03 ; 1, -1\n"
                                                "set Axis = 0.05, -1, 0\nset Direction = 1, 0.05, 0"});
   test_patch();
+  test_hardening();
   test_tangent();
   test_bounce();
+  test_edge();
   return testing::exit_code();
 }

@@ -4,6 +4,7 @@
 
 #include "billet/contact/contact_load.h"
 #include "billet/contact/friction_account.h"
+#include "billet/contact/hardening_spring.h"
 #include "billet/contact/status_changes.h"
 #include "billet/contact/step_works.h"
 #include "billet/contact/supporting_point.h"
@@ -232,9 +233,12 @@ private:
     std::array<DofIndex, 3> dofs;
     dealii::Point<3> reference;
     ContactStiffness stiffness;
-    double size;            ///< of the facets around it
-    double reach;           ///< how deep it may be, as part of these facets and of the elements below them
-    double spacing;         ///< of the parts of facets around it; the same where none is divided
+    double size;             ///< of the facets around it
+    double reach;            ///< how deep it may be, as part of these facets and of the elements below them
+    double spacing;          ///< of the parts of facets around it; the same where none is divided
+    bool is_divided = false; ///< a facet around it is
+    double hardening_depth = std::numeric_limits<double>::infinity(); ///< of its normal spring
+    HardeningSpring spring() const { return {stiffness.normal, hardening_depth}; }
     double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
     double gap_n = 0.;      ///< at the start of the step
     unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
@@ -330,6 +334,10 @@ private:
                      const std::vector<std::array<unsigned int, 4>> &corners);
   void divide(const std::array<unsigned int, 4> &corners, const std::array<unsigned int, 2> &n_parts,
               std::uint64_t key);
+  /// Lets springs at divided facets of explicit scenes become stiffer with their depth (M44).
+  void harden_springs();
+  /// As stiff as the normal spring of a node may be at the end of the next step, if that is as long as this.
+  double stiffness_ahead(std::size_t i) const;
   /// Sets points inside a divided facet free that is farther from the tool than they can matter; else false.
   bool is_far(DividedFacet &divided);
   /// Calls add(node of the mesh, weight) for what a node or point hangs on.
@@ -391,7 +399,8 @@ private:
   void apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
                       const FrictionHistory &history_n, FrictionHistory &history) const;
   FrictionRule friction_rule(const Node &node) const;
-  static Fading fade(const RigidSurface::Border &border, double width, double penalty, double gap);
+  static Fading fade(const RigidSurface::Border &border, double width, const HardeningSpring &spring,
+                     double gap);
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   template <class DisplacementOf>

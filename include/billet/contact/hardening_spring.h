@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_HARDENING_SPRING_H
+#define BILLET_CONTACT_HARDENING_SPRING_H
+
+#include <limits>
+
+namespace billet {
+
+/// A penalty spring per area that becomes stiffer with its depth d, (M44):
+///
+///   p = k d (1 + d²/d_0²),   e = ½ k d² (1 + ½ d²/d_0²),   dp/dd = k (1 + 3 d²/d_0²).
+///
+/// It has a potential, and no history. An infinite d_0 makes it linear, to the last bit.
+struct HardeningSpring {
+  double stiffness;                                       ///< k [stress/length]
+  double depth = std::numeric_limits<double>::infinity(); ///< d_0, at which it is twice as stiff [length]
+
+  double secant(const double d) const { return stiffness * (1. + square(d / depth)); }
+  double slope(const double d) const { return stiffness * (1. + 3. * square(d / depth)); }
+  double pressure(const double d) const { return secant(d) * d; }
+  /// Per area [energy/length²].
+  double energy(const double d) const { return 0.5 * stiffness * d * d * (1. + 0.5 * square(d / depth)); }
+
+private:
+  static double square(const double x) { return x * x; }
+};
+
+} // namespace billet
+
+#endif
