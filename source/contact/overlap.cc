@@ -2,6 +2,7 @@
 #include "billet/contact/overlap.h"
 
 #include "billet/contact/facet_overlaps.h"
+#include "billet/contact/faceted_curvature.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 #include "billet/geometry/bilinear_facet.h"
@@ -357,6 +358,7 @@ FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::C
 
 void check_overlap(const Scene &scene, const std::size_t pair, const Discretization &discretization) {
   const BodyPair &bodies = scene.body_pairs()[pair];
+  check_correction(scene, bodies, discretization);
   const MPI_Comm communicator = discretization.communicator();
   std::array<double, 2> sums{}; // area and number of facets
   double least_reach = std::numeric_limits<double>::infinity();

@@ -43,7 +43,7 @@ Overlap find_self_overlap(const Discretization &discretization, std::size_t body
                           const std::vector<unsigned int> &boundary_ids);
 
 /// Throws InputError, with the largest overlap and where it is, if the undeformed bodies of a pair are deeper
-/// in each other than the scene allows. Collective.
+/// in each other than the scene allows, or their faces are not of the surface that it names. Collective.
 void check_overlap(const Scene &scene, std::size_t pair, const Discretization &discretization);
 
 } // namespace billet
