@@ -274,9 +274,6 @@ Overlap find_deepest(const Discretization &discretization, const std::vector<Ten
 
 } // namespace
 
-namespace {
-
-/// The boundary of a body but for its symmetry planes, behind which it goes on. Of this rank.
 std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, const std::size_t body,
                                                  const std::vector<Hold> &holds) {
   std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization, body);
@@ -295,8 +292,6 @@ std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretiz
                facets.end());
   return facets;
 }
-
-} // namespace
 
 Overlap find_overlap(const Discretization &discretization, const std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, const std::size_t other_body,

@@ -18,6 +18,10 @@ double contact_reach(const BoundaryFacet &facet);
 /// distance from the axis, or the centre, is linear between the nodes of an edge.
 FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
 
+/// The boundary of a body but for its symmetry planes, behind which it goes on. Of this rank.
+std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, std::size_t body,
+                                                 const std::vector<Hold> &holds);
+
 /// How deep undeformed bodies are in each other.
 struct Overlap {
   /// Largest distance of a node of one, or a point below its faces, to the surface of the other, inside it
