@@ -702,6 +702,21 @@ private:
   double end_, interval_, last_ = -1.;
 };
 
+/// At the end: added mass that changes the motion.
+DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunReview &review) {
+  constexpr double much = 0.1, slow = 0.05;
+  const double added = problem.added_mass() / problem.mass(), kinetic = review.kinetic_part();
+  if (!(added > much && kinetic > slow))
+    return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "Mass scaling adds " << 100. * added << " % to the mass, and the kinetic energy reaches "
+       << 100. * kinetic << " % of the internal energy";
+  return {Diagnostic(diagnostic::mass_scaling_too_strong, text.str())
+              .measure("added mass / mass", added)
+              .value("kinetic / internal energy", kinetic)};
+}
+
 ExitCode run_explicit(const Scene &scene, const Discretization &discretization, Diagnostics &diagnostics,
                       Resumption *resumption) {
   const parameters::Scene &parameters = scene.parameters();
@@ -863,8 +878,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     if (problem.n_steps() == 0) {
       const double n_steps = events.end() / problem.usual_step();
       outputs.progress.show_number_of_steps(n_steps, problem.usual_step());
-      constexpr double too_many = 1e8;
-      if (n_steps > too_many)
+      if (n_steps > too_many_steps)
         diagnostics.report(
             Diagnostic(diagnostic::many_steps, "The run takes " + std::to_string(n_steps) + " steps")
                 .value("steps", n_steps));
@@ -903,6 +917,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
       return outputs.stop(problem.n_steps(), problem.time(), has_checkpoint);
   }
   diagnostics.report(review.finish());
+  diagnostics.report(check_mass_scaling(problem, review));
   if (errors) {
     ErrorReport report = make_report(*errors, "Reduce 'Safety factor'");
     report.costs = {{"steps taken", problem.n_steps()},

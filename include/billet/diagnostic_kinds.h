@@ -20,7 +20,7 @@ inline const DiagnosticKind tool_smaller_than_facets(
     "Use a finer mesh where the tool touches");
 
 inline const DiagnosticKind
-    many_steps("many-steps", Severity::warning, "The run would take an absurd number of explicit steps.",
+    many_steps("many-steps", Severity::warning, "The run takes more than 1e8 explicit steps.",
                "Check the end time, densities, units and flat elements; 'Mass scaling "
                "step' makes steps longer");
 
@@ -63,6 +63,16 @@ inline const DiagnosticKind implausible_force(
     "implausible-force", Severity::warning,
     "A tool exerts more than ten times the force that the largest section of a body bears as it yields.",
     "Check the units of force and stress, and whether the tool closes on something rigid");
+
+inline const DiagnosticKind
+    implausible_friction("implausible-friction", Severity::warning,
+                         "A friction coefficient is above 1.5. Dry metals have 0.1 to 0.8, rubber about 1.",
+                         "Check whether it is given in per cent");
+
+inline const DiagnosticKind many_turns("many-turns", Severity::note,
+                                       "A tool turns more than four times during the run.",
+                                       "Check that 'Rotation angle' is in radians");
+
 inline const DiagnosticKind
     outline_checked("outline-checked", Severity::note,
                     "A scene of more than 500,000 elements was checked by the outline of its meshes only.",
@@ -95,6 +105,13 @@ inline const DiagnosticKind contact_too_soft(
     "of the energy. Forces of driven tools and supports are too small by that part.",
     "Increase 'Normal penalty' or, in statics, set a smaller 'Penetration tolerance', for all pairs named");
 
+inline const DiagnosticKind tangential_penalty_too_low(
+    "tangential-penalty-too-low", Severity::warning,
+    "Nodes stick to elastic tangential springs that are softer than the bodies: friction is too small by "
+    "more "
+    "than 1 % of the normal force.",
+    "Increase 'Tangential penalty', or leave it out: it is that of the normal direction then");
+
 inline const DiagnosticKind few_contact_nodes(
     "few-contact-nodes", Severity::warning,
     "Fewer than five nodes carry the force of a contact pair, with unequal pressures. The force may be off "
@@ -112,8 +129,13 @@ inline const DiagnosticKind pair_never_touched(
 
 inline const DiagnosticKind
     tool_without_force("tool-without-force", Severity::warning,
-                       "A tool touched nothing during the whole run.",
+                       "No step of the run ended with a force on a tool.",
                        "Check its position, motion, units and the side to which it faces, or remove it");
+
+inline const DiagnosticKind
+    missing_pair("missing-pair", Severity::warning,
+                 "Two bodies, or a body and a tool, go into each other, and no contact pair connects them.",
+                 "Add a contact pair of the two");
 
 inline const DiagnosticKind penalty_too_high(
     "penalty-too-high", Severity::warning,
@@ -129,7 +151,7 @@ inline const DiagnosticKind penalty_reduced(
 inline const DiagnosticKind
     penalty_raised("penalty-raised", Severity::note,
                    "A penalty was raised, since nodes penetrated by more than a tenth of a facet, or 0.4 of "
-                   "an element's thickness; the step was repeated.",
+                   "an element's thickness; the step was repeated. The message names the new value.",
                    "Set 'Normal penalty' to that value from the start");
 
 inline const DiagnosticKind contact_dissipates(
@@ -185,8 +207,8 @@ inline const DiagnosticKind element_unfit_at_start(
     "element-unfit-at-start", Severity::note,
     "At the first loaded step the elements of a body are too stiff or too soft by the given factor. The run "
     "measures it again at the end.",
-    "If the body bends throughout, use 'Element = one point', or bricks that are as long as high, four or "
-    "more through the thickness");
+    "If that stays so until the end: use another element, or bricks that are as long as high, four or more "
+    "through the thickness");
 
 inline const DiagnosticKind pressure_checkerboard(
     "pressure-checkerboard", Severity::warning,
@@ -286,6 +308,12 @@ inline const DiagnosticKind resumed("resumed", Severity::note, "The run continue
 
 inline const DiagnosticKind mass_scaling("mass-scaling", Severity::note,
                                          "How much mass 'Mass scaling step' adds to the bodies.", "");
+
+inline const DiagnosticKind mass_scaling_too_strong(
+    "mass-scaling-too-strong", Severity::warning,
+    "'Mass scaling step' adds more than 10 % of the mass, and the largest kinetic energy is more than 5 % of "
+    "the largest internal energy: inertia that the bodies do not have changes the motion.",
+    "Reduce 'Mass scaling step', or the speed of tools where the process is to be quasi-static");
 
 inline const DiagnosticKind checkpoint_failed("checkpoint-failed", Severity::warning,
                                               "A checkpoint could not be written; the run continues.",

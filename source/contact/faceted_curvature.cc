@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/faceted_curvature.h"
 
+#include "billet/contact/overlap.h"
 #include "billet/diagnostic_kinds.h"
-#include "billet/discretization/boundary_facets.h"
+#include "billet/errors.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/geometry/box_tree.h"
 #include "billet/geometry/facet_bulge.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <unordered_map>
@@ -170,6 +173,65 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
     if (of_rank[0] > result.relative)
       result = {of_rank[1], of_rank[0], of_rank[2], Tensor<1, 3>({of_rank[3], of_rank[4], of_rank[5]})};
   return result;
+}
+
+double tilt_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction) {
+  const Tensor<1, 3> area = facet.area_vector();
+  if (!(area.norm() > 0.))
+    return 0.;
+  Tensor<1, 3> arm;
+  for (const auto &corner : facet.corners)
+    arm += 0.25 * (corner - correction.point);
+  if (correction.kind == parameters::ContactPair::Correction::Kind::cylinder) {
+    const Tensor<1, 3> around = dealii::cross_product_3d(correction.axis, arm);
+    return around.norm() > 0. ? std::abs(area * around) / (area.norm() * around.norm()) : 0.;
+  }
+  return arm.norm() > 0. ? dealii::cross_product_3d(arm, area).norm() / (arm.norm() * area.norm()) : 1.;
+}
+
+void check_correction(const Scene &scene, const BodyPair &pair, const Discretization &discretization) {
+  using Correction = parameters::ContactPair::Correction;
+  if (pair.correction.kind == Correction::Kind::none)
+    return;
+  constexpr double least_part = 0.5;
+  const MPI_Comm communicator = discretization.communicator();
+  const std::string point = pair.correction.kind == Correction::Kind::cylinder ? "axis" : "centre";
+  for (unsigned int side = 0; side < 2; ++side) {
+    std::size_t n_own_facets = 0;
+    const auto facets =
+        collect_facets(discretization, pair.bodies[side], pair.boundary_ids[side], n_own_facets);
+    std::array<double, 4> worst{};      // tilt, position
+    double named = 0., of_normals = 0.; // sums of heights
+    for (const auto &facet : facets) {  // of all ranks
+      BoundaryFacet boundary{};
+      std::copy(facet.corners.begin(), facet.corners.end(), boundary.corners.begin());
+      for (const double height : bulge_of(boundary, pair.correction))
+        named += std::abs(height);
+      for (const double height : facet.bulge)
+        of_normals += std::abs(height);
+      const double tilt = tilt_of(boundary, pair.correction);
+      const Tensor<1, 3> middle = facet::interpolate(facet::weights({0., 0.}), facet.corners);
+      worst = std::max(worst, {tilt, middle[0], middle[1], middle[2]});
+    }
+    // Ranks add in orders of their own, and have to decide alike.
+    named = dealii::Utilities::MPI::max(named, communicator);
+    of_normals = dealii::Utilities::MPI::max(of_normals, communicator);
+    const std::string &body = scene.bodies()[pair.bodies[side]].name;
+    std::ostringstream text;
+    text.precision(3);
+    text << pair.input->origin << ": the face of body '" << body
+         << "' does not lie on the surface that 'Surface correction' names: ";
+    if (worst[0] > largest_tilt)
+      text << "at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ") its normal misses the "
+           << point << " by " << worst[0] << " of the distance to it, allowed is " << largest_tilt;
+    else if (named < least_part * of_normals)
+      text << "the surface rises above the chords by " << 100. * named / of_normals
+           << " % of what normals of neighbouring facets say, allowed are " << 100. * least_part << " %";
+    else
+      continue;
+    text << ". Check the " << point << " and the boundary ids of both bodies";
+    throw InputError(Diagnostic(diagnostic::bad_input, text.str()).body(body).pair(pair.name));
+  }
 }
 
 DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization) {

@@ -2,6 +2,7 @@
 #include "billet/contact/overlap.h"
 
 #include "billet/contact/facet_overlaps.h"
+#include "billet/contact/faceted_curvature.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 #include "billet/geometry/bilinear_facet.h"
@@ -273,9 +274,6 @@ Overlap find_deepest(const Discretization &discretization, const std::vector<Ten
 
 } // namespace
 
-namespace {
-
-/// The boundary of a body but for its symmetry planes, behind which it goes on. Of this rank.
 std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, const std::size_t body,
                                                  const std::vector<Hold> &holds) {
   std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization, body);
@@ -294,8 +292,6 @@ std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretiz
                facets.end());
   return facets;
 }
-
-} // namespace
 
 Overlap find_overlap(const Discretization &discretization, const std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, const std::size_t other_body,
@@ -357,6 +353,7 @@ FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::C
 
 void check_overlap(const Scene &scene, const std::size_t pair, const Discretization &discretization) {
   const BodyPair &bodies = scene.body_pairs()[pair];
+  check_correction(scene, bodies, discretization);
   const MPI_Comm communicator = discretization.communicator();
   std::array<double, 2> sums{}; // area and number of facets
   double least_reach = std::numeric_limits<double>::infinity();

@@ -30,6 +30,12 @@ public:
     }
   }
   void gather(const MPI_Comm communicator) { dealii::Utilities::MPI::max(ends_, communicator, ends_); }
+  /// Of the largest of its faces.
+  double section() const {
+    std::array<double, 3> extents{ends_[0] + ends_[3], ends_[1] + ends_[4], ends_[2] + ends_[5]};
+    std::sort(extents.begin(), extents.end());
+    return extents[1] * extents[2];
+  }
   double diagonal() const {
     return std::hypot(ends_[0] + ends_[3], ends_[1] + ends_[4], ends_[2] + ends_[5]);
   }
@@ -40,9 +46,10 @@ private:
 
 /// What the mesh tells of the scene at its start.
 struct Start {
-  std::vector<double> sizes, speeds; ///< by body
-  double size = 0.;                  ///< of all together
-  std::vector<double> depths;        ///< by pair with a tool [facet sizes]
+  std::vector<double> sizes, speeds, sections; ///< by body
+  std::vector<double> steps;  ///< by body: shortest time in which a wave crosses an element, up to a factor
+  double size = 0.;           ///< of all together
+  std::vector<double> depths; ///< by pair with a tool [facet sizes]
 };
 
 Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator) {
@@ -51,11 +58,19 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
   Start start;
   start.speeds.resize(boxes.size());
   start.depths.resize(scene.pairs().size());
+  start.steps.resize(boxes.size(), std::numeric_limits<double>::infinity());
   for (const auto &cell : mesh.active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
     const std::size_t b = cell->material_id();
     const Body &body = scene.bodies()[b];
+    if (scene.parameters().is_explicit()) {
+      double largest_face = 0.;
+      for (const unsigned int f : cell->face_indices())
+        largest_face = std::max(largest_face, cell->face(f)->measure());
+      start.steps[b] = std::min(start.steps[b], cell->measure() / largest_face /
+                                                    std::sqrt(body.largest_modulus / body.density));
+    }
     for (const unsigned int v : cell->vertex_indices()) {
       boxes[b].add(cell->vertex(v));
       all.add(cell->vertex(v));
@@ -89,17 +104,19 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
   for (Box &box : boxes) {
     box.gather(communicator);
     start.sizes.push_back(box.diagonal());
+    start.sections.push_back(box.section());
   }
   all.gather(communicator);
   start.size = all.diagonal();
   dealii::Utilities::MPI::max(start.speeds, communicator, start.speeds);
   dealii::Utilities::MPI::max(start.depths, communicator, start.depths);
+  dealii::Utilities::MPI::min(start.steps, communicator, start.steps);
   return start;
 }
 
 /// Of the prescribed motion of a tool over the run.
 struct Course {
-  double travel = 0., speed = 0.;
+  double travel = 0., speed = 0., turn = 0.;
 };
 
 Course follow(const Tool &tool, const double end) {
@@ -116,6 +133,7 @@ Course follow(const Tool &tool, const double end) {
       break;
     }
     course.travel = std::max(course.travel, (now.translation - start.translation).norm());
+    course.turn = std::max(course.turn, std::abs(now.rotation_angle - start.rotation_angle));
     course.speed = std::max(course.speed, (now.translation - before.translation).norm() * n_samples / end);
     before = now;
   }
@@ -145,6 +163,68 @@ void check_yield_stress(const Body &body, DiagnosticList &diagnostics) {
         Diagnostic(diagnostic::implausible_yield_stress, ratio("Yield stress / Young's modulus is", part))
             .body(body.name)
             .measure("yield stress / Young's modulus", part));
+}
+
+void check_friction(const parameters::ContactPair &pair, DiagnosticList &diagnostics) {
+  constexpr double most = 1.5;
+  if (pair.friction_coefficient > most)
+    diagnostics.push_back(Diagnostic(diagnostic::implausible_friction,
+                                     ratio("Friction coefficient is", pair.friction_coefficient))
+                              .pair(pair.name)
+                              .measure("friction coefficient", pair.friction_coefficient));
+}
+
+/// With the order of the stable step; the run knows it better.
+void check_number_of_steps(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
+  const double step = std::max(*std::min_element(start.steps.begin(), start.steps.end()),
+                               scene.parameters().explicit_dynamics.scaled_step);
+  const double n_steps = scene.parameters().time_stepping.end_time / step;
+  if (n_steps > too_many_steps)
+    diagnostics.push_back(
+        Diagnostic(diagnostic::many_steps, ratio("Explicit steps of the run: about", n_steps))
+            .value("steps", n_steps));
+}
+
+void check_motion(const Scene &scene, const Tool &tool, const double size, DiagnosticList &diagnostics) {
+  constexpr double far = 10., hardly = 1e-7, turns = 4., pi = 3.14159265358979323846;
+  const Course course = follow(tool, scene.parameters().time_stepping.end_time);
+  const double part = course.travel / size;
+  if (part > far || (part > 0. && part < hardly))
+    diagnostics.push_back(
+        Diagnostic(diagnostic::implausible_travel, ratio("Travel of the tool / size of all bodies is", part))
+            .tool(tool.name())
+            .measure("travel / size", part));
+  if (course.turn > 2. * pi * turns)
+    diagnostics.push_back(
+        Diagnostic(diagnostic::many_turns, ratio("The tool turns by", course.turn) + " rad, " +
+                                               ratio("or", course.turn / (2. * pi)) + " turns")
+            .tool(tool.name())
+            .value("turns", course.turn / (2. * pi)));
+}
+
+/// Forces that are given; those of motions are known at the end of a run.
+void check_force(const Scene &scene, const std::size_t t, const Start &start, DiagnosticList &diagnostics) {
+  constexpr unsigned int n_samples = 200;
+  const Tool &tool = scene.tools()[t];
+  if (tool.control() != Tool::Control::force)
+    return;
+  double force = 0., borne = 0.;
+  for (unsigned int i = 0; i <= n_samples; ++i)
+    try {
+      force = std::max(force, tool.load(scene.parameters().time_stepping.end_time * i / n_samples));
+    } catch (const SolutionFailure &) { // the run will say so when it gets there
+      break;
+    }
+  for (const ContactPair &pair : scene.pairs())
+    if (pair.tool == t)
+      borne = std::max(borne, borne_force(scene.bodies()[pair.body], start.sections[pair.body]));
+  if (borne > 0. && force > many_times_borne * borne)
+    diagnostics.push_back(Diagnostic(diagnostic::implausible_force,
+                                     ratio("The given force of the tool is", force) + ", which is " +
+                                         ratio("", force / borne).substr(1) +
+                                         " times what the largest section of the body bears as it yields")
+                              .tool(tool.name())
+                              .measure("force / (yield stress x section)", force / borne));
 }
 
 void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
@@ -189,6 +269,18 @@ void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagno
 
 } // namespace
 
+double borne_force(const Body &body, const double section) {
+  constexpr double strain = 1.;
+  return section * std::visit(
+                       [&](const auto &hardening) {
+                         if constexpr (std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>)
+                           return body.young_modulus * strain;
+                         else
+                           return hardening.stress(strain);
+                       },
+                       body.material.hardening);
+}
+
 DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &mesh,
                                   const MPI_Comm communicator) {
   const Start start = measure_start(scene, mesh, communicator);
@@ -197,15 +289,15 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
     check_yield_stress(body, diagnostics);
   if (scene.parameters().is_dynamic())
     check_speeds(scene, start, diagnostics);
-  constexpr double far = 10., hardly = 1e-7, deep = 2.;
-  for (const Tool &tool : scene.tools()) {
-    const double part = follow(tool, scene.parameters().time_stepping.end_time).travel / start.size;
-    if (part > far || (part > 0. && part < hardly))
-      diagnostics.push_back(Diagnostic(diagnostic::implausible_travel,
-                                       ratio("Travel of the tool / size of all bodies is", part))
-                                .tool(tool.name())
-                                .measure("travel / size", part));
+  if (scene.parameters().is_explicit())
+    check_number_of_steps(scene, start, diagnostics);
+  for (const auto &pair : scene.parameters().pairs)
+    check_friction(pair, diagnostics);
+  for (std::size_t t = 0; t < scene.tools().size(); ++t) {
+    check_motion(scene, scene.tools()[t], start.size, diagnostics);
+    check_force(scene, t, start, diagnostics);
   }
+  constexpr double deep = 2.;
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     if (start.depths[p] > deep)
       diagnostics.push_back(

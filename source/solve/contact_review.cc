@@ -2,6 +2,7 @@
 #include "billet/solve/contact_review.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/scene/plausibility.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,18 @@
 #include <type_traits>
 
 namespace billet {
+
+namespace {
+
+/// In per cent.
+std::string print_part(const double part) {
+  std::ostringstream text;
+  text.precision(3);
+  text << std::round(1000. * part) / 10.;
+  return text.str();
+}
+
+} // namespace
 
 std::vector<LoadPath> find_load_paths(const std::size_t n_bodies,
                                       const std::vector<std::vector<std::size_t>> &bodies_of) {
@@ -86,12 +99,12 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
     : scene_(scene), discretization_(discretization), tool_forces_(scene.tools().size()) {
   std::vector<std::vector<std::size_t>> bodies_of;
   for (const auto &pair : scene.pairs()) {
-    pairs_.push_back({pair.name, {pair.body}, pair.tool, false, false, 0., 0., {}});
+    pairs_.push_back({pair.name, {pair.body}, pair.tool, false, false, 0., 0., {}, 0.});
     bodies_of.push_back(pairs_.back().bodies);
   }
   for (const auto &pair : scene.body_pairs()) {
     pairs_.push_back(
-        {pair.name, {pair.bodies[0], pair.bodies[1]}, none, pair.is_self_contact, false, 0., 0., {}});
+        {pair.name, {pair.bodies[0], pair.bodies[1]}, none, pair.is_self_contact, false, 0., 0., {}, 0.});
     bodies_of.push_back(pairs_.back().bodies);
   }
   paths_ = find_load_paths(scene.bodies().size(), bodies_of);
@@ -120,6 +133,7 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
       extents[i] = box[i] + box[3 + i];
     std::sort(extents.begin(), extents.end());
     sections_.push_back(extents[1] * extents[2]);
+    lengths_.push_back(extents[2]);
   }
 }
 
@@ -169,6 +183,35 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
           own[6]};
 }
 
+double ContactReview::lost_friction_of(const std::size_t p,
+                                       const std::vector<ContactNodeReport> &reports) const {
+  const bool is_with_tool = p < scene_.pairs().size();
+  const parameters::ContactPair &input =
+      is_with_tool ? *scene_.pairs()[p].input : *scene_.body_pairs()[p - scene_.pairs().size()].input;
+  // Augmentation makes the springs stiffer.
+  if (input.friction_coefficient == 0. || input.penetration_tolerance > 0.)
+    return 0.;
+  double stiffness = std::numeric_limits<double>::infinity(), modulus = 0.;
+  for (const std::size_t body : pairs_[p].bodies) {
+    stiffness = std::min(stiffness, scene_.bodies()[body].material.elastic.shear / lengths_[body]);
+    modulus = std::max(modulus, scene_.bodies()[body].young_modulus);
+  }
+  double lost = 0.;
+  for (const auto &node : reports) {
+    if (node.status != ContactStatus::stick || !(node.pressure > 0.) || !(node.facet_size > 0.))
+      continue;
+    const double spring = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor
+                              ? input.tangential_penalty * modulus / node.facet_size
+                              : input.tangential_penalty;
+    const double traction =
+        std::sqrt(std::max(0., node.traction.norm_square() - node.pressure * node.pressure));
+    const double of_body =
+        std::min(input.friction_coefficient * node.pressure, stiffness / spring * traction);
+    lost += std::max(0., of_body - traction) * node.area;
+  }
+  return lost;
+}
+
 void ContactReview::add(const Solution &solution) {
   constexpr double grown = 1.02; // of the force: the nodes are looked at again
   if (pairs_.empty())
@@ -177,17 +220,20 @@ void ContactReview::add(const Solution &solution) {
   for (std::size_t i = 0; i < tool_forces_.size(); ++i)
     tool_forces_[i] = std::max(tool_forces_[i], state.tool_loads[i].force.norm());
   const auto reports = solution.report_contacts();
-  // Of each pair the energy of its penetrations and its force.
-  std::vector<double> sums(2 * pairs_.size());
-  for (std::size_t p = 0; p < pairs_.size(); ++p)
+  // Of each pair the energy of its penetrations, its force and the friction that it leaves out.
+  std::vector<double> sums(3 * pairs_.size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
     for (const auto &node : reports[p]) {
-      sums[2 * p] += 0.5 * node.pressure * node.penetration * node.area;
-      sums[2 * p + 1] += node.pressure * node.area;
+      sums[3 * p] += 0.5 * node.pressure * node.penetration * node.area;
+      sums[3 * p + 1] += node.pressure * node.area;
     }
+    sums[3 * p + 2] = lost_friction_of(p, reports[p]);
+  }
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     Pair &pair = pairs_[p];
-    const double force = sums[2 * p + 1];
+    const double force = sums[3 * p + 1];
+    pair.lost_friction = std::max(pair.lost_friction, sums[3 * p + 2]);
     // Edges that cross press, too, and are no slave nodes.
     const std::size_t n_with_tools = scene_.pairs().size();
     pair.has_touched = pair.has_touched || force > 0. ||
@@ -204,7 +250,7 @@ void ContactReview::add(const Solution &solution) {
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     double penetration = 0., deformation = ledger.elastic + ledger.plastic + ledger.hourglass;
     for (const std::size_t pair : paths_[i].pairs)
-      penetration += sums[2 * pair];
+      penetration += sums[3 * pair];
     if (paths_[i].bodies.size() < scene_.bodies().size()) {
       deformation = 0.;
       for (const std::size_t body : paths_[i].bodies)
@@ -227,17 +273,22 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
     for (const std::size_t pair : paths_[i].pairs)
       if (pairs_[pair].has_touched)
         names += (names.empty() ? "'" : ", '") + pairs_[pair].name + "'";
+    constexpr double all = 0.99;
     std::ostringstream text;
     text.precision(3);
-    text << "Penetration takes " << std::round(1000. * part) / 10.
-         << " % of the deformation along the load path of " << names
-         << ": forces of driven tools and supports are about that much too small, or displacements under "
-            "given loads "
-         << 1. / (1. - part) << " times too large";
-    diagnostics.push_back(Diagnostic(diagnostic::contact_too_soft, text.str())
-                              .pair(pairs_[paths_[i].pairs.front()].name)
-                              .measure("part", part)
-                              .value("factor", 1. / (1. - part)));
+    text << "Penetration takes " << (part > all ? "more than 99" : print_part(part))
+         << " % of the deformation along the load path of " << names << ": ";
+    if (part > all)
+      text << "the bodies hardly deform, and forces and displacements are those of the penalties alone";
+    else
+      text << "forces of driven tools and supports are about that much too small, or displacements under "
+              "given loads "
+           << 1. / (1. - part) << " times too large";
+    Diagnostic message(diagnostic::contact_too_soft, text.str());
+    message.pair(pairs_[paths_[i].pairs.front()].name).measure("part", part);
+    if (part <= all)
+      message.value("factor", 1. / (1. - part));
+    diagnostics.push_back(message);
   }
 }
 
@@ -245,9 +296,19 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
   for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
     const auto is_of_tool = [t](const Pair &pair) { return pair.tool == t; };
     if (std::none_of(pairs_.begin(), pairs_.end(),
-                     [&](const Pair &pair) { return is_of_tool(pair) && pair.has_touched; }))
-      diagnostics.push_back(Diagnostic(diagnostic::tool_without_force, "The tool touched nothing")
-                                .tool(scene_.tools()[t].name()));
+                     [&](const Pair &pair) { return is_of_tool(pair) && pair.has_touched; })) {
+      const Tool &tool = scene_.tools()[t];
+      std::ostringstream text;
+      text << "No step ended with a force on the tool";
+      const bool is_removed = std::isfinite(tool.removal_time());
+      if (is_removed)
+        text << " before it was removed at time " << tool.removal_time();
+      Diagnostic message(diagnostic::tool_without_force, text.str());
+      if (is_removed)
+        message.advice("Check its position and motion; if it is to act before, reduce 'Initial step' so that "
+                       "steps end earlier");
+      diagnostics.push_back(message.tool(tool.name()));
+    }
   }
   for (const Pair &pair : pairs_) {
     const bool has_idle_tool =
@@ -278,26 +339,28 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
                                 .time(pair.time)
                                 .measure("facet size / radius", spread.coarsest));
     }
+    constexpr double allowed = 0.01;
+    const double lost = pair.largest_force > 0. ? pair.lost_friction / pair.largest_force : 0.;
+    if (lost > allowed) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "Tangential springs are softer than the bodies: friction is too small by up to " << 100. * lost
+           << " % of the normal force";
+      diagnostics.push_back(Diagnostic(diagnostic::tangential_penalty_too_low, text.str())
+                                .pair(pair.name)
+                                .measure("lost friction / normal force", lost));
+    }
   }
 }
 
 void ContactReview::judge_forces(DiagnosticList &diagnostics) const {
-  constexpr double strain = 1., many = 10.;
   for (std::size_t t = 0; t < tool_forces_.size(); ++t) {
     double borne = 0.; // by the strongest body that it may touch
     for (const Pair &pair : pairs_)
-      if (pair.tool == t) {
-        const double stress = std::visit(
-            [](const auto &hardening) {
-              if constexpr (std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>)
-                return std::numeric_limits<double>::infinity();
-              else
-                return hardening.stress(strain);
-            },
-            scene_.bodies()[pair.bodies.front()].material.hardening);
-        borne = std::max(borne, stress * sections_[pair.bodies.front()]);
-      }
-    if (borne > 0. && tool_forces_[t] > many * borne) {
+      if (pair.tool == t)
+        borne = std::max(borne,
+                         borne_force(scene_.bodies()[pair.bodies.front()], sections_[pair.bodies.front()]));
+    if (borne > 0. && tool_forces_[t] > many_times_borne * borne) {
       std::ostringstream text;
       text.precision(3);
       text << "The tool exerts up to " << tool_forces_[t] << ", which is " << tool_forces_[t] / borne
@@ -326,12 +389,12 @@ void ContactReview::save(StateWriter &writer) const {
                    {pair.has_touched ? 1. : 0., pair.largest_force, pair.time, pair.spread.force,
                     pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
                     pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest,
-                    pair.spread.indentation, pair.spread.deformation});
+                    pair.spread.indentation, pair.spread.deformation, pair.lost_friction});
   writer.write("contact review", numbers);
 }
 
 void ContactReview::load(const StateReader &reader) {
-  constexpr std::size_t of_pair = 12;
+  constexpr std::size_t of_pair = 13;
   const std::vector<double> numbers = reader.read("contact review");
   if (numbers.size() !=
       tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size())
@@ -348,6 +411,7 @@ void ContactReview::load(const StateReader &reader) {
     pair.largest_force = next[1];
     pair.time = next[2];
     pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9], next[10], next[11]};
+    pair.lost_friction = next[12];
     next += of_pair;
   }
 }

@@ -94,20 +94,26 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
                          formulation.hourglass_stiffness < 1. && factor * doubtful_factor < 1.;
     if (!counts(b) || !(is_stiff || is_soft))
       continue;
+    // Where hinges yield or inertia counts less of it is left.
+    const bool has_yield = !std::holds_alternative<std::monostate>(scene_.bodies()[b].material.hardening);
     std::ostringstream text;
     text.precision(3);
     text << "Elements 'Element = " << name_of(formulation.element) << "' are "
          << (is_stiff ? factor : 1. / factor) << " times too " << (is_stiff ? "stiff" : "soft")
          << " for this deformation: forces are too " << (is_stiff ? "large" : "small")
          << ", or displacements too " << (is_stiff ? "small" : "large") << ", by "
-         << (is_stiff ? "at least" : "about") << " this factor";
+         << (!is_stiff   ? "about"
+             : has_yield ? "up to"
+                         : "at least")
+         << " this factor";
     Diagnostic message(is_first   ? diagnostic::element_unfit_at_start
                        : is_stiff ? diagnostic::element_too_stiff
                                   : diagnostic::element_too_soft,
                        text.str());
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("factor", factor);
-    if (is_stiff && !is_first)
-      message.advice(advise_on_stiffness(energies_[b], formulation));
+    const std::string advice = is_stiff ? advise_on_stiffness(energies_[b], formulation)
+                                        : std::string(diagnostic::element_too_soft.remedy);
+    message.advice(is_first ? "If that stays so until the end: " + advice : advice);
     diagnostics.push_back(message);
   }
   return diagnostics;

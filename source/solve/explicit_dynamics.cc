@@ -644,9 +644,11 @@ DiagnosticList ExplicitDynamics::check_penalties() {
   dealii::Utilities::MPI::max(maxima, discretization_.communicator(), maxima);
 
   DiagnosticList messages;
+  const EnergyLedger &energies = state_.energies;
+  const double part = energies.total() > 0. ? energies.contact / energies.total() : 0.; // of all pairs
   auto next = maxima.begin() + 1;
   const auto check = [&](const std::string &name, const double displacement) {
-    append(messages, soft_penalties_.check(name, time_, {next[0], next[1]}, displacement));
+    append(messages, soft_penalties_.check(name, time_, {next[0], next[1]}, displacement, part));
     next += 2;
   };
   for (auto &contact : contacts_) {

@@ -21,8 +21,13 @@ DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, c
   const bool is_deep = deepest.of_facet > deep;
   const bool takes_motion = deepest.of_facet > least && deepest.length > much_taken * largest;
   const bool takes_work = is_slow && deepest.of_facet > least && part_of_work > much_taken;
+  // A node that an impact pushes in for a moment, with next to no energy, changes nothing.
+  constexpr double counts = 0.01;
+  const bool was_deep = are_deep_[pair];
+  are_deep_[pair] = is_deep;
+  const bool matters = is_slow || was_deep || part_of_work > counts;
   has_soft_pairs_ = has_soft_pairs_ || is_deep || takes_motion || takes_work;
-  if (!(is_deep || takes_work || (is_slow && takes_motion)))
+  if (!((is_deep && matters) || takes_work || (is_slow && takes_motion)))
     return {};
   std::ostringstream text;
   text.precision(3);

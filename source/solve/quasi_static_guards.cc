@@ -41,8 +41,14 @@ DiagnosticList QuasiStatic::check_penalties() {
     const double part = contact_round_off_force() / force_scale_;
     std::ostringstream text;
     text.precision(2);
-    text << "Round-off of contact's penalties leaves " << part << " of the forces, 'Force tolerance' is "
-         << tolerance << "; up to " << max_stalled_residual << " is accepted";
+    text << "Round-off of contact's penalties may be " << part << " of the forces, 'Force tolerance' is "
+         << tolerance;
+    if (part > 1.)
+      text << ": the forces of the scene are lost in it";
+    else if (part > max_stalled_residual)
+      text << ": forces are known to this part only";
+    else
+      text << "; residuals up to " << max_stalled_residual << " are accepted";
     messages.push_back(Diagnostic(diagnostic::round_off_limits_forces, text.str())
                            .time(time_)
                            .measure("part of the forces", part));

@@ -165,16 +165,22 @@ void QuasiStatic::raise_penalties(const std::vector<double> &factors, NewtonRepo
     if (!(factors[i] > 1.))
       continue;
     stiffen(i, factors[i]);
-    const std::string &name = i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
-                                                   : body_contacts_[i - contacts_.size()]->name();
+    const bool is_tool = i < contacts_.size();
+    const std::size_t n_tools = contacts_.size();
+    const parameters::ContactPair &input =
+        is_tool ? *scene_.pairs()[contacts_[i].pair()].input : *scene_.body_pairs()[i - n_tools].input;
+    const double penalty = input.normal_penalty *
+                           (is_tool ? contacts_[i].stiffening() : body_contacts_[i - n_tools]->stiffening());
+    const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
     std::ostringstream text;
     text.precision(3);
-    text << "The penalty of the pair was raised " << factors[i]
-         << " times, since nodes penetrated too deep with it";
+    text << "The penalty of the pair was raised " << factors[i] << " times, to " << penalty
+         << (is_factor ? " E/h" : "") << ", since nodes penetrated too deep with it";
     report.diagnostics.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
-                                     .pair(name)
+                                     .pair(input.name)
                                      .time(state_.time)
-                                     .value("factor", factors[i]));
+                                     .value("factor", factors[i])
+                                     .measure(is_factor ? "penalty [E/h]" : "penalty", penalty));
   }
   spring_round_off_ = find_spring_round_off();
   evaluate_start();

@@ -4,13 +4,14 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/scene/plausibility.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace billet {
 
 RunReview::RunReview(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), elements_(scene, discretization),
-      contacts_(scene, discretization) {}
+      contacts_(scene, discretization), missing_pairs_(scene, discretization) {}
 
 DiagnosticList RunReview::start() const {
   return check_plausibility(scene_, discretization_.dof_handler().get_triangulation(),
@@ -19,7 +20,11 @@ DiagnosticList RunReview::start() const {
 
 DiagnosticList RunReview::after_step(const Solution &solution, const bool is_last) {
   contacts_.add(solution);
+  const EnergyLedger &energies = solution.state().energies;
+  largest_kinetic_ = std::max(largest_kinetic_, energies.kinetic);
+  largest_internal_ = std::max(largest_internal_, energies.elastic + energies.plastic + energies.hourglass);
   DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
+  append(diagnostics, missing_pairs_.check(solution.state()));
   constexpr double far = 3.; // sizes of the scene
   const double moved = solution.state().displacements.linfty_norm() / (2. * discretization_.radius());
   if (!scene_.parameters().is_dynamic() && moved > far) {
@@ -39,6 +44,7 @@ void RunReview::save(StateWriter &writer) const {
   writer.in("review", [&] {
     elements_.save(writer);
     contacts_.save(writer);
+    writer.write("energies", {largest_kinetic_, largest_internal_});
   });
 }
 
@@ -47,6 +53,11 @@ void RunReview::load(StateReader &reader) {
     reader.in("review", [&] {
       elements_.load(reader);
       contacts_.load(reader);
+      if (reader.has("energies")) {
+        const std::vector<double> largest = reader.read("energies");
+        largest_kinetic_ = largest.at(0);
+        largest_internal_ = largest.at(1);
+      }
     });
 }
 

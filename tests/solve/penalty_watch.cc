@@ -61,7 +61,9 @@ int main() {
     check("a first touch is no matter", look(watch, 1e-2, 2e-2).empty());
     check("one that is deeper is not told, but noticed",
           !watch.has_soft_pairs() && look(watch, 0.05, 0.1).empty() && watch.has_soft_pairs());
-    check("what gives way on is told", tells(look(watch, 0.2, 0.4), "100 % of the largest displacement"));
+    check("a deep node is no matter for a moment", look(watch, 0.2, 0.4).empty());
+    check("what stays deep is told", tells(look(watch, 0.2, 0.4), "100 % of the largest displacement"));
+    check("and what takes energy at once", !watch.check("other", 0.5, {0.2, 0.4}, 4., 0.02).empty());
   }
   {
     billet::Placement from, to;

@@ -3,7 +3,7 @@
 #define BILLET_CONTACT_FACETED_CURVATURE_H
 
 #include "billet/diagnostics.h"
-#include "billet/discretization/discretization.h"
+#include "billet/discretization/boundary_facets.h"
 
 namespace billet {
 
@@ -22,6 +22,20 @@ struct ChordGap {
 /// lie at the same places chords do, too, and nothing is found. Collective; ranks get all faces of the second
 /// body.
 ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pair);
+
+/// The tilt of an undeformed facet against the surface of revolution, or the sphere, that a scene names for
+/// it: the sine of the angle between its normal and the plane through its middle and the axis, or the line to
+/// the centre. 0 for facets of the surface that are symmetric, second order in their angle for others,
+/// whatever the profile of a surface of revolution. If an axis is off by d, the largest tilt is about d/R.
+double tilt_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
+
+/// The largest tilt that counts as a facet of the named surface. Heights above the facet are off by about
+/// that part of themselves.
+constexpr double largest_tilt = 0.1;
+
+/// Throws InputError if the faces of the pair are not of the surface that 'Surface correction' names: facets
+/// tilt too much, or its heights are on average less than half of those of mean nodal normals. Collective.
+void check_correction(const Scene &scene, const BodyPair &pair, const Discretization &discretization);
 
 /// A warning for each pair of two bodies whose chord gap is more than the allowed initial penetration and
 /// more than a fifth of the clearance there. Collective.

@@ -18,6 +18,10 @@ double contact_reach(const BoundaryFacet &facet);
 /// distance from the axis, or the centre, is linear between the nodes of an edge.
 FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
 
+/// The boundary of a body but for its symmetry planes, behind which it goes on. Of this rank.
+std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, std::size_t body,
+                                                 const std::vector<Hold> &holds);
+
 /// How deep undeformed bodies are in each other.
 struct Overlap {
   /// Largest distance of a node of one, or a point below its faces, to the surface of the other, inside it
@@ -43,7 +47,7 @@ Overlap find_self_overlap(const Discretization &discretization, std::size_t body
                           const std::vector<unsigned int> &boundary_ids);
 
 /// Throws InputError, with the largest overlap and where it is, if the undeformed bodies of a pair are deeper
-/// in each other than the scene allows. Collective.
+/// in each other than the scene allows, or their faces are not of the surface that it names. Collective.
 void check_overlap(const Scene &scene, std::size_t pair, const Discretization &discretization);
 
 } // namespace billet

@@ -144,6 +144,7 @@ public:
   double stiffening_left() const;
   /// The same of the tangential ones, whatever augmentation has done; infinite without friction.
   double tangential_stiffening_left() const;
+  double stiffening() const { return stiffening_; } ///< so far
   /// Tangents from now on.
   void set_tangent(const ContactTangent tangent) { tangent_ = tangent; }
   /// All of a scene, which stay where they are: pressure does not fade where another tool goes on.

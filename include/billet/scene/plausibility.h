@@ -8,11 +8,17 @@
 namespace billet {
 
 /// Returns warnings about numbers that do not fit each other, most often since units are mixed: yield
-/// stresses, speeds, the length of the run and of steps, travels of tools, and nodes that start behind a
-/// tool. All are ratios; none has a unit. `mesh`: of all bodies, or of their outlines, each rank its cells.
-/// Collective.
+/// stresses, speeds, the length of the run and of steps, travels and forces of tools, friction, and nodes
+/// that start behind a tool; a note where a tool turns often. All are ratios; none has a unit. `mesh`: of all
+/// bodies, or of their outlines, each rank its cells. Collective.
 DiagnosticList check_plausibility(const Scene &scene, const dealii::Triangulation<3> &mesh,
                                   MPI_Comm communicator);
+
+/// What the largest section of a body bears as it yields at a strain of one, or, of an elastic body, as it is
+/// strained that much [force].
+double borne_force(const Body &body, double section);
+/// Beyond these a force of a tool, and a number of explicit steps, are implausible.
+constexpr double many_times_borne = 10., too_many_steps = 1e8;
 
 /// How many bricks a body has through its thickness, and their shape, where it is thin.
 struct ThinPart {

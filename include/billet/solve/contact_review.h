@@ -65,8 +65,8 @@ struct ForceSpread {
 };
 
 /// Judges contact over a whole run: what penetration makes softer along each load path, pairs that few nodes
-/// carry, facets that are large beside the tool's radius, pairs and tools without contact, forces beyond what
-/// bodies bear.
+/// carry, facets that are large beside the tool's radius, tangential springs that are too soft, pairs and
+/// tools without contact, forces beyond what bodies bear.
 class ContactReview {
 public:
   ContactReview(const Scene &scene, const Discretization &discretization);
@@ -88,10 +88,13 @@ private:
     bool has_touched = false;
     double largest_force = 0., time = 0.; ///< and when
     ForceSpread spread;                   ///< at the largest force
+    double lost_friction = 0.;            ///< largest over the run [force]
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   ForceSpread spread_of(const Pair &pair, const std::vector<ContactNodeReport> &reports) const;
+  /// The friction that soft tangential springs leave out, (L7) of doc/theory.md, on this rank [force].
+  double lost_friction_of(std::size_t pair, const std::vector<ContactNodeReport> &reports) const;
   void judge_pairs(DiagnosticList &diagnostics) const;
   void judge_paths(DiagnosticList &diagnostics) const;
   void judge_forces(DiagnosticList &diagnostics) const;
@@ -104,6 +107,7 @@ private:
   };
   std::map<DofIndex, Images> images_; ///< by first dof, on this rank
   std::vector<double> sections_;      ///< of the bodies: the largest face of the box around [length²]
+  std::vector<double> lengths_;       ///< and the longest edge of that box
   std::vector<Pair> pairs_;           ///< with tools first
   std::vector<LoadPath> paths_;
   std::vector<PathSoftness> softness_; ///< by path

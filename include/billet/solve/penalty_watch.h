@@ -15,8 +15,9 @@ namespace billet {
 /// Says which contact pairs have penalties that are too soft for what presses them, by three signs: nodes a
 /// tenth of a facet deep; or deeper than a fifth of the largest displacement so far, of bodies or of the
 /// pair's tool; or more than a fifth of all work in the pair's springs, as where what is pressed is flat and
-/// moves aside: then the penalty gives way in place of the body. In a blow nodes come in before bodies
-/// deform: there only the first sign is told.
+/// moves aside: then the penalty gives way in place of the body. In an impact nodes come in before bodies
+/// deform: there only the first sign counts, if springs hold 1 % of all energy or nodes stay that deep until
+/// the next check.
 class PenaltyWatch {
 public:
   enum class Motion { slow, sudden };
@@ -33,6 +34,7 @@ public:
 private:
   Motion motion_;
   bool has_soft_pairs_ = false;
+  std::map<std::string, bool> are_deep_;        ///< by pair, at the last check
   std::map<std::string, double> displacements_; ///< by pair, the largest so far [length]
 };
 

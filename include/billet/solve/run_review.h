@@ -4,10 +4,12 @@
 
 #include "billet/solve/contact_review.h"
 #include "billet/solve/element_watch.h"
+#include "billet/solve/missing_pairs.h"
 
 namespace billet {
 
-/// Judges a run by its accepted steps: whether its scene is plausible, its elements and contact fine enough.
+/// Judges a run by its accepted steps: whether its scene is plausible and complete, its elements and contact
+/// fine enough.
 /// All in one place, for both kinds of schemes.
 class RunReview {
 public:
@@ -19,6 +21,10 @@ public:
   DiagnosticList after_step(const Solution &solution, bool is_last);
   /// After the last one. Collective.
   DiagnosticList finish() const;
+
+  /// Largest kinetic energy of the run over the largest internal energy, of deformation; a process is
+  /// quasi-static where that is small.
+  double kinetic_part() const { return largest_internal_ > 0. ? largest_kinetic_ / largest_internal_ : 0.; }
 
   /// By what part forces are too large since elements are too stiff; 0 where none is found so.
   double element_error() const { return elements_.error(); }
@@ -32,6 +38,8 @@ private:
   const Discretization &discretization_;
   ElementWatch elements_;
   ContactReview contacts_;
+  MissingPairs missing_pairs_;
+  double largest_kinetic_ = 0., largest_internal_ = 0.;
 };
 
 } // namespace billet
