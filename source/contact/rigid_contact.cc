@@ -1099,7 +1099,7 @@ void RigidContact::add_released(ContactLoad &load) const {
 
 void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) const {
   struct Sums {
-    double force = 0., slipping = 0., depth = 0., curvature = 0.;
+    double force = 0., slipping = 0., depth = 0., curvature = 0., area = 0.;
     Tensor<1, 3> traction;
   };
   std::vector<Sums> sums(n_mesh_nodes_);
@@ -1112,6 +1112,7 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
       const double force = weight * area * state.pressure;
       sums[parent].force += force;
+      sums[parent].area += force > 0. ? weight * area : 0.;
       sums[parent].depth = std::max(sums[parent].depth, std::abs(state.gap + nodes_[i].lift));
       sums[parent].curvature = std::max(sums[parent].curvature, largest_curvature(state.turning));
       sums[parent].slipping += state.status == ContactStatus::slip ? force : 0.;
@@ -1125,6 +1126,11 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     reports[i].traction = sums[i].traction / reports[i].area;
     reports[i].penetration = sums[i].depth;
     reports[i].curvature = sums[i].curvature;
+    // A fin or an edge that presses on a small part of the facets is as sharp as a radius of that part.
+    constexpr double small = 0.2, smallest = 0.05;
+    const double size = nodes_[i].size, covered = sums[i].area / (size * size);
+    if (covered < small)
+      reports[i].curvature = std::max(reports[i].curvature, 1. / (std::max(covered, smallest) * size));
     reports[i].status = sums[i].slipping > 0.5 * sums[i].force ? ContactStatus::slip : ContactStatus::stick;
   }
 }

@@ -188,8 +188,9 @@ double ContactReview::lost_friction_of(const std::size_t p,
   const bool is_with_tool = p < scene_.pairs().size();
   const parameters::ContactPair &input =
       is_with_tool ? *scene_.pairs()[p].input : *scene_.body_pairs()[p - scene_.pairs().size()].input;
-  // Augmentation makes the springs stiffer.
-  if (input.friction_coefficient == 0. || input.penetration_tolerance > 0.)
+  // Augmentation makes the springs stiffer. Where both are soft, contact is told to be too soft.
+  if (input.friction_coefficient == 0. || input.penetration_tolerance > 0. ||
+      input.tangential_penalty >= input.normal_penalty)
     return 0.;
   double stiffness = std::numeric_limits<double>::infinity(), modulus = 0.;
   for (const std::size_t body : pairs_[p].bodies) {
@@ -236,8 +237,9 @@ void ContactReview::add(const Solution &solution) {
     pair.lost_friction = std::max(pair.lost_friction, sums[3 * p + 2]);
     // Edges that cross press, too, and are no slave nodes.
     const std::size_t n_with_tools = scene_.pairs().size();
-    pair.has_touched = pair.has_touched || force > 0. ||
-                       (p >= n_with_tools && state.body_pair_loads[p - n_with_tools].force.norm() > 0.);
+    const double of_all = p < n_with_tools ? 0. : state.body_pair_loads[p - n_with_tools].force.norm();
+    pair.has_touched = pair.has_touched || force > 0. || of_all > 0.;
+    pair.largest_of_edges = std::max(pair.largest_of_edges, of_all - force);
     if (!(force > grown * pair.largest_force))
       continue;
     pair.largest_force = force;
@@ -329,11 +331,19 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
                                 .time(pair.time)
                                 .value("nodes", spread.effective_nodes()));
     }
+    if (pair.largest_of_edges > pair.largest_force) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "Edges that cross carry up to " << pair.largest_of_edges
+           << ", with two nodes on each side, and all nodes on facets at most " << pair.largest_force;
+      diagnostics.push_back(
+          Diagnostic(diagnostic::few_contact_nodes, text.str()).pair(pair.name).value("nodes", 2.));
+    }
     if (spread.is_coarse_on_curves()) {
       std::ostringstream text;
       text.precision(3);
       text << "Facets that bear " << 100. * spread.on_coarse_curves / spread.force
-           << " % of the force have up to " << spread.coarsest << " times the tool's radius there";
+           << " % of the force have up to " << spread.coarsest << " times the tool's radius or width there";
       diagnostics.push_back(Diagnostic(diagnostic::coarse_on_tool, text.str())
                                 .pair(pair.name)
                                 .time(pair.time)
@@ -389,12 +399,13 @@ void ContactReview::save(StateWriter &writer) const {
                    {pair.has_touched ? 1. : 0., pair.largest_force, pair.time, pair.spread.force,
                     pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
                     pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest,
-                    pair.spread.indentation, pair.spread.deformation, pair.lost_friction});
+                    pair.spread.indentation, pair.spread.deformation, pair.lost_friction,
+                    pair.largest_of_edges});
   writer.write("contact review", numbers);
 }
 
 void ContactReview::load(const StateReader &reader) {
-  constexpr std::size_t of_pair = 13;
+  constexpr std::size_t of_pair = 14;
   const std::vector<double> numbers = reader.read("contact review");
   if (numbers.size() !=
       tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size())
@@ -412,6 +423,7 @@ void ContactReview::load(const StateReader &reader) {
     pair.time = next[2];
     pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9], next[10], next[11]};
     pair.lost_friction = next[12];
+    pair.largest_of_edges = next[13];
     next += of_pair;
   }
 }

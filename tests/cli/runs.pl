@@ -329,7 +329,7 @@ check 'a penalty that leaves nothing but round-off of the forces ends the run, a
 check 'one that leaves a ten-thousandth is accepted, and told', sub {
   my $exact = billet('top on die: Normal penalty = 1e4');
   my $folder = billet('top on die: Normal penalty = 1e9');
-  return $said !~ /^warning\[round-off-limits-forces\]: .* up to 0\.02 is accepted/m ? "says $said" : near('force', force($folder, 'die'), force($exact, 'die'), 1e-3);
+  return $said !~ /^warning\[round-off-limits-forces\]: .* residuals up to 0\.02 are accepted/m ? "says $said" : near('force', force($folder, 'die'), force($exact, 'die'), 1e-3);
 };
 check 'where nothing touches there is no round-off to tell of', sub {
   billet('Motion: Translation = 0 ; 0 ; ramp & top on die: Normal penalty = 1e8');
@@ -343,7 +343,7 @@ check "a penalty that takes the die's motion gives a warning, and the summary sa
 };
 check 'and what it makes of the force, too', sub {
   billet('top on die: Normal penalty = 1e-3');
-  return $said =~ /^warning\[contact-too-soft\]: Penetration takes 9[\d.]+ % of the deformation along the load path of 'top on die'/m ? '' : "says $said";
+  return $said =~ /^warning\[contact-too-soft\]: Penetration takes more than 99 % of the deformation along the load path of 'top on die'/m ? '' : "says $said";
 };
 check 'so in explicit scenes', sub {
   billet('hammer on block: Normal penalty = 1e-6', base => $impact);

@@ -42,8 +42,8 @@ double find_free_part(const Locate &locate, const double length, const double re
     return 1.;
   State state = here.side == Side::behind ? State::inside : State::outside;
   dealii::Tensor<1, 3> entry = here.normal;
-  // The other side of a wall or of a sharp wedge. The faces of a block at an edge are no such sides: a node may
-  // be nearer to either.
+  // The other side of a wall or of a sharp wedge. The faces of a block at an edge are no such sides: a node
+  // may be nearer to either.
   constexpr double opposite = -0.5;
   const auto is_through = [&](const SurfaceSide &there) {
     return (there.side == Side::behind && there.is_too_deep) ||

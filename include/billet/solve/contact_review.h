@@ -89,6 +89,7 @@ private:
     double largest_force = 0., time = 0.; ///< and when
     ForceSpread spread;                   ///< at the largest force
     double lost_friction = 0.;            ///< largest over the run [force]
+    double largest_of_edges = 0.;         ///< force that edges carry, at least [force]
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
