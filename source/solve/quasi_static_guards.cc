@@ -12,6 +12,13 @@
 
 namespace billet {
 
+namespace {
+
+/// Part of the forces that round-off may take without a word, whatever tolerance the scene asks for.
+constexpr double notable_round_off = 1e-8;
+
+} // namespace
+
 DiagnosticList QuasiStatic::check_penalties() {
   DiagnosticList messages;
   const double displacement = u_n_.linfty_norm();
@@ -37,7 +44,8 @@ DiagnosticList QuasiStatic::check_penalties() {
     look(body_contacts_[i]->name(), body_contacts_[i]->penetration(), displacement,
          state_.body_pair_loads[i].stored_energy);
   const double tolerance = scene_.parameters().solver.force_tolerance;
-  if (force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
+  if (force_scale_ > 0. &&
+      contact_round_off_force() > std::max(tolerance, notable_round_off) * force_scale_) {
     const double part = contact_round_off_force() / force_scale_;
     std::ostringstream text;
     text.precision(2);
@@ -98,7 +106,7 @@ DiagnosticList QuasiStatic::check_round_off(const double part) const {
   const double tolerance = scene_.parameters().solver.force_tolerance * std::max(1., accuracy_);
   // Bodies that nothing acts on yet have no other forces than round-off, nor have those in flight.
   const bool is_loaded = !motion_ && force_scale_ > 0.1 * round_off_force_;
-  if (!is_loaded || part <= tolerance)
+  if (!is_loaded || part <= std::max(tolerance, notable_round_off))
     return {};
   std::ostringstream text;
   text.precision(2);
