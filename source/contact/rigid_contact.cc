@@ -1099,7 +1099,7 @@ void RigidContact::add_released(ContactLoad &load) const {
 
 void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) const {
   struct Sums {
-    double force = 0., slipping = 0., depth = 0., curvature = 0., area = 0.;
+    double force = 0., slipping = 0., depth = 0., curvature = 0.;
     Tensor<1, 3> traction;
   };
   std::vector<Sums> sums(n_mesh_nodes_);
@@ -1112,7 +1112,6 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
       const double force = weight * area * state.pressure;
       sums[parent].force += force;
-      sums[parent].area += force > 0. ? weight * area : 0.;
       sums[parent].depth = std::max(sums[parent].depth, std::abs(state.gap + nodes_[i].lift));
       sums[parent].curvature = std::max(sums[parent].curvature, largest_curvature(state.turning));
       sums[parent].slipping += state.status == ContactStatus::slip ? force : 0.;
@@ -1126,11 +1125,9 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     reports[i].traction = sums[i].traction / reports[i].area;
     reports[i].penetration = sums[i].depth;
     reports[i].curvature = sums[i].curvature;
-    // A fin or an edge that presses on a small part of the facets is as sharp as a radius of that part.
-    constexpr double small = 0.2, smallest = 0.05;
-    const double size = nodes_[i].size, covered = sums[i].area / (size * size);
-    if (covered < small)
-      reports[i].curvature = std::max(reports[i].curvature, 1. / (std::max(covered, smallest) * size));
+    // A tool that is thin beside the facets is as sharp as a radius of half its thickness.
+    if (thickness_of_thin_tool_ > 0. && thickness_of_thin_tool_ < 0.5 * nodes_[i].size)
+      reports[i].curvature = std::max(reports[i].curvature, 2. / thickness_of_thin_tool_);
     reports[i].status = sums[i].slipping > 0.5 * sums[i].force ? ContactStatus::slip : ContactStatus::stick;
   }
 }
@@ -1148,6 +1145,17 @@ std::vector<ContactNodeReport> RigidContact::report() const {
     for_each_parent(
         i, [&](const unsigned int parent, const double weight) { reports[parent].area += weight * area; });
   });
+  // Along the sides of long facets the tool may turn by more than over the root of their area.
+  constexpr std::array<std::array<unsigned int, 2>, 4> sides{{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
+  for (const auto &facet : facets_)
+    for (const auto &side : sides) {
+      const unsigned int a = facet.nodes[side[0]], b = facet.nodes[side[1]];
+      for (const unsigned int i : {a, b})
+        if (a < n_mesh_nodes_ && b < n_mesh_nodes_ && states_[i].pressure > 0.)
+          reports[i].curvature = std::max(
+              reports[i].curvature,
+              (states_[i].turning * (states_[a].position - states_[b].position)).norm() / nodes_[i].size);
+    }
   if (!divided_.empty())
     average_over_points(reports);
   return reports;

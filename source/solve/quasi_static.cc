@@ -512,7 +512,9 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     report.append_anew(attempt_step(t, previous_step));
   }
   bool may_accept_stalled = report.is_stalled;
-  if (!report.converged && !(messages = soften_augmented_contacts()).empty())
+  // Steps of motion that have converged, and are too long, need shorter ones.
+  if (!report.converged && !(motion_ && report.is_explained) &&
+      !(messages = soften_augmented_contacts()).empty())
     report.append_anew(attempt_step(t, previous_step));
   if (!report.converged && !report.is_explained && !report.iterations.empty() && has_stiff_contacts()) {
     is_led_by_softer_ = true;

@@ -117,7 +117,9 @@ double QuasiStatic::element_imbalance() const {
 
 double QuasiStatic::energy_error(const double imbalance) const {
   constexpr double of_run = 0.02, of_rest = 0.05, always = 1e-4; // of the largest energy; of what is left
-  const double largest = std::max(largest_energy_, 0.5 * std::abs(state_.energies.total()));
+  const double of_elements = trial_energies_.elastic + trial_energies_.plastic + trial_energies_.hourglass;
+  const double largest =
+      std::max({largest_energy_, 0.5 * std::abs(state_.energies.total()), std::abs(of_elements)});
   const double allowed =
       std::max(always * largest, of_rest * (of_run * largest - std::abs(element_balance_)));
   return allowed > 0. ? std::abs(imbalance) / allowed : 0.;
@@ -146,7 +148,8 @@ bool QuasiStatic::is_accurate(const double t, NewtonReport &report) {
   if (time_error_ <= 1.)
     return true;
   report.converged = false;
-  report.failure = message.str();
+  report.is_explained = true;
+  report.failure = message.str() + ". Try a smaller 'Smallest step' or a larger 'Error tolerance'";
   return false;
 }
 
