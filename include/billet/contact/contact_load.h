@@ -63,8 +63,8 @@ struct ContactNodeReport {
   double area; ///< this rank's share
   dealii::Tensor<1, 3> traction;
   double penetration = 0.; ///< where it presses: into the surface itself, whatever augmentation has done
-  double facet_size = 0.; ///< of the facets around it
-  double curvature = 0.;  ///< turn of the tool along a facet there, over that size [1/length]
+  double facet_size = 0.;  ///< of the facets around it
+  double curvature = 0.;   ///< turn of the tool along a facet there, over that size [1/length]
 };
 
 } // namespace billet
