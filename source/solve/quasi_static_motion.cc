@@ -134,14 +134,15 @@ bool QuasiStatic::is_accurate(const double t, NewtonReport &report) {
   time_error_ = motion_->step_error(trial_);
   std::ostringstream message;
   message.precision(3);
-  message << "the error of the step's time integration is " << time_error_ << " times the 'Error tolerance'";
+  message << "the error of the step's time integration is " << time_error_
+          << " times the 'Error tolerance'. Try a smaller 'Smallest step' or a larger 'Error tolerance'";
   trial_imbalance_ = element_imbalance();
   if (may_be_cut(t)) {
     const double error = energy_error(trial_imbalance_);
     if (error > std::max(1., time_error_)) {
       message.str("");
       message << "the work of the elements' forces in the step differs from their energy by " << error
-              << " times what is allowed";
+              << " times what is allowed. Try a smaller 'Smallest step'";
     }
     time_error_ = std::max(time_error_, error);
   }
@@ -149,7 +150,7 @@ bool QuasiStatic::is_accurate(const double t, NewtonReport &report) {
     return true;
   report.converged = false;
   report.is_explained = true;
-  report.failure = message.str() + ". Try a smaller 'Smallest step' or a larger 'Error tolerance'";
+  report.failure = message.str();
   return false;
 }
 
