@@ -878,7 +878,7 @@ ExitCode run_explicit(const Scene &scene, const Discretization &discretization, 
     if (problem.n_steps() == 0) {
       const double n_steps = events.end() / problem.usual_step();
       outputs.progress.show_number_of_steps(n_steps, problem.usual_step());
-      if (n_steps > too_many_steps)
+      if (n_steps > too_many_steps && !diagnostics.has(diagnostic::many_steps))
         diagnostics.report(
             Diagnostic(diagnostic::many_steps, "The run takes " + std::to_string(n_steps) + " steps")
                 .value("steps", n_steps));

@@ -84,6 +84,12 @@ inline const DiagnosticKind
                      "there, and they fail early.",
                      "Mend the mesh: no inner angle of a face may exceed 180 degrees");
 
+inline const DiagnosticKind inverted_at_end(
+    "inverted-at-end", Severity::warning,
+    "At the end of the run more than a twentieth of the elements of a body is inside out at a corner: it "
+    "deforms as its mesh does, not as its material.",
+    "Use bricks that are longer in the direction in which they are compressed, or a finer mesh");
+
 inline const DiagnosticKind faceted_curvature(
     "faceted-curvature", Severity::warning,
     "Two curved faces fit each other, but the chords of their facets do not: they touch only here and there, "
@@ -188,7 +194,8 @@ inline const DiagnosticKind
 inline const DiagnosticKind element_too_stiff(
     "element-too-stiff", Severity::warning,
     "The elements of a body lock: the displacements store more energy in them than in elements without "
-    "parasitic shear. Forces are too large, or displacements too small, by at least the given factor.",
+    "parasitic shear. Forces are too large, or displacements too small, by the given factor: by at least it "
+    "in elastic bodies, by up to it in bodies that yield.",
     "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
 
 inline const DiagnosticKind element_too_soft("element-too-soft", Severity::warning,

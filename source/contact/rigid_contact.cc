@@ -460,6 +460,14 @@ template <class Add> void RigidContact::for_each_area(const Add &add) const {
   });
 }
 
+template <class Add> void RigidContact::for_each_counted_area(const Add &add) const {
+  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
+    const double counted = counted_area(facet, corner, area, springs_of(facet.nodes[corner]));
+    if (counted > 0.)
+      add(facet.nodes[corner], counted);
+  });
+}
+
 template <class Add> void RigidContact::for_each_near(const Add &add) const {
   for (unsigned int i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
@@ -1107,7 +1115,7 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
   for (const auto &divided : divided_)
     for (const unsigned int corner : divided.corners)
       has_points[corner] = true;
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
       const double force = weight * area * state.pressure;
@@ -1141,7 +1149,7 @@ std::vector<ContactNodeReport> RigidContact::report() const {
                        state.pressure > 0. ? std::abs(state.gap + nodes_[i].lift) : 0., nodes_[i].size,
                        state.pressure > 0. ? largest_curvature(state.turning) : 0.});
   }
-  for_each_area([&](const unsigned int i, const double area) {
+  for_each_counted_area([&](const unsigned int i, const double area) {
     for_each_parent(
         i, [&](const unsigned int parent, const double weight) { reports[parent].area += weight * area; });
   });

@@ -12,29 +12,36 @@ using dealii::Tensor;
 
 namespace {
 
-/// The smallest det ∂x/∂ξ of the corners, over that of a cube of the element's volume.
-double smallest_corner_jacobian(const CellIterator &cell) {
+/// The smallest det ∂x/∂ξ of the corners, over that of a cube of the undeformed element's volume.
+double smallest_corner_jacobian(const Element &element, const Vector *displacements) {
+  const CellIterator &cell = element.cell;
+  std::array<Tensor<1, 3>, n_element_nodes> x;
+  for (unsigned int v = 0; v < n_element_nodes; ++v) {
+    x[v] = cell->vertex(v);
+    for (unsigned int i = 0; displacements != nullptr && i < 3; ++i)
+      x[v][i] += (*displacements)(element.dofs[std::size_t{3} * v + i]);
+  }
   double smallest = std::numeric_limits<double>::infinity();
   for (unsigned int v = 0; v < n_element_nodes; ++v) {
     std::array<Tensor<1, 3>, 3> edges;
     for (unsigned int i = 0; i < 3; ++i) { // the corners of an axis' ends differ in one bit
       const unsigned int bit = 1U << i, high = v | bit, low = v & ~bit;
-      edges[i] = cell->vertex(high) - cell->vertex(low);
+      edges[i] = x[high] - x[low];
     }
     smallest = std::min(smallest, dealii::cross_product_3d(edges[0], edges[1]) * edges[2]);
   }
   return smallest / cell->measure();
 }
 
-} // namespace
-
-DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization) {
+/// Reports bodies of which more than this part of the elements is so.
+DiagnosticList find(const Scene &scene, const Discretization &discretization, const Vector *displacements,
+                    const DiagnosticKind &kind, const double part) {
   DiagnosticList diagnostics;
   constexpr double rounding = 1e-9;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     std::array<double, 5> own{}; // how many, the worst, where
     for (const auto &element : discretization.elements(b)) {
-      const double jacobian = smallest_corner_jacobian(element.cell);
+      const double jacobian = smallest_corner_jacobian(element, displacements);
       if (!(jacobian < -rounding))
         continue;
       own[0] += 1.;
@@ -51,18 +58,33 @@ DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &d
       if (of_rank[1] < worst[1])
         worst = of_rank;
     }
-    if (n == 0.)
+    const std::size_t all =
+        dealii::Utilities::MPI::sum(discretization.elements(b).size(), discretization.communicator());
+    if (!(n > part * static_cast<double>(all)))
       continue;
     std::ostringstream text;
     text << n << (n == 1. ? " element is" : " elements are")
-         << " inside out at a corner; the worst has a Jacobian of " << worst[1] << " times its volume there";
-    diagnostics.push_back(Diagnostic(diagnostic::inverted_corners, text.str())
+         << " inside out at a corner; the worst has a Jacobian of " << worst[1] << " times its "
+         << (displacements != nullptr ? "undeformed volume" : "volume") << " there";
+    diagnostics.push_back(Diagnostic(kind, text.str())
                               .body(scene.bodies()[b].name)
                               .at(Tensor<1, 3>({worst[2], worst[3], worst[4]}))
                               .value("elements", n)
                               .measure("Jacobian [volume]", worst[1]));
   }
   return diagnostics;
+}
+
+} // namespace
+
+DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization) {
+  return find(scene, discretization, nullptr, diagnostic::inverted_corners, 0.);
+}
+
+DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization,
+                                     const Vector &displacements) {
+  constexpr double few = 0.05; // as in folds: they are wrong for themselves alone
+  return find(scene, discretization, &displacements, diagnostic::inverted_at_end, few);
 }
 
 } // namespace billet

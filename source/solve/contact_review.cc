@@ -246,11 +246,11 @@ void ContactReview::add(const Solution &solution) {
     pair.time = state.time;
     pair.spread = spread_of(pair, reports[p]);
     const EnergyLedger &energies = state.energies;
-    pair.spread.deformation = energies.elastic + energies.plastic + energies.hourglass + energies.contact;
+    pair.spread.deformation = energies.of_elements() + energies.contact;
   }
   const EnergyLedger &ledger = state.energies;
   for (std::size_t i = 0; i < paths_.size(); ++i) {
-    double penetration = 0., deformation = ledger.elastic + ledger.plastic + ledger.hourglass;
+    double penetration = 0., deformation = ledger.of_elements();
     for (const std::size_t pair : paths_[i].pairs)
       penetration += sums[3 * pair];
     if (paths_[i].bodies.size() < scene_.bodies().size()) {

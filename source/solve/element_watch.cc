@@ -122,7 +122,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
 DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_last) {
   constexpr double growth = 2., still_loaded = 0.5;
   const EnergyLedger &ledger = state.energies;
-  const double energy = ledger.elastic + ledger.plastic + ledger.hourglass;
+  const double energy = ledger.of_elements();
   const bool is_static = !scene_.parameters().is_dynamic(), is_first = compared_energy_ == 0.;
   if (std::isfinite(energy) && energy > 0. &&
       (energy > growth * compared_energy_ ||

@@ -259,6 +259,7 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
   constexpr double part = 0.1; // of a facet
   const RigidSurface &surface = scene_.tools()[couple.other].surface();
   const std::vector<Node> &nodes = nodes_[couple.body];
+  const bool is_first = couple.is_in_front.empty();
   std::array<double, 5> own{}; // relative, depth, position
   std::vector<bool> is_in_front(nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -267,16 +268,41 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
     if (!projection.exists)
       continue;
     const double allowed = part * nodes[n].facet_size;
-    const bool was_in_front = !couple.is_in_front.empty() && couple.is_in_front[n];
-    // What comes in little by little stays in front until it is in.
+    // What comes in little by little stays in front until it is in; where a run resumes it may have begun.
+    const bool was_in_front = is_first ? scene_.parameters().restart.is_wanted() : couple.is_in_front[n];
     is_in_front[n] = projection.gap >= 0. || (was_in_front && projection.gap > -allowed);
-    if (was_in_front && projection.gap <= -allowed)
+    if (!is_first && was_in_front && projection.gap <= -allowed)
       own = std::max(own, {-projection.gap / allowed, -projection.gap, x[0], x[1], x[2]});
   }
   couple.is_in_front = std::move(is_in_front);
   const auto of_ranks = dealii::Utilities::MPI::all_gather(discretization_.communicator(), own);
   const auto deepest = *std::max_element(of_ranks.begin(), of_ranks.end());
   return {deepest[1], deepest[0], Tensor<1, 3>({deepest[2], deepest[3], deepest[4]})};
+}
+
+std::string MissingPairs::describe_body(const Couple &couple) const {
+  return "body '" + scene_.bodies()[couple.other].name + "'";
+}
+
+std::string MissingPairs::describe_tool(const Couple &couple) const {
+  return "tool '" + scene_.tools()[couple.other].name() + "'";
+}
+
+std::string MissingPairs::name_of(const Couple &couple, const std::string &other) const {
+  return scene_.bodies()[couple.body].name + " and " + other + "\n";
+}
+
+void MissingPairs::save(StateWriter &writer) const { writer.write_text("missing pairs", told_); }
+
+void MissingPairs::load(const StateReader &reader) {
+  told_ = reader.read_text("missing pairs");
+  const auto is_told = [&](const std::string &name) {
+    return ("\n" + told_).find("\n" + name) != std::string::npos;
+  };
+  for (Couple &couple : bodies_)
+    couple.is_open = couple.is_open && !is_told(name_of(couple, describe_body(couple)));
+  for (Couple &couple : tools_)
+    couple.is_open = couple.is_open && !is_told(name_of(couple, describe_tool(couple)));
 }
 
 DiagnosticList MissingPairs::check(const SolutionState &state) {
@@ -288,6 +314,7 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
   const auto boxes = boxes_around(positions);
   const auto report = [&](Couple &couple, const std::string &other, const Deepest &deepest) {
     couple.is_open = false;
+    told_ += name_of(couple, other);
     const std::string &body = scene_.bodies()[couple.body].name;
     std::ostringstream text;
     text.precision(3);
@@ -302,9 +329,8 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
   for (Couple &couple : bodies_)
     if (couple.is_open)
       if (const auto deepest = find_overlap(couple, positions, boxes, &state.displacements)) {
-        const std::string &other = scene_.bodies()[couple.other].name;
-        report(couple, "body '" + other + "'", *deepest);
-        diagnostics.back().body(other);
+        report(couple, describe_body(couple), *deepest);
+        diagnostics.back().body(scene_.bodies()[couple.other].name);
       }
   for (Couple &couple : tools_) {
     const Tool &tool = scene_.tools()[couple.other];
@@ -312,7 +338,7 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
       continue;
     const Deepest deepest = enter_tool(couple, positions, state.placements[couple.other]);
     if (deepest.depth > 0.) {
-      report(couple, "tool '" + tool.name() + "'", deepest);
+      report(couple, describe_tool(couple), deepest);
       diagnostics.back().tool(tool.name());
     }
   }

@@ -45,6 +45,29 @@ DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, c
                       (is_slow ? ", or set a 'Penetration tolerance'" : ""))};
 }
 
+void PenaltyWatch::save(StateWriter &writer) const {
+  std::string pairs; // a line each
+  std::vector<double> values{has_soft_pairs_ ? 1. : 0.};
+  for (const auto &[pair, largest] : displacements_) {
+    pairs += pair + "\n";
+    values.push_back(largest);
+    values.push_back(are_deep_.at(pair) ? 1. : 0.);
+  }
+  writer.write_text("watched pairs", pairs);
+  writer.write("watched depths", values);
+}
+
+void PenaltyWatch::load(const StateReader &reader) {
+  std::istringstream pairs(reader.read_text("watched pairs"));
+  const std::vector<double> values = reader.read("watched depths");
+  has_soft_pairs_ = values.at(0) != 0.;
+  std::size_t i = 1;
+  for (std::string pair; std::getline(pairs, pair);) {
+    displacements_[pair] = values.at(i++);
+    are_deep_[pair] = values.at(i++) != 0.;
+  }
+}
+
 double largest_motion(const Placement &from, const Placement &to, const double radius) {
   return (to.moved_centre() - from.moved_centre()).norm() + (to.rotation - from.rotation).norm() * radius;
 }

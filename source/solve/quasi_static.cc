@@ -701,6 +701,8 @@ void QuasiStatic::commit(const double t) {
   if (imbalance_)
     state_.energies.external +=
         0.5 * (imbalance_left(t) + imbalance_left(state_.time)) * (*imbalance_ * last_increment_);
+  if (!motion_)
+    state_.energies.external += element_imbalance().by_yielding; // (Q5)
   u_n_ = trial_;
   internal_.commit();
 
@@ -716,8 +718,6 @@ void QuasiStatic::commit(const double t) {
   else
     state_.energies.external += mean_forces * last_increment_ + works.touching;
   state_.energies.external += works.ramp;
-  internal_forces_n_ += internal_forces_;
-  const double internal_work = 0.5 * (internal_forces_n_ * last_increment_);
   internal_forces_n_ = internal_forces_;
   support_forces_n_ = support_forces_;
   contact_forces_n_ = contact_forces_;
@@ -758,13 +758,6 @@ void QuasiStatic::commit(const double t) {
   state_.time = t;
   state_.displacements = u_n_;
   const InternalForces::Energies &energies = trial_energies_;
-  if (!motion_) { // what the trapezoidal rule misses where elements begin to yield, (Q5)
-    const EnergyLedger &before = state_.energies;
-    const double dissipated = std::abs(energies.plastic - before.plastic);
-    const double missed = energies.elastic + energies.plastic + energies.hourglass - before.elastic -
-                          before.plastic - before.hourglass - internal_work;
-    state_.energies.external += std::clamp(missed, -dissipated, dissipated);
-  }
   state_.energies.elastic = energies.elastic;
   state_.energies.plastic = energies.plastic;
   state_.energies.hourglass = energies.hourglass;

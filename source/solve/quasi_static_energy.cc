@@ -19,6 +19,16 @@ StepWorks QuasiStatic::compute_step_works() const {
   return works;
 }
 
+QuasiStatic::ElementImbalance QuasiStatic::element_imbalance() const {
+  Vector increment = trial_, mean = internal_forces_;
+  increment -= u_n_;
+  mean += internal_forces_n_;
+  const double dissipated = std::abs(trial_energies_.plastic - state_.energies.plastic);
+  const double missed = trial_energies_.total() - state_.energies.of_elements() - 0.5 * (mean * increment);
+  const double by_yielding = std::clamp(missed, -dissipated, dissipated);
+  return {by_yielding, missed - by_yielding};
+}
+
 bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
   trial_contact_loss_ = 0.;
   if (motion_ || (contacts_.empty() && body_contacts_.empty()))

@@ -104,20 +104,9 @@ bool QuasiStatic::may_be_cut(const double t) const {
          t - state_.time > stepping.smallest_step * (1. + rounding);
 }
 
-double QuasiStatic::element_imbalance() const {
-  Vector increment = trial_, mean = internal_forces_;
-  increment -= u_n_;
-  mean += internal_forces_n_;
-  const double dissipated = std::abs(trial_energies_.plastic - state_.energies.plastic);
-  const double missed = trial_energies_.elastic + trial_energies_.plastic + trial_energies_.hourglass -
-                        state_.energies.elastic - state_.energies.plastic - state_.energies.hourglass -
-                        0.5 * (mean * increment);
-  return missed - std::clamp(missed, -dissipated, dissipated);
-}
-
 double QuasiStatic::energy_error(const double imbalance) const {
   constexpr double of_run = 0.02, of_rest = 0.05, always = 1e-4; // of the largest energy; of what is left
-  const double of_elements = trial_energies_.elastic + trial_energies_.plastic + trial_energies_.hourglass;
+  const double of_elements = trial_energies_.total();
   const double largest =
       std::max({largest_energy_, 0.5 * std::abs(state_.energies.total()), std::abs(of_elements)});
   const double allowed =
@@ -136,7 +125,7 @@ bool QuasiStatic::is_accurate(const double t, NewtonReport &report) {
   message.precision(3);
   message << "the error of the step's time integration is " << time_error_
           << " times the 'Error tolerance'. Try a smaller 'Smallest step' or a larger 'Error tolerance'";
-  trial_imbalance_ = element_imbalance();
+  trial_imbalance_ = element_imbalance().unexplained;
   if (may_be_cut(t)) {
     const double error = energy_error(trial_imbalance_);
     if (error > std::max(1., time_error_)) {

@@ -30,12 +30,11 @@ void QuasiStatic::save(StateWriter &writer) const {
   save_nodal(writer, "support forces", nodes, support_forces_n_);
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
+  soft_penalties_.save(writer);
   save_nodal(writer, "internal forces", nodes, internal_forces_n_);
-  if (!motion_) {
-    save_nodal(writer, "contact forces", nodes, contact_forces_n_);
-    writer.write("largest energy", {largest_energy_});
-    writer.write("contact balance", {contact_balance_});
-  }
+  save_nodal(writer, "contact forces", nodes, contact_forces_n_);
+  writer.write("largest energy", {largest_energy_});
+  writer.write("contact balance", {contact_balance_});
   if (!body_frames_.empty())
     writer.write("free modes", {static_cast<double>(support_.n_free)});
   save_stabilisation(writer);
@@ -49,9 +48,8 @@ void QuasiStatic::save(StateWriter &writer) const {
     });
   if (motion_) {
     writer.write("kinetic energy", {state_.energies.kinetic});
-    save_nodal(writer, "contact forces", nodes, contact_forces_n_);
-    writer.write("contact balance", {contact_balance_, contact_losses_.total(), largest_energy_,
-                                     motion_->damps_contact() ? 1. : 0., element_balance_});
+    writer.write("element balance", {element_balance_});
+    writer.write("damps contact", {motion_->damps_contact() ? 1. : 0.});
     writer.write("contact losses", contact_losses_.save());
     motion_->save(writer, nodes);
   }
@@ -150,24 +148,17 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
   if (is_own) {
     load_nodal(reader, "increment", nodes, last_increment_);
     load_nodal(reader, "support forces", nodes, support_forces_n_);
+    load_nodal(reader, "contact forces", nodes, contact_forces_n_);
+    load_nodal(reader, "internal forces", nodes, internal_forces_n_);
+    largest_energy_ = reader.number("largest energy");
+    contact_balance_ = reader.number("contact balance");
     if (motion_) {
-      load_nodal(reader, "contact forces", nodes, contact_forces_n_);
-      const std::vector<double> balance = reader.read("contact balance");
-      contact_balance_ = balance.at(0);
-      if (reader.has("contact losses"))
-        contact_losses_.load(reader.read("contact losses"));
-      largest_energy_ = balance.at(2);
-      element_balance_ = balance.at(4);
-      if (balance.at(3) != 0.)
+      element_balance_ = reader.number("element balance");
+      contact_losses_.load(reader.read("contact losses"));
+      if (reader.number("damps contact") != 0.)
         motion_->damp_contact(contact_forces_n_); // the next step begins with that anew
     }
-    if (!motion_ && reader.has("contact balance")) {
-      load_nodal(reader, "contact forces", nodes, contact_forces_n_);
-      largest_energy_ = reader.number("largest energy");
-      contact_balance_ = reader.number("contact balance");
-    }
-    if (reader.has("internal forces"))
-      load_nodal(reader, "internal forces", nodes, internal_forces_n_);
+    soft_penalties_.load(reader);
     load_stabilisation(reader);
     if (report.is_exact && reader.has("probe"))
       reader.in("probe", [&] {

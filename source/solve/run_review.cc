@@ -2,6 +2,7 @@
 #include "billet/solve/run_review.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/discretization/inverted_corners.h"
 #include "billet/scene/plausibility.h"
 
 #include <algorithm>
@@ -22,9 +23,13 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
   contacts_.add(solution);
   const EnergyLedger &energies = solution.state().energies;
   largest_kinetic_ = std::max(largest_kinetic_, energies.kinetic);
-  largest_internal_ = std::max(largest_internal_, energies.elastic + energies.plastic + energies.hourglass);
+  largest_internal_ = std::max(largest_internal_, energies.of_elements());
   DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
   append(diagnostics, missing_pairs_.check(solution.state()));
+  if (is_last)
+    for (Diagnostic &inverted :
+         find_inverted_corners(scene_, discretization_, solution.state().displacements))
+      diagnostics.push_back(inverted.time(solution.state().time));
   constexpr double far = 3.; // sizes of the scene
   const double moved = solution.state().displacements.linfty_norm() / (2. * discretization_.radius());
   if (!scene_.parameters().is_dynamic() && moved > far) {
@@ -44,6 +49,7 @@ void RunReview::save(StateWriter &writer) const {
   writer.in("review", [&] {
     elements_.save(writer);
     contacts_.save(writer);
+    missing_pairs_.save(writer);
     writer.write("energies", {largest_kinetic_, largest_internal_});
   });
 }
@@ -53,11 +59,10 @@ void RunReview::load(StateReader &reader) {
     reader.in("review", [&] {
       elements_.load(reader);
       contacts_.load(reader);
-      if (reader.has("energies")) {
-        const std::vector<double> largest = reader.read("energies");
-        largest_kinetic_ = largest.at(0);
-        largest_internal_ = largest.at(1);
-      }
+      missing_pairs_.load(reader);
+      const std::vector<double> largest = reader.read("energies");
+      largest_kinetic_ = largest.at(0);
+      largest_internal_ = largest.at(1);
     });
 }
 

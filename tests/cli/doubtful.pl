@@ -11,7 +11,7 @@
 #
 # KEYS are separated by commas. 'key' must be printed; 'key = 10 +- 0.2' must have this measure, the first number in its
 # text, to this part; 'key ~ words' must have these words; '! key' must not be printed; 'none' stands for no warning at
-# all, 'code 6' for the exit code. That is else 2 for 'bad-input', 3 for 'solution-failed', and 0. '#' begins a comment.
+# all (notes may be printed), 'code 6' for the exit code. That is else 2 for 'bad-input', 3 for 'solution-failed', and 0. '#' begins a comment.
 # After NAME := EDIT, NAME stands for EDIT.
 use strict;
 use warnings;
@@ -37,6 +37,7 @@ sub fault
 {
   my ($keys, $code, $said) = @_;
   my @told = $said =~ /^(?:warning|error)\[([\w-]+)\]/mg;
+  my @said = $said =~ /^(?:note|warning|error)\[([\w-]+)\]/mg;
   my $expected_code =
       $keys =~ /\bcode (\d+)/ ? $1 : $keys =~ /\bbad-input\b/ ? 2 : $keys =~ /\bsolution-failed\b/ ? 3 : 0;
   return "exit code $code, not $expected_code" unless $code == $expected_code;
@@ -48,7 +49,7 @@ sub fault
     {
       my ($name, $value, $part, $words) = $key =~ /^([\w-]+)(?: = (\S+) \+- (\S+)| ~ (.+))?$/
           or die "$table: '$key' is no key\n";
-      return "does not warn of $name, but of (@told)" unless grep { $_ eq $name } @told;
+      return "does not tell of $name, but of (@said)" unless grep { $_ eq $name } @said;
       return "$name does not say '$words'"
           unless !defined $words || $said =~ /^(?:warning|error)\[\Q$name\E\].*\Q$words\E/m;
       next unless defined $value;

@@ -408,6 +408,8 @@ private:
   void begin_at(const Placement &placement, const DisplacementOf &displacement_of);
   /// Calls add(index of the slave node, its area at one facet).
   template <class Add> void for_each_area(const Add &add) const;
+  /// The same with the area on which the force stands: times pressures it is the force.
+  template <class Add> void for_each_counted_area(const Add &add) const;
   /// Calls visit(facet, corner, its area) for each corner whose node touches.
   template <class Visit> void for_each_touching(const Visit &visit) const;
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.

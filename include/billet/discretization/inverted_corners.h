@@ -11,6 +11,10 @@ namespace billet {
 /// negative volume, though it may be positive at all Gauss points. A corner whose edges lie in a plane, as of
 /// a wedge, is none. Collective.
 DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization);
+/// The same of bodies with more than a twentieth of such elements after these displacements, which have
+/// values at ghost nodes: no formulation sees a corner, and hourglass modes turn it around first. Collective.
+DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization,
+                                     const Vector &displacements);
 
 } // namespace billet
 

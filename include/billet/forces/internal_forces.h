@@ -34,6 +34,7 @@ public:
     double elastic = 0.;
     double plastic = 0.;
     double hourglass = 0.; ///< stored by the stabilisation
+    double total() const { return elastic + plastic + hourglass; }
   };
   /// At a history and the displacements that belong to it; on all ranks the same.
   Energies compute_energies(const Vector &displacements, Beat beat = Beat::committed) const;

@@ -6,6 +6,7 @@
 #include "billet/discretization/boundary_facets.h"
 #include "billet/scene/scene.h"
 #include "billet/solve/solution.h"
+#include "billet/state.h"
 
 #include <optional>
 #include <vector>
@@ -26,6 +27,10 @@ public:
 
   /// After an accepted step; of explicit scenes now and then. Each couple is reported once. Collective.
   DiagnosticList check(const SolutionState &state);
+
+  /// What has been reported.
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
 
 private:
   struct Node {
@@ -53,6 +58,10 @@ private:
   std::optional<Deepest> find_overlap(const Couple &couple, const Positions &positions,
                                       const std::vector<BoundingBox> &boxes,
                                       const Vector *displacements) const;
+  std::string describe_body(const Couple &couple) const;
+  std::string describe_tool(const Couple &couple) const;
+  /// A line that names both.
+  std::string name_of(const Couple &couple, const std::string &other) const;
   Deepest enter_tool(Couple &couple, const Positions &positions, const Placement &placement) const;
 
   const Scene &scene_;
@@ -60,6 +69,7 @@ private:
   std::vector<std::vector<Node>> nodes_;           ///< of surfaces, by body, on this rank
   std::vector<std::vector<BoundaryFacet>> facets_; ///< of surfaces but for symmetry planes
   std::vector<Couple> bodies_, tools_;             ///< without a pair
+  std::string told_;                               ///< lines of name_of()
 };
 
 } // namespace billet

@@ -5,6 +5,7 @@
 #include "billet/contact/contact_load.h"
 #include "billet/diagnostics.h"
 #include "billet/geometry/placement.h"
+#include "billet/state.h"
 
 #include <map>
 #include <optional>
@@ -30,6 +31,9 @@ public:
                        double part_of_work = 0.);
   /// Whether a pair has shown either sign.
   bool has_soft_pairs() const { return has_soft_pairs_; }
+
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
 
 private:
   Motion motion_;

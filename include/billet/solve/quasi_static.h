@@ -174,9 +174,12 @@ private:
   bool is_accurate(double t, NewtonReport &report);
   /// Whether steps may become smaller.
   bool may_be_cut(double t) const;
-  /// What the work of the elements' forces in the step misses of their energy, but for what plastic flow
-  /// explains [energy].
-  double element_imbalance() const;
+  /// What the work of the elements' forces in the step, by the trapezoidal rule, misses of their energy.
+  struct ElementImbalance {
+    double by_yielding; ///< as far as plastic flow explains it [energy]
+    double unexplained; ///< [energy]
+  };
+  ElementImbalance element_imbalance() const;
   /// That as part of what is allowed, (I9).
   double energy_error(double imbalance) const;
   /// Of contact's forces in the residual.
@@ -410,10 +413,10 @@ private:
   std::unique_ptr<TangentSolver> linear_;
 
   Vector trial_, trial_ghosted_, u_n_, last_increment_;
-  Vector raw_internal_, raw_contact_;          ///< additive
-  Vector support_forces_, support_forces_n_;   ///< residual before constraints: what the supports exert
-  Vector contact_forces_, contact_forces_n_;   ///< −F_c
-  Vector internal_forces_, internal_forces_n_; ///< of static scenes
+  Vector raw_internal_, raw_contact_;        ///< additive
+  Vector support_forces_, support_forces_n_; ///< residual before constraints: what the supports exert
+  Vector contact_forces_, contact_forces_n_; ///< −F_c
+  Vector internal_forces_, internal_forces_n_;
   Vector bare_forces_n_; ///< what the integrator takes for F_n: support_forces_n_, or without contact
   // What contact has taken and not yet given back, of static scenes in all steps that are no jumps; what is
   // lost of it in dynamic scenes; the largest energy so far.

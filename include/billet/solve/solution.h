@@ -28,6 +28,8 @@ struct EnergyLedger {
   double total() const {
     return kinetic + elastic + plastic + contact + friction + viscous + hourglass + numerical;
   }
+  /// What elements have taken: stored, and dissipated by yielding.
+  double of_elements() const { return elastic + plastic + hourglass; }
   double drift() const { return initial + external - total(); }
 };
 
