@@ -180,6 +180,11 @@ inline const DiagnosticKind round_off_limits_forces(
     "the "
     "origin");
 
+inline const DiagnosticKind balanced_to_round_off("balanced-to-round-off", Severity::note,
+                                                  "Round-off in the positions leaves a larger residual than "
+                                                  "'Force tolerance' allows, but at most 1e-8 of the forces.",
+                                                  "");
+
 inline const DiagnosticKind ill_conditioned(
     "ill-conditioned", Severity::warning,
     "The matrix is nearly singular: few of the sixteen digits of a correction are right.",

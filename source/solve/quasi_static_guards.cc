@@ -14,7 +14,7 @@ namespace billet {
 
 namespace {
 
-/// Part of the forces that round-off may take without a word, whatever tolerance the scene asks for.
+/// Part of the forces that round-off may take without a warning, whatever tolerance the scene asks for.
 constexpr double notable_round_off = 1e-8;
 
 } // namespace
@@ -44,22 +44,26 @@ DiagnosticList QuasiStatic::check_penalties() {
     look(body_contacts_[i]->name(), body_contacts_[i]->penetration(), displacement,
          state_.body_pair_loads[i].stored_energy);
   const double tolerance = scene_.parameters().solver.force_tolerance;
-  if (force_scale_ > 0. &&
-      contact_round_off_force() > std::max(tolerance, notable_round_off) * force_scale_) {
+  if (force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
     const double part = contact_round_off_force() / force_scale_;
     std::ostringstream text;
     text.precision(2);
     text << "Round-off of contact's penalties may be " << part << " of the forces, 'Force tolerance' is "
          << tolerance;
-    if (part > 1. && !motion_)
+    const bool is_notable = part > notable_round_off;
+    if (!is_notable)
+      text << ". Forces are in balance to that part only";
+    else if (part > 1. && !motion_)
       text << ": the forces of the scene are lost in it";
     else if (part > max_stalled_residual && !motion_)
       text << ": forces are known to this part only";
     else
       text << "; residuals up to " << max_stalled_residual << " are accepted";
-    messages.push_back(Diagnostic(diagnostic::round_off_limits_forces, text.str())
-                           .time(time_)
-                           .measure("part of the forces", part));
+    messages.push_back(
+        Diagnostic(is_notable ? diagnostic::round_off_limits_forces : diagnostic::balanced_to_round_off,
+                   text.str())
+            .time(time_)
+            .measure("part of the forces", part));
   }
   return messages;
 }

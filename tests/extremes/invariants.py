@@ -404,16 +404,18 @@ class Running(unittest.TestCase):
 
     def test_round_off_is_capped(self):
         case = plan.Case("upset", {}, (), ())
-        for says, balanced, right in ((0.0, 0.005, False), (0.006, 0.005, True), (0.5, 0.009, True), (0.5, 0.011, False)):
+        said, noted = "round-off-limits-forces", "balanced-to-round-off"
+        for key, balanced, allowed, right in ((None, 0.005, 1e-5, False), (said, 0.005, 1e-5, True), (said, 0.009, 1e-5, True), (said, 0.011, 1e-5, False),
+                                              (None, 9e-9, 1e-12, False), (noted, 9e-9, 1e-12, True), (noted, 2e-8, 1e-12, False)):
             runner = self.runner()
             work = self.folder / "work"
             work.mkdir(exist_ok=True)
-            write_warnings(work, *["round-off-limits-forces"] * (says > 0))
+            write_warnings(work, *([key] if key else []))
             setup = scenes.make("upset", {})
-            setup.checks = [lambda r: [must.Finding("equilibrium", balanced, 1e-5)]]
+            setup.checks = [lambda r: [must.Finding("equilibrium", balanced, allowed)]]  # noqa: B023
             with unittest.mock.patch.object(Result, "read", return_value=made_up("upset")):
                 verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
-            self.assertEqual(verdict["outcome"], "right" if right else "wrong", (says, balanced))
+            self.assertEqual(verdict["outcome"], "right" if right else "wrong", (key, balanced))
 
     def test_lost_symmetry(self):
         # Excused only where a nudge at the start changes the end: where it does not, the program is not symmetric.

@@ -23,15 +23,17 @@ from .scenes import make, nudged
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Messages of a run that comes to its end, and what they make of it: doubtful, soft, ...
-DOUBT = ("energy-imbalance", "stalled-step", "unstable-law", "element-too-stiff", "element-too-soft")
+DOUBT = ("energy-imbalance", "stalled-step", "unstable-law", "element-too-stiff", "element-too-soft", "inverted-at-end")
 SOFT = ("penalty-too-low", "contact-too-soft")
 # ... or with forces as much of which need not balance.
 ROUND_OFF = ("round-off-limits-forces",)
+NOTED_ROUND_OFF = ("balanced-to-round-off",)
 # So a step that was accepted where its residual no longer fell.
 STALLED = ("stalled-step",)
 DEEP = 0.1  # facet sizes
 BALANCES = ("residual of steps", "patch test", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
 STALLED_AT_MOST = 2.01e-2  # the program's limit
+NOTED_AT_MOST = 1e-8  # the program's limit
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
 JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")  # what outcomes depend on beside the program
 FORGETS = 10.0  # a symmetry may be off by as many times what a nudge makes of the motion
@@ -135,13 +137,14 @@ class Runner:
             if other is None:
                 return {"outcome": "wrong", "reason": "this one runs, and the one that it is compared with does not"}
             found += invariants.believed(result, other) if case.count == "believed" else invariants.same(result, other, case.loose, case.count)
-        warnings = [r for r in read_records(work / "results/diagnostics.jsonl") if r["severity"] == "warning"]
+        records = read_records(work / "results/diagnostics.jsonl")
+        warnings = [r for r in records if r["severity"] == "warning"]
 
         def of(keys):
-            return [r for r in warnings if r["key"] in keys]
+            return [r for r in records if r["key"] in keys]
 
         # It is printed once; later steps may leave more.
-        rounded = STALLED_AT_MOST if of(STALLED) else ROUND_OFF_AT_MOST if of(ROUND_OFF) else 0.0
+        rounded = STALLED_AT_MOST if of(STALLED) else ROUND_OFF_AT_MOST if of(ROUND_OFF) else NOTED_AT_MOST if of(NOTED_ROUND_OFF) else 0.0
         found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f for f in found]
         numbers = {}
         if any(f.name in invariants.SYMMETRIES and not f.holds for f in found):
