@@ -429,6 +429,9 @@ void report_errors(ErrorReport report, const Solution &solution, const Discretiz
   if (review.element_error() > 0.)
     report.sources.push_back(
         {"elements", review.element_error(), "Choose the element that the warnings about them name"});
+  if (review.penalty_error() > 0.)
+    report.sources.push_back(
+        {"soft contact", review.penalty_error(), "Increase the penalties that the warnings name"});
   report.stress_jumps = stress_jumps(solution, discretization);
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));

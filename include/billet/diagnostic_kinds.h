@@ -69,6 +69,11 @@ inline const DiagnosticKind
                          "A friction coefficient is above 1.5. Dry metals have 0.1 to 0.8, rubber about 1.",
                          "Check whether it is given in per cent");
 
+inline const DiagnosticKind unseen_motion(
+    "unseen-motion", Severity::warning,
+    "A tool or support goes to and fro, or around, within a step: the step knows where it ends only.",
+    "Use shorter steps, or automatic ones");
+
 inline const DiagnosticKind many_turns("many-turns", Severity::note,
                                        "A tool turns more than four times during the run.",
                                        "Check that 'Rotation angle' is in radians");
@@ -203,11 +208,12 @@ inline const DiagnosticKind element_too_stiff(
     "in elastic bodies, by up to it in bodies that yield.",
     "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
 
-inline const DiagnosticKind element_too_soft("element-too-soft", Severity::warning,
-                                             "One-point elements with a reduced 'Hourglass stiffness' are "
-                                             "too soft in bending: the displacements store "
-                                             "less energy in them than in elements that bend right.",
-                                             "Use 'Hourglass stiffness = 1'");
+inline const DiagnosticKind element_too_soft(
+    "element-too-soft", Severity::warning,
+    "The elements of a body are too soft in bending: the displacements store less energy in them than in "
+    "elements that bend right. So are one-point elements with a reduced 'Hourglass stiffness', and a single "
+    "layer of bricks with mean dilatation that are as long as high.",
+    "Use 'Hourglass stiffness = 1', or 'Element = one point'");
 
 inline const DiagnosticKind bricks_may_lock(
     "bricks-may-lock", Severity::warning,

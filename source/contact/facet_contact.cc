@@ -504,11 +504,23 @@ void FacetContact::add_edges(FacetContactLoad &load) const {
   }
 }
 
+bool FacetContact::presses_at_both_ends() const {
+  bool pressed_n = false, presses = false;
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    pressed_n = pressed_n || pressed_n_[s].pressure > 0.;
+    presses = presses || (states_[s].presses() && states_[s].traction.pressure > 0.);
+  }
+  std::vector<int> ends{pressed_n ? 1 : 0, presses ? 1 : 0};
+  dealii::Utilities::MPI::max(ends, communicator_, ends);
+  return ends[0] + ends[1] == 2;
+}
+
 FacetContactLoad FacetContact::compute_load() const {
   FacetContactLoad load;
+  const bool hands_over = is_static_ && presses_at_both_ends();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    load.dissipation += state.dissipation;
+    load.dissipation += hands_over ? state.dissipation_handed_over() : state.dissipation;
     load.damping += state.damping;
     if (!state.presses())
       continue;
@@ -591,9 +603,11 @@ double FacetContact::local_dissipation() const {
 
 StepWorks FacetContact::compute_step_works(const double weight) const {
   StepWorks works;
+  const bool hands_over = is_static_ && presses_at_both_ends();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    works.touching -= state.taken_beyond;
+    works.touching -=
+        state.taken_beyond - (hands_over ? state.dissipation_handed_over() - state.dissipation : 0.);
     const PressureHistory &before = pressed_n_[s];
     const double ramp_depth =
         initial_depths_.empty() ? 0. : (allowed_part_n_ - allowed_part_) * initial_depths_[s];

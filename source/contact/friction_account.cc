@@ -37,6 +37,15 @@ FrictionAccount compute_static_account(const FrictionStep &step, const FrictionR
 
 } // namespace
 
+FrictionAccount FrictionAccount::handed_over() const {
+  FrictionAccount account = *this;
+  account.dissipation_n = std::max(0., dissipation_n + beyond_n);
+  account.dissipation = std::max(0., dissipation + beyond);
+  account.beyond_n += dissipation_n - account.dissipation_n;
+  account.beyond += dissipation - account.dissipation;
+  return account;
+}
+
 FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule) {
   if (rule.is_static)
     return compute_static_account(step, rule);

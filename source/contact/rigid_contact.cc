@@ -505,7 +505,7 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
           weight * (area * std::max(stiffness_ahead(i), nodes_[i].stiffness.tangential));
     });
   });
-  add_friction(load);
+  add_friction(load, false);
   return load;
 }
 
@@ -914,9 +914,10 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
     }
   }
   if (!friction_.empty() && is_static_ && !is_removed_)
-    visit_friction([&](const FrictionAccount &account, const double area_n, const double area) {
-      works.touching -= account.taken_beyond(area_n, area);
-    });
+    visit_friction(presses_at_both_ends(),
+                   [&](const FrictionAccount &account, const double area_n, const double area) {
+                     works.touching -= account.taken_beyond(area_n, area);
+                   });
   works.touching = dealii::Utilities::MPI::sum(works.touching, communicator_);
   works.ramp = dealii::Utilities::MPI::sum(works.ramp, communicator_);
   return works;
@@ -1043,12 +1044,26 @@ Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, co
   return force;
 }
 
-ContactLoad RigidContact::local_load() const {
+ContactLoad RigidContact::compute_load() const {
+  const bool hands_over = is_static_ && !friction_.empty() && presses_at_both_ends();
+  return sum_over_ranks(local_load(hands_over), communicator_);
+}
+
+bool RigidContact::presses_at_both_ends() const {
+  const auto has_pressure = [](const auto &state) { return state.pressure > 0.; };
+  const bool pressed_n = knows_pressures_ && std::any_of(pressed_n_.begin(), pressed_n_.end(), has_pressure),
+             presses = std::any_of(states_.begin(), states_.end(), has_pressure);
+  std::vector<int> ends{pressed_n ? 1 : 0, presses ? 1 : 0};
+  dealii::Utilities::MPI::max(ends, communicator_, ends);
+  return ends[0] + ends[1] == 2;
+}
+
+ContactLoad RigidContact::local_load(const bool hands_over) const {
   ContactLoad load;
   for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
     add_to_load(load, facet, corner, area);
   });
-  add_friction(load);
+  add_friction(load, hands_over);
   return load;
 }
 
@@ -1058,26 +1073,27 @@ FrictionRule RigidContact::friction_rule(const Node &node) const {
   return {node.stiffness.tangential, start_weight_, is_static_, stores, stores};
 }
 
-void RigidContact::add_friction(ContactLoad &load) const {
+void RigidContact::add_friction(ContactLoad &load, const bool hands_over) const {
   if (friction_.empty())
     return;
   if (is_explicit_) {
     add_released(load);
     return;
   }
-  visit_friction([&](const FrictionAccount &account, const double area_n, const double area) {
+  visit_friction(hands_over, [&](const FrictionAccount &account, const double area_n, const double area) {
     load.dissipation += account.dissipated(area_n, area);
     load.damping += area * account.damping;
   });
 }
 
-template <class Visit> void RigidContact::visit_friction(const Visit &visit) const {
+template <class Visit> void RigidContact::visit_friction(const bool hands_over, const Visit &visit) const {
   for (const auto &facet : facets_) {
     const FacetStates states = states_of(facet);
     const std::array<double, 4> areas =
         touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
     for (unsigned int a = 0; a < 4; ++a)
-      visit(states[a]->friction, facet.friction_areas[a], areas[a]);
+      visit(hands_over ? states[a]->friction.handed_over() : states[a]->friction, facet.friction_areas[a],
+            areas[a]);
   }
 }
 

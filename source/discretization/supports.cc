@@ -194,6 +194,39 @@ double Supports::Line::value(const double t) const {
   return value;
 }
 
+std::array<double, 3> SupportTrack::at(const double t) const {
+  std::array<double, 3> result{};
+  for (const Part &part : parts_)
+    result[part.line] += part.weight * part.hold->value->value(t, position_);
+  return result;
+}
+
+std::vector<SupportTrack> Supports::moving_nodes() const {
+  std::vector<SupportTrack> all;
+  unsigned int n_lines = 0;
+  for (const Line &line : lines_) {
+    const bool goes_on = !all.empty() && all.back().position_ == line.position && n_lines < 3;
+    if (!goes_on) {
+      all.emplace_back();
+      all.back().position_ = line.position;
+      n_lines = 0;
+    }
+    for (const Term &term : line.terms)
+      if (term.hold->value)
+        all.back().parts_.push_back({term.hold, term.weight, n_lines});
+    ++n_lines;
+  }
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const SupportTrack &motion) { return motion.parts_.empty(); }),
+            all.end());
+  constexpr std::size_t enough = 8;
+  const std::size_t stride = all.size() / enough + 1;
+  std::vector<SupportTrack> some;
+  for (std::size_t i = 0; i < all.size(); i += stride)
+    some.push_back(all[i]);
+  return some;
+}
+
 void Supports::condense(Vector &forces) const {
   // On this rank's own values: to write through deal.II's vector would make ranks wait for each other that do
   // not hold as many constraints.

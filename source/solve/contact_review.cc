@@ -16,6 +16,9 @@ namespace billet {
 
 namespace {
 
+/// Part of the deformation that penetration may take without a word.
+constexpr double notable_softness = 0.04;
+
 /// In per cent.
 std::string print_part(const double part) {
   std::ostringstream text;
@@ -265,11 +268,17 @@ void ContactReview::add(const Solution &solution) {
   }
 }
 
+double ContactReview::penalty_error() const {
+  double worst = 0.;
+  for (std::size_t i = 0; i < paths_.size(); ++i)
+    worst = std::max(worst, softness_[i].part());
+  return worst > notable_softness ? worst : 0.;
+}
+
 void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
-  constexpr double allowed = 0.04;
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     const double part = softness_[i].part();
-    if (!(part > allowed))
+    if (!(part > notable_softness))
       continue;
     std::string names;
     for (const std::size_t pair : paths_[i].pairs)

@@ -11,7 +11,7 @@ namespace billet {
 
 namespace {
 
-using Element = ElementFormulation::Element;
+using ElementType = ElementFormulation::Element;
 
 ElementFormulation formulation_of(const Scene &scene, const std::size_t body) {
   ElementFormulation formulation = scene.bodies()[body].formulation;
@@ -22,14 +22,16 @@ ElementFormulation formulation_of(const Scene &scene, const std::size_t body) {
   return formulation;
 }
 
-const char *name_of(const Element element) {
-  return element == Element::full ? "full" : element == Element::one_point ? "one point" : "mean dilatation";
+const char *name_of(const ElementType element) {
+  return element == ElementType::full        ? "full"
+         : element == ElementType::one_point ? "one point"
+                                             : "mean dilatation";
 }
 
 /// What helps a body whose elements are too stiff: never an element that is as stiff.
 std::string advise_on_stiffness(const ElementEnergies &energies, const ElementFormulation &formulation) {
   const bool one_point_helps = energies.one_point * ElementWatch::doubtful_factor < energies.used;
-  if (formulation.element == Element::one_point)
+  if (formulation.element == ElementType::one_point)
     return one_point_helps ? "Use 'Hourglass stiffness = 1'"
                            : "Use bricks with edges along the normal of the surface, or a finer mesh";
   return std::string(one_point_helps ? "Use 'Element = one point', or bricks" : "Use bricks") +
@@ -82,17 +84,22 @@ double ElementWatch::factor_of(const std::size_t body) const {
   return energies.used > 0. ? energies.factor() : 1.;
 }
 
+bool ElementWatch::is_doubtful(const std::size_t body) const {
+  // The one-point element as it is stands for an accurate one: it is never called soft.
+  const ElementFormulation formulation = formulation_of(scene_, body);
+  const bool may_be_soft =
+      formulation.element != ElementType::one_point || formulation.hourglass_stiffness < 1.;
+  const double factor = factor_of(body);
+  return counts(body) && (factor > doubtful_factor || (may_be_soft && factor * doubtful_factor < 1.));
+}
+
 DiagnosticList ElementWatch::judge(const bool is_first) const {
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const double factor = factor_of(b);
     const bool is_stiff = factor > doubtful_factor;
     const ElementFormulation formulation = formulation_of(scene_, b);
-    // That f is small bounds nothing, (L4): of other elements, which a coarse mesh makes stiff, it is no
-    // sign.
-    const bool is_soft = formulation.element == ElementFormulation::Element::one_point &&
-                         formulation.hourglass_stiffness < 1. && factor * doubtful_factor < 1.;
-    if (!counts(b) || !(is_stiff || is_soft))
+    if (!is_doubtful(b))
       continue;
     // Where hinges yield or inertia counts less of it is left.
     const bool has_yield = !std::holds_alternative<std::monostate>(scene_.bodies()[b].material.hardening);
@@ -112,7 +119,9 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
                        text.str());
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("factor", factor);
     const std::string advice = is_stiff ? advise_on_stiffness(energies_[b], formulation)
-                                        : std::string(diagnostic::element_too_soft.remedy);
+                               : formulation.element == ElementType::one_point
+                                   ? "Use 'Hourglass stiffness = 1'"
+                                   : "Use 'Element = one point'";
     message.advice(is_first ? "If that stays so until the end: " + advice : advice);
     diagnostics.push_back(message);
   }
@@ -137,14 +146,14 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
 }
 
 double ElementWatch::error() const {
-  bool is_stiff = false;
+  bool is_any_doubtful = false;
   double used = 0., accurate = 0.;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     used += energies_[b].used;
     accurate += energies_[b].used / factor_of(b);
-    is_stiff = is_stiff || (counts(b) && factor_of(b) > doubtful_factor);
+    is_any_doubtful = is_any_doubtful || is_doubtful(b);
   }
-  return is_stiff && accurate > 0. ? std::max(0., used / accurate - 1.) : 0.;
+  return is_any_doubtful && accurate > 0. ? std::abs(used / accurate - 1.) : 0.;
 }
 
 void ElementWatch::save(StateWriter &writer) const {

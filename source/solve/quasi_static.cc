@@ -48,7 +48,8 @@ NodalGeometry collect_geometry(const Discretization &discretization, const Const
 
 QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
-      internal_(scene, discretization), tangent_(scene.contact_tangent()),
+      motions_(scene, supports_, discretization), internal_(scene, discretization),
+      tangent_(scene.contact_tangent()),
       soft_penalties_(scene.parameters().is_dynamic() ? PenaltyWatch::Motion::sudden
                                                       : PenaltyWatch::Motion::slow) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
@@ -569,7 +570,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
   choose_unknown_tools(pressing);
   if (stabilisation_)
     stabilisation_->start_step(t - state_.time);
-  if (turns_too_far(t, report))
+  if (turns_too_far(t, report) || skips_motion(t, report))
     return report;
   const bool extrapolates =
       scene_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;
@@ -648,6 +649,7 @@ NewtonReport QuasiStatic::attempt_step(const double t, const double previous_ste
       return report;
     n_in_round_off_ = report.is_lost_in_round_off ? n_in_round_off_ + 1 : 0;
     penetration_ = find_penetration();
+    append(report.diagnostics, check_motion(t));
     commit(t);
     has_lost_pace_ = has_lost_pace_ || !stopping.empty();
     for (const std::size_t tool : stopping)

@@ -73,7 +73,7 @@ bool QuasiStatic::loses_energy(const double t, NewtonReport &report) {
 }
 
 DiagnosticList QuasiStatic::check_balance() const {
-  constexpr double doubtful = 0.1; // of all work
+  constexpr double doubtful = 0.04; // of all work
   const double floor = round_off_force_ * discretization_.radius();
   if (motion_ || !(std::abs(contact_balance_) > std::max(doubtful * largest_energy_, floor)))
     return {};

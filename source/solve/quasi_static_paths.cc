@@ -94,6 +94,33 @@ bool QuasiStatic::turns_too_far(const double t, NewtonReport &report) const {
   return false;
 }
 
+namespace {
+
+constexpr const char *goes_unseen = " goes to and fro, or around, within the step";
+
+} // namespace
+
+bool QuasiStatic::skips_motion(const double t, NewtonReport &report) const {
+  if (!may_be_cut(t))
+    return false;
+  const std::string unseen = motions_.find_unseen(state_.time, t);
+  if (unseen.empty())
+    return false;
+  report.converged = false;
+  report.is_explained = true;
+  report.failure = unseen + goes_unseen;
+  return true;
+}
+
+DiagnosticList QuasiStatic::check_motion(const double t) const {
+  if (may_be_cut(t)) // and was not
+    return {};
+  const std::string unseen = motions_.find_unseen(state_.time, t);
+  if (unseen.empty())
+    return {};
+  return {Diagnostic(diagnostic::unseen_motion, unseen + goes_unseen).time(t)};
+}
+
 std::vector<double> QuasiStatic::raises_of_penalties() const {
   constexpr double most = 100.; // times 10 E/h
   constexpr double least_raise = 2., largest_raise = 10., worth_it = 1.01;

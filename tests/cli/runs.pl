@@ -573,6 +573,40 @@ check 'times of output that nearly coincide do not shorten the steps between', s
   } ('Output: Interval = 1e-4', 'Output: Interval = 1.0000001e-4', 'Time stepping: Stops = 1.000001e-4, 2e-4');
   return $steps[1] < 1.3 * $steps[0] && $steps[2] < 1.3 * $steps[0] ? '' : "@steps steps";
 };
+# A roll is dragged over a block: each step some nodes leave it, and others take over. What friction takes is that of
+# steps that are short beside the facets. (One account for each node alone gave 43 % of it.)
+check 'nodes that hand their load over dissipate with default steps what they do in short ones', sub {
+  my $roll = 'Mesh: Arguments = 16, 1, 3 : 0, 0, -3 : 6, 1, 0 : true & Mesh: - Boundary ids & block: Symmetry planes = y = 0 ; y = 1'
+    . ' & block: + set Element = one point & Material: Law = elastic & Material: - Hardening & Material: - Yield stress & Material: - Hardening modulus'
+    . ' & floor: - Components & floor: - Displacement & Plane: - Normal & Plane: Point = 2, 0, 3 & Plane: + set Shape = cylinder\nset Axis = 0, 1, 0\nset Radius = 3'
+    . ' & Motion: Translation = 2*max(0,t-1) ; 0 ; -0.1*min(t,1) & top on die: Boundary ids = 5 & top on die: Friction coefficient = 0.2'
+    . ' & top on die: Normal penalty = 40 & Time stepping: End time = 2 & Time stepping: - Initial step & Time stepping: - Largest step';
+  my $default = last_of(billet($roll), 'friction_dissipation');
+  return near('dissipation', $default, last_of(billet("$roll & Time stepping: + set Largest step = 0.02"), 'friction_dissipation'), 0.03);
+};
+# A tool that swings ten times, in steps of up to a tenth of the run.
+my $swing = 'Motion: Translation = 0.2*sin(20*pi*max(0,t-1)) ; 0 ; -ramp & ramp: Times = 0, 1, 2 & ramp: Values = 0, 0.05, 0.05'
+  . ' & top on die: Friction coefficient = 0.3 & Time stepping: End time = 2';
+my $short = 'Time stepping: Initial step = 0.01 & Time stepping: Largest step = 0.01';
+check 'steps see a tool that swings by whole periods, and one spike', sub {
+  my $long = billet("$swing & Time stepping: Largest step = 0.1");
+  my $error = near('dissipation', last_of($long, 'friction_dissipation'),
+    last_of(billet("$swing & $short"), 'friction_dissipation'), 0.05);
+  my $spike = 'Motion: Translation = 0 ; 0 ; -0.1*max(0,1-abs(t-0.54)/0.05) & Time stepping: Largest step = 0.2';
+  return $error || near('plastic work', last_of(billet($spike), 'plastic_work'),
+    last_of(billet("$spike & Time stepping: Initial step = 0.01 & Time stepping: Largest step = 0.01"), 'plastic_work'), 0.03);
+};
+check 'a ring that its support turns by whole turns meets friction', sub {
+  my $turn = 'floor: - Components & floor: Displacement = x*(cos(6*pi*max(0,t-1))-1)-y*sin(6*pi*max(0,t-1)) ; x*sin(6*pi*max(0,t-1))+y*(cos(6*pi*max(0,t-1))-1) ; 0'
+    . ' & block: - Symmetry planes & Mesh: Arguments = 2, 2, 2 : -1, -1, 0 : 1, 1, 2 : true & ramp: Times = 0, 1, 2 & ramp: Values = 0, 0.02, 0.02'
+    . ' & top on die: Friction coefficient = 0.3 & Time stepping: End time = 2';
+  my $long = billet("$turn & Time stepping: Largest step = 0.34");
+  return near('moment', last_of($long, 'die.moment_z'), last_of(billet("$turn & $short"), 'die.moment_z'), 0.03);
+};
+check 'fixed steps that do not see a motion are warned of', sub {
+  billet("$swing & $fixed & Time stepping: Initial step = 0.1");
+  return $said =~ /^warning\[unseen-motion\]: tool 'die' goes to and fro, or around, within the step/m ? '' : "says $said";
+};
 # Between bed and die, which both go; a third tool, which may come to touch, does not.
 sub tool
 {

@@ -365,6 +365,17 @@ void check_parts_of_steps() {
 
   const FrictionAccount account =
       compute_friction_account({{1., 0.}, {0., 0.}, {10. / stiffness.tangential, 0.}, false, 0.5}, rule);
+  // Two nodes that hand the traction 1 over in a step of 10 slips dissipate what one does that slides on.
+  const std::array<double, 2> on{-1., 0.}, off{0., 0.}, way{10. / stiffness.tangential, 0.};
+  const FrictionAccount left = compute_friction_account({on, off, way, false, 0.1}, rule),
+                        come = compute_friction_account({off, on, way, true, 0.1}, rule);
+  check("a load that is handed over dissipates without a pause",
+        std::abs((left.handed_over().dissipated(1., 1.) + come.handed_over().dissipated(1., 1.)) *
+                     stiffness.tangential / 10. -
+                 1.),
+        1e-12);
+  check("by itself each node takes its part",
+        (left.dissipated(1., 1.) + come.dissipated(1., 1.)) * stiffness.tangential < 2.);
   check("a node that springs off makes no energy", account.dissipation_n >= 0.);
   check("what it leaves out is what mean forces take besides",
         std::abs(account.beyond_n -

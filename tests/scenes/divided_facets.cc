@@ -115,7 +115,7 @@ void test_potential(const std::string &name, const SurfacePart &part) {
           for (std::size_t i = 0; i < moved.size(); ++i)
             moved[i] += h * direction[i];
           block.contact.update(moved);
-          return block.contact.local_load().stored_energy;
+          return block.contact.compute_load().stored_energy;
         },
         1e-6);
     error.add(std::abs(power + slope) / scale);

@@ -17,6 +17,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -284,6 +285,8 @@ private:
     bool rests = false;   ///< touches without pressing
     // By friction in this step, this rank's part [energy]:
     double dissipation = 0., damping = 0., taken_beyond = 0.;
+    /// As FrictionAccount::handed_over().
+    double dissipation_handed_over() const { return std::max(0., dissipation + taken_beyond); }
 
     bool presses() const { return touched.exists() && (contact.gap < 0. || rests); }
   };
@@ -348,6 +351,8 @@ private:
   double own_part(std::size_t s) const;
   /// That of slave s, which does not press, against the facet that it touched at the start of the step.
   SlaveMotion compute_motion_after_contact(std::size_t s, double duration) const;
+  /// As RigidContact's. Collective.
+  bool presses_at_both_ends() const;
   /// Takes note of what friction has dissipated at slave s. Of a node that several ranks have, each takes the
   /// part of its facets, by their number.
   void account_for_friction(std::size_t s, const SlaveMotion &motion);

@@ -36,6 +36,11 @@ struct FrictionStep {
 /// above, but for what a change of area makes of stored energy, and slip that turns back within the step. A
 /// node that leaves has D = A_n <Ψ_n − ½ φ t_n·Δg_t>. What mean forces take of the rest of the motion of
 /// nodes that enter or leave is `beyond`.
+///
+/// Where a pair presses at both ends of a step, nodes that enter and nodes that leave hand its load over.
+/// When they do so is not known, and their gaps do not say it: they are short beside the slip, and stiff
+/// penalties leave no depth. The load goes over linearly then, with φ = 1: the sum is right whenever it
+/// happens.
 struct FrictionAccount {
   // Parts of D and L per area at the start and at the end of the step [energy/length²].
   double dissipation_n = 0., dissipation = 0.;
@@ -48,6 +53,9 @@ struct FrictionAccount {
   double taken_beyond(const double area_n, const double area) const {
     return area_n * beyond_n + area * beyond;
   }
+
+  /// The same with φ = 1: of a node that enters, or leaves, while others take over its load.
+  FrictionAccount handed_over() const;
 };
 
 /// φ of a node that was `depth` deep and has been moved by `opening` along the normal since.

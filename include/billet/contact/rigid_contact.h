@@ -180,9 +180,7 @@ public:
   static DiagnosticList check_small_tools(const std::vector<RigidContact> &contacts);
 
   /// On all ranks, after update().
-  ContactLoad compute_load() const { return sum_over_ranks(local_load(), communicator_); }
-  /// What the facets of this rank contribute to it.
-  ContactLoad local_load() const;
+  ContactLoad compute_load() const;
 
   /// Of schemes with a matrix, after update() and before commit(); on all ranks. `weight` is that of the
   /// forces at the end of the step in the mean forces.
@@ -194,8 +192,8 @@ public:
   void bind(const LocalNodes &nodes);
   void update(const NodalVectors &displacements);
   /// Adds F_c [force], those on areas that change among them: without friction F_c = −∂Π/∂u, Π the stored
-  /// energy. Returns local_load() with these. Also adds to component 0 of `bounds` what the penalties of this
-  /// rank's facets add to a bound on the stiffness at a node [force/length].
+  /// energy. Returns the load of these facets. Also adds to component 0 of `bounds` what the penalties of
+  /// this rank's facets add to a bound on the stiffness at a node [force/length].
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds);
   /// Adds this rank's, after update() and before commit().
   void add_crossings(Crossings &crossings) const;
@@ -436,9 +434,13 @@ private:
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
   void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
   /// Adds what friction has dissipated. In explicit scenes, only that of nodes that have lifted off.
-  void add_friction(ContactLoad &load) const;
+  void add_friction(ContactLoad &load, bool hands_over) const;
   /// Calls visit(account, area_n, area) for the corners of all facets.
-  template <class Visit> void visit_friction(const Visit &visit) const;
+  template <class Visit> void visit_friction(bool hands_over, const Visit &visit) const;
+  /// What the facets of this rank contribute to compute_load().
+  ContactLoad local_load(bool hands_over) const;
+  /// Whether any node presses at the start of the step, and any at the last update(). Collective.
+  bool presses_at_both_ends() const;
   void add_released(ContactLoad &load) const;
   FacetStates states_of(const Facet &facet) const;
   static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);

@@ -36,6 +36,22 @@ struct HeldNode {
 /// All held nodes of the cells that this rank owns, and of their ghosts, by their first dof.
 std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization);
 
+/// The prescribed displacements of a held node, as far as they change with time.
+class SupportTrack {
+public:
+  std::array<double, 3> at(double t) const;
+
+private:
+  friend class Supports;
+  struct Part {
+    const Hold *hold;
+    double weight;
+    unsigned int line; ///< of at most three
+  };
+  std::vector<Part> parts_;
+  dealii::Point<3> position_;
+};
+
 /// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements. The
 /// planes n · u = value that meet at a node may have any normals; at most three of them are independent.
 class Supports {
@@ -55,6 +71,9 @@ public:
 
   /// Folds forces on constrained dofs into those that they depend on, and empties them.
   void condense(Vector &forces) const;
+
+  /// Of some of this rank's nodes, spread evenly; supports that rest have none.
+  std::vector<SupportTrack> moving_nodes() const;
 
   /// Number of prescribed nodal components on all ranks.
   DofIndex n_constrained() const;

@@ -76,6 +76,10 @@ public:
   /// At the end of the run.
   DiagnosticList finish() const;
 
+  /// By what part forces are too small since penetration takes it, along the softest load path, (L6); 0 where
+  /// that is little.
+  double penalty_error() const;
+
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 

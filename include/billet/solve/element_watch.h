@@ -23,8 +23,8 @@ public:
   /// After an accepted step. Collective.
   DiagnosticList watch(const SolutionState &state, bool is_last);
 
-  /// By what part forces are too large (of driven tools) at least, over all bodies together, at the last
-  /// comparison; 0 where no body is found too stiff.
+  /// By what part forces (of driven tools) are wrong, over all bodies together, at the last comparison: at
+  /// least, where they are too large; about, where they are too small. 0 where no body is doubtful.
   double error() const;
   /// The energies of the bodies at the last comparison.
   const std::vector<ElementEnergies> &energies() const { return energies_; }
@@ -42,6 +42,8 @@ private:
   void compare(const SolutionState &state);
   /// (L4), on the safe side for bodies that yield.
   double factor_of(std::size_t body) const;
+  /// Whether its element is too stiff or too soft for what it does.
+  bool is_doubtful(std::size_t body) const;
   /// Whether the energies of a body are more than round-off and a part of all that counts.
   bool counts(std::size_t body) const;
 

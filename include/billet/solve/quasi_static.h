@@ -9,6 +9,7 @@
 #include "billet/solve/contact_stabilisation.h"
 #include "billet/solve/error_control.h"
 #include "billet/solve/implicit_motion.h"
+#include "billet/solve/motion_watch.h"
 #include "billet/solve/newton.h"
 #include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
@@ -212,6 +213,10 @@ private:
   /// Whether a tool that touches with friction turns by so much from the start of the step to its end that
   /// slip has no direction: then the step fails. Collective.
   bool turns_too_far(double t, NewtonReport &report) const;
+  /// Whether a prescribed motion does in the step what its ends do not show: it has to be cut. Collective.
+  bool skips_motion(double t, NewtonReport &report) const;
+  /// A message about the same where steps cannot be cut. Collective.
+  DiagnosticList check_motion(double t) const;
   /// Of each contact, tools first, by how much its penalty should be raised, at the end of the step: 1 is not
   /// at all. Statics only. Collective.
   std::vector<double> raises_of_penalties() const;
@@ -401,6 +406,7 @@ private:
   const Scene &scene_;
   const Discretization &discretization_;
   Supports supports_;
+  MotionWatch motions_;
   InternalForces internal_;
   std::vector<RigidContact> contacts_;
   std::unique_ptr<LocalNodes> nodes_; ///< only with contact between bodies

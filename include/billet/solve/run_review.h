@@ -29,6 +29,9 @@ public:
   /// By what part forces are too large since elements are too stiff; 0 where none is found so.
   double element_error() const { return elements_.error(); }
 
+  /// By what part forces are too small since penetration takes it; 0 where that is little.
+  double penalty_error() const { return contacts_.penalty_error(); }
+
   void save(StateWriter &writer) const;
   /// Of a run that kept no such account it begins anew.
   void load(StateReader &reader);

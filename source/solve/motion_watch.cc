@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/motion_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+double distance(const Point &a, const Point &b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+/// Times in an interval that no period fits: by the golden ratio.
+std::vector<double> times_between(const double from, const double to, const unsigned int n) {
+  constexpr double golden = 0.61803398874989485;
+  std::vector<double> times{from};
+  for (unsigned int i = 1; i < n; ++i)
+    times.push_back(from + (to - from) * std::fmod(golden * i, 1.));
+  std::sort(times.begin(), times.end());
+  times.push_back(to);
+  return times;
+}
+
+} // namespace
+
+MotionWatch::MotionWatch(const Scene &scene, const Supports &supports, const Discretization &discretization)
+    : communicator_(discretization.communicator()), end_time_(scene.parameters().time_stepping.end_time) {
+  for (std::size_t i = 0; i < scene.tools().size(); ++i) {
+    const Tool &tool = scene.tools()[i];
+    if (std::none_of(scene.pairs().begin(), scene.pairs().end(),
+                     [i](const ContactPair &pair) { return pair.tool == i; }))
+      continue;
+    for (unsigned int p = 0; p < 4; ++p) {
+      dealii::Point<3> point(tool.placement(0.).to_tool(discretization.centre()));
+      if (p < 3)
+        point[p] += discretization.radius();
+      add({"tool '" + tool.name() + "'",
+           [&tool, point](const double t) {
+             const auto x = tool.placement(t).to_space(point);
+             return Point{x[0], x[1], x[2]};
+           },
+           tool.removal_time()});
+    }
+  }
+  for (const SupportTrack &motion : supports.moving_nodes())
+    add({"a support", [motion](const double t) { return motion.at(t); }, end_time_});
+}
+
+void MotionWatch::add(Track track) {
+  constexpr unsigned int n = 200;
+  const Point start = track.at(0.);
+  for (const double t : times_between(0., std::min(end_time_, track.end), n))
+    track.extent = std::max(track.extent, distance(track.at(t), start));
+  if (track.extent > 0.)
+    tracks_.push_back(std::move(track));
+}
+
+std::string MotionWatch::find_unseen(const double from, const double to) const {
+  // L of an arc of 15 degrees is 1.00286 times its chord.
+  constexpr double longer = 1.003, trifle = 0.05, per_run = 200.;
+  constexpr unsigned int least = 16;
+  const auto n = std::max(least, static_cast<unsigned int>(std::ceil(per_run * (to - from) / end_time_)));
+  const std::vector<double> times = times_between(from, to, n);
+  std::string found;
+  for (const Track &track : tracks_) {
+    if (from >= track.end)
+      continue;
+    Point last = track.at(from);
+    const Point start = last;
+    double path = 0.;
+    for (const double t : times) {
+      const Point now = track.at(t);
+      path += distance(now, last);
+      last = now;
+    }
+    if (path > trifle * track.extent && path > longer * distance(last, start)) {
+      found = track.name;
+      break;
+    }
+  }
+  for (const std::string &of_rank : dealii::Utilities::MPI::all_gather(communicator_, found))
+    if (!of_rank.empty())
+      return of_rank;
+  return {};
+}
+
+} // namespace billet
