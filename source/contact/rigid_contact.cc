@@ -913,7 +913,7 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
                 ramp_depth, weight);
     }
   }
-  if (!friction_.empty() && is_static_ && !is_removed_)
+  if (pair_.has_friction() && is_static_ && !is_removed_) // alike on all ranks
     visit_friction(presses_at_both_ends(),
                    [&](const FrictionAccount &account, const double area_n, const double area) {
                      works.touching -= account.taken_beyond(area_n, area);
@@ -1045,7 +1045,7 @@ Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, co
 }
 
 ContactLoad RigidContact::compute_load() const {
-  const bool hands_over = is_static_ && !friction_.empty() && presses_at_both_ends();
+  const bool hands_over = is_static_ && pair_.has_friction() && presses_at_both_ends();
   return sum_over_ranks(local_load(hands_over), communicator_);
 }
 
