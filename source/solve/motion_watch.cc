@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/motion_watch.h"
 
+#include "billet/errors.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,11 +50,22 @@ MotionWatch::MotionWatch(const Scene &scene, const Supports &supports, const Dis
     add({"a support", [motion](const double t) { return motion.at(t); }, end_time_});
 }
 
+std::vector<MotionWatch::Point> MotionWatch::places(const Track &track, const std::vector<double> &times) {
+  std::vector<Point> found;
+  for (const double t : times)
+    try {
+      found.push_back(track.at(t));
+    } catch (const SolutionFailure &) {
+      // It is nowhere at that time. A step that ends there says so.
+    }
+  return found;
+}
+
 void MotionWatch::add(Track track) {
   constexpr unsigned int n = 200;
-  const Point start = track.at(0.);
-  for (const double t : times_between(0., std::min(end_time_, track.end), n))
-    track.extent = std::max(track.extent, distance(track.at(t), start));
+  const std::vector<Point> points = places(track, times_between(0., std::min(end_time_, track.end), n));
+  for (const Point &point : points)
+    track.extent = std::max(track.extent, distance(point, points.front()));
   if (track.extent > 0.)
     tracks_.push_back(std::move(track));
 }
@@ -67,15 +80,11 @@ std::string MotionWatch::find_unseen(const double from, const double to) const {
   for (const Track &track : tracks_) {
     if (from >= track.end)
       continue;
-    Point last = track.at(from);
-    const Point start = last;
+    const std::vector<Point> points = places(track, times);
     double path = 0.;
-    for (const double t : times) {
-      const Point now = track.at(t);
-      path += distance(now, last);
-      last = now;
-    }
-    if (path > trifle * track.extent && path > longer * distance(last, start)) {
+    for (std::size_t i = 1; i < points.size(); ++i)
+      path += distance(points[i], points[i - 1]);
+    if (path > trifle * track.extent && path > longer * distance(points.back(), points.front())) {
       found = track.name;
       break;
     }

@@ -33,6 +33,8 @@ private:
     double extent = 0.; ///< largest distance from where it starts, in the whole run [length]
   };
   void add(Track track);
+  /// Where it is at these times, without those at which its motion has no value.
+  static std::vector<Point> places(const Track &track, const std::vector<double> &times);
 
   MPI_Comm communicator_;
   double end_time_;
