@@ -143,10 +143,11 @@ inline const DiagnosticKind
                        "No step of the run ended with a force on a tool.",
                        "Check its position, motion, units and the side to which it faces, or remove it");
 
-inline const DiagnosticKind
-    missing_pair("missing-pair", Severity::warning,
-                 "Two bodies, or a body and a tool, go into each other, and no contact pair connects them.",
-                 "Add a contact pair of the two");
+inline const DiagnosticKind missing_pair(
+    "missing-pair", Severity::warning,
+    "Two bodies, a body and a tool, or a body and itself go into each other where no contact pair "
+    "connects them.",
+    "Add a contact pair of the two, or the missing faces to the one that there is");
 
 inline const DiagnosticKind penalty_too_high(
     "penalty-too-high", Severity::warning,

@@ -320,11 +320,18 @@ void FacetContact::account_for_friction(const std::size_t s, const SlaveMotion &
   else if (is_static_ && !history_[s].is_active)
     part = part_before_leaving(pressed_n_[s].depth,
                                motion.displacement * (motion.rotation * pressed_n_[s].normal));
-  const FrictionAccount account = compute_friction_account(history_n_[s], history_[s], motion, rule, part);
+  const SlaveTraction &traction = states_[s].traction;
+  double limit_n = 0.;
+  if (is_static_ && history_[s].is_active && traction.slip > 0. && traction.pressure > 0.)
+    limit_n = std::hypot(history_[s].tangential[0], history_[s].tangential[1]) * pressed_n_[s].pressure /
+              traction.pressure;
+  const FrictionAccount account =
+      compute_friction_account(history_n_[s], history_[s], motion, rule, part, limit_n);
   const double own = own_part(s);
   states_[s].dissipation = own * account.dissipated(history_n_[s].area, history_[s].area);
   states_[s].damping = own * history_[s].area * account.damping;
   states_[s].taken_beyond = own * account.taken_beyond(history_n_[s].area, history_[s].area);
+  states_[s].missed = own * account.missed(history_n_[s].area);
 }
 
 template <class Visit> void FacetContact::visit_forces(const std::size_t s, const Visit &visit) const {
@@ -606,8 +613,8 @@ StepWorks FacetContact::compute_step_works(const double weight) const {
   const bool hands_over = is_static_ && presses_at_both_ends();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    works.touching -=
-        state.taken_beyond - (hands_over ? state.dissipation_handed_over() - state.dissipation : 0.);
+    works.touching -= state.taken_beyond - state.missed -
+                      (hands_over ? state.dissipation_handed_over() - state.dissipation : 0.);
     const PressureHistory &before = pressed_n_[s];
     const double ramp_depth =
         initial_depths_.empty() ? 0. : (allowed_part_n_ - allowed_part_) * initial_depths_[s];

@@ -2,6 +2,7 @@
 #include "billet/contact/friction_account.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace billet {
 
@@ -9,7 +10,7 @@ namespace {
 
 FrictionAccount compute_static_account(const FrictionStep &step, const FrictionRule &rule) {
   const bool enters_or_leaves = step.part_in_contact < 1.;
-  double work_n = 0., work = 0., stored_n = 0., stored = 0., by_slip_n = 0., by_slip = 0.;
+  double work_n = 0., work = 0., stored_n = 0., stored = 0., by_slip_n = 0., by_slip = 0., slip_squared = 0.;
   for (unsigned int i = 0; i < 2; ++i) {
     const double t_n = step.traction_n[i], t = step.traction[i];
     work_n -= 0.5 * t_n * step.motion[i];
@@ -21,10 +22,12 @@ FrictionAccount compute_static_account(const FrictionStep &step, const FrictionR
     const double slip = step.part_in_contact * step.motion[i] + stretch - stretch_n;
     by_slip_n -= 0.5 * t_n * slip;
     by_slip -= 0.5 * t * slip;
+    slip_squared += slip * slip;
   }
   FrictionAccount account;
   if (step.touches) {
     account.dissipation_n = std::max(0., by_slip_n);
+    account.missed_n = std::max(0., 0.5 * step.limit_n * std::sqrt(slip_squared) - account.dissipation_n);
     account.dissipation = std::max(0., by_slip);
   } else
     account.dissipation_n = std::max(0., step.part_in_contact * work_n + stored_n);

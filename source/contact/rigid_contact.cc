@@ -399,8 +399,11 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
   state.slip_increment = fraction * std::hypot(t.slip[0], t.slip[1]);
   state.tangential_energy = 0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) /
                             node.stiffness.tangential;
+  double limit_n = 0.;
+  if (is_static_ && knows_pressures_ && state.slip_increment > 0. && t.pressure > 0.)
+    limit_n = std::hypot(t.tangential[0], t.tangential[1]) * pressed_n_[i].pressure / t.pressure;
   state.friction = compute_friction_account(
-      {history_n.tangential, t.tangential, increment.value, true, fraction}, friction_rule(node));
+      {history_n.tangential, t.tangential, increment.value, true, fraction, limit_n}, friction_rule(node));
   history.slip = history_n.slip + state.slip_increment;
   history.slip_rate =
       increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
@@ -916,7 +919,7 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
   if (pair_.has_friction() && is_static_ && !is_removed_) // alike on all ranks
     visit_friction(presses_at_both_ends(),
                    [&](const FrictionAccount &account, const double area_n, const double area) {
-                     works.touching -= account.taken_beyond(area_n, area);
+                     works.touching -= account.taken_beyond(area_n, area) - account.missed(area_n);
                    });
   works.touching = dealii::Utilities::MPI::sum(works.touching, communicator_);
   works.ramp = dealii::Utilities::MPI::sum(works.ramp, communicator_);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace billet {
@@ -35,11 +36,12 @@ bool contains(const BoundingBox &box, const Tensor<1, 3> &x) {
   return box.distance_square(x) <= none;
 }
 
-/// Whether a point is in a trilinear element, by Newton's method for its reference coordinates.
-bool is_inside(const Corners &corners, const Tensor<1, 3> &x) {
+/// Whether a point is in a trilinear element, or beside it by at most `margin` of its size, by Newton's
+/// method for its reference coordinates.
+bool is_inside(const Corners &corners, const Tensor<1, 3> &x, const double margin) {
   using Unit = dealii::GeometryInfo<3>;
   constexpr unsigned int max_iterations = 15;
-  constexpr double rounding = 1e-9, converged = 1e-10, far = 3.;
+  constexpr double converged = 1e-10, far = 3.;
   Point<3> xi(0.5, 0.5, 0.5);
   for (unsigned int iteration = 0; iteration < max_iterations; ++iteration) {
     Tensor<1, 3> miss = x;
@@ -55,9 +57,29 @@ bool is_inside(const Corners &corners, const Tensor<1, 3> &x) {
     if ((xi - Point<3>(0.5, 0.5, 0.5)).norm() > far)
       return false;
     if (change.norm() < converged)
-      return Unit::is_inside_unit_cell(xi, rounding);
+      return Unit::is_inside_unit_cell(xi, margin);
   }
   return false;
+}
+
+/// How many elements of this rank hold each point; `margin` as in is_inside().
+std::vector<unsigned int> count_elements(const std::vector<Corners> &elements,
+                                         const std::vector<Tensor<1, 3>> &points, const double margin) {
+  std::vector<BoundingBox> boxes;
+  for (const Corners &corners : elements) {
+    boxes.push_back(BoundingBox::empty());
+    for (const auto &x : corners)
+      boxes.back().add(x);
+  }
+  const BoxTree tree(boxes);
+  std::vector<unsigned int> counts(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const double nowhere_else = 0.;
+    tree.visit_near(points[p], nowhere_else, [&](const unsigned int e) {
+      counts[p] += is_inside(elements[e], points[p], margin) ? 1 : 0;
+    });
+  }
+  return counts;
 }
 
 /// The smaller one of two lengths that a node may be below this facet before it counts as inside.
@@ -74,34 +96,41 @@ Tensor<1, 3> position_of(const Point<3> &X, const std::array<DofIndex, 3> &dofs,
   return x;
 }
 
+Corners corners_of(const Element &element, const Vector *displacements) {
+  Corners corners;
+  for (unsigned int v = 0; v < 8; ++v) {
+    const std::size_t first = std::size_t{3} * v;
+    corners[v] =
+        position_of(element.cell->vertex(v),
+                    {element.dofs[first], element.dofs[first + 1], element.dofs[first + 2]}, displacements);
+  }
+  return corners;
+}
+
+/// Position, and whether a pair names it.
+using Probe = std::array<double, 4>;
+
+std::vector<Probe> gather(const std::vector<Probe> &own, const MPI_Comm communicator) {
+  std::vector<Probe> all;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, own))
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  return all;
+}
+
+std::vector<Tensor<1, 3>> positions_of(const std::vector<Probe> &probes) {
+  std::vector<Tensor<1, 3>> positions;
+  for (const auto &x : probes)
+    positions.emplace_back(Tensor<1, 3>({x[0], x[1], x[2]}));
+  return positions;
+}
+
 } // namespace
 
 MissingPairs::MissingPairs(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), nodes_(scene.bodies().size()),
       facets_(scene.bodies().size()) {
   const std::size_t n_bodies = scene.bodies().size();
-  const auto share_pair = [&](const std::size_t a, const std::size_t b) {
-    return std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(), [&](const BodyPair &pair) {
-      return (pair.bodies[0] == a && pair.bodies[1] == b) || (pair.bodies[0] == b && pair.bodies[1] == a);
-    });
-  };
-  for (std::size_t a = 0; a < n_bodies; ++a) {
-    for (std::size_t b = a + 1; b < n_bodies; ++b)
-      if (!share_pair(a, b))
-        bodies_.push_back({a, b, true, {}});
-    for (std::size_t t = 0; t < scene.tools().size(); ++t)
-      if (std::none_of(scene.pairs().begin(), scene.pairs().end(),
-                       [&](const ContactPair &pair) { return pair.body == a && pair.tool == t; }))
-        tools_.push_back({a, t, true, {}});
-  }
-  std::vector<bool> is_in_couple(n_bodies);
-  for (const Couple &couple : bodies_)
-    is_in_couple[couple.body] = is_in_couple[couple.other] = true;
-  for (const Couple &couple : tools_)
-    is_in_couple[couple.body] = true;
   for (std::size_t b = 0; b < n_bodies; ++b) {
-    if (!is_in_couple[b])
-      continue;
     std::map<DofIndex, Node> nodes;
     for (const auto &facet : collect_boundary_facets(discretization, b)) {
       const double size = std::sqrt(facet.area_vector().norm());
@@ -114,13 +143,81 @@ MissingPairs::MissingPairs(const Scene &scene, const Discretization &discretizat
       nodes_[b].push_back(entry.second);
     facets_[b] = collect_free_boundary(discretization, b, scene.bodies()[b].holds);
   }
+  const auto add_ids = [](std::vector<unsigned int> &ids, const std::vector<unsigned int> &more) {
+    ids.insert(ids.end(), more.begin(), more.end());
+  };
+  for (std::size_t a = 0; a < n_bodies; ++a) {
+    for (std::size_t b = a; b < n_bodies; ++b) {
+      std::array<std::vector<unsigned int>, 2> ids;
+      bool has_pair = false;
+      for (const BodyPair &pair : scene.body_pairs())
+        for (const unsigned int first : {0U, 1U})
+          if (pair.bodies[first] == a && pair.bodies[1 - first] == b) {
+            has_pair = true;
+            add_ids(ids[0], pair.boundary_ids[first]);
+            add_ids(ids[1], pair.boundary_ids[1 - first]);
+          }
+      if (a == b) {
+        if (!has_pair)
+          selves_.push_back({a, a, false, {}, true, {}});
+        continue;
+      }
+      Couple couple{a, b, has_pair, {name_surface(a, ids[0]), name_surface(b, ids[1])}, true, {}};
+      if (!is_complete(couple))
+        bodies_.push_back(std::move(couple));
+    }
+    for (std::size_t t = 0; t < scene.tools().size(); ++t) {
+      std::vector<unsigned int> ids;
+      bool has_pair = false;
+      for (const ContactPair &pair : scene.pairs())
+        if (pair.body == a && pair.tool == t) {
+          has_pair = true;
+          add_ids(ids, pair.boundary_ids);
+        }
+      Couple couple{a, t, has_pair, {name_surface(a, ids), {}}, true, {}};
+      if (!is_complete(couple))
+        tools_.push_back(std::move(couple));
+    }
+  }
   const Positions positions = positions_at(nullptr);
   const auto boxes = boxes_around(positions);
   for (Couple &couple : bodies_)
     couple.is_open = !find_overlap(couple, positions, boxes, nullptr);
+  for (Couple &couple : selves_)
+    couple.is_open = !find_self_overlap(couple, nullptr);
   if (!scene.parameters().restart.is_wanted())
     for (Couple &couple : tools_)
       enter_tool(couple, positions, scene.tools()[couple.other].placement(0.));
+}
+
+MissingPairs::Named MissingPairs::name_surface(const std::size_t body,
+                                               const std::vector<unsigned int> &boundary_ids) const {
+  std::set<std::uint64_t> keys;
+  Vector marks = discretization_.make_additive_vector();
+  for (const auto &facet : collect_boundary_facets(discretization_, body, boundary_ids)) {
+    keys.insert(facet.key);
+    for (const auto &dofs : facet.dofs) {
+      const double mark = 1.;
+      marks.add(1, dofs.data(), &mark);
+    }
+  }
+  marks.compress(dealii::VectorOperation::add);
+  Vector ghosted = discretization_.make_ghosted_vector();
+  ghosted = marks;
+  Named named;
+  for (const Node &node : nodes_[body])
+    named.nodes.push_back(ghosted(node.dofs[0]) > 0.);
+  for (const BoundaryFacet &facet : facets_[body])
+    named.facets.push_back(keys.count(facet.key) > 0);
+  return named;
+}
+
+bool MissingPairs::is_complete(const Couple &couple) const {
+  bool is_complete = true;
+  for (const Named &named : couple.named)
+    for (const auto *part : {&named.nodes, &named.facets})
+      is_complete = is_complete && std::find(part->begin(), part->end(), false) == part->end();
+  return dealii::Utilities::MPI::min(is_complete ? 1U : 0U, discretization_.communicator()) > 0;
 }
 
 MissingPairs::Positions MissingPairs::positions_at(const Vector *displacements) const {
@@ -154,51 +251,45 @@ std::vector<BoundingBox> MissingPairs::boxes_around(const Positions &positions) 
   return boxes;
 }
 
-MissingPairs::Deepest MissingPairs::find_deepest(const std::size_t a, const std::size_t b,
+MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const bool other_in_first,
                                                  const Positions &positions,
                                                  const std::vector<BoundingBox> &boxes,
                                                  const Vector *displacements) const {
   const MPI_Comm communicator = discretization_.communicator();
-  std::vector<std::array<double, 3>> own;
-  for (const auto &x : positions[a])
+  const std::size_t a = other_in_first ? couple.other : couple.body,
+                    b = other_in_first ? couple.body : couple.other;
+  const Named &named_a = couple.named[other_in_first ? 1 : 0],
+              &named_b = couple.named[other_in_first ? 0 : 1];
+  std::vector<Probe> own;
+  for (std::size_t n = 0; n < positions[a].size(); ++n) {
+    const Tensor<1, 3> &x = positions[a][n];
     if (contains(boxes[b], x))
-      own.push_back({x[0], x[1], x[2]});
-  std::vector<Tensor<1, 3>> points;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, own))
-    for (const auto &x : of_rank)
-      points.emplace_back(Tensor<1, 3>({x[0], x[1], x[2]}));
-  if (points.empty())
+      own.push_back({x[0], x[1], x[2], named_a.nodes[n] ? 1. : 0.});
+  }
+  const std::vector<Probe> probes = gather(own, communicator);
+  if (probes.empty())
     return {};
 
   std::vector<Corners> elements;
-  std::vector<BoundingBox> element_boxes;
   for (const Element &element : discretization_.elements(b)) {
-    Corners corners;
+    const Corners corners = corners_of(element, displacements);
     BoundingBox box = BoundingBox::empty();
-    for (unsigned int v = 0; v < 8; ++v) {
-      const std::size_t first = std::size_t{3} * v;
-      corners[v] =
-          position_of(element.cell->vertex(v),
-                      {element.dofs[first], element.dofs[first + 1], element.dofs[first + 2]}, displacements);
-      box.add(corners[v]);
-    }
-    if (!overlap(box, boxes[a]))
-      continue;
-    elements.push_back(corners);
-    element_boxes.push_back(box);
+    for (const auto &x : corners)
+      box.add(x);
+    if (overlap(box, boxes[a]))
+      elements.push_back(corners);
   }
-  const BoxTree tree(element_boxes);
-  std::vector<unsigned int> counts(points.size());
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const double nowhere_else = 0.;
-    tree.visit_near(points[p], nowhere_else,
-                    [&](const unsigned int e) { counts[p] += is_inside(elements[e], points[p]) ? 1 : 0; });
-  }
+  constexpr double rounding = 1e-9;
+  const std::vector<Tensor<1, 3>> points = positions_of(probes);
+  std::vector<unsigned int> counts = count_elements(elements, points, rounding);
   dealii::Utilities::MPI::sum(counts, communicator, counts);
   std::vector<Tensor<1, 3>> inside;
+  std::vector<bool> is_named;
   for (std::size_t p = 0; p < points.size(); ++p)
-    if (counts[p] > 0)
+    if (counts[p] > 0) {
       inside.push_back(points[p]);
+      is_named.push_back(probes[p][3] > 0.);
+    }
   if (inside.empty())
     return {};
 
@@ -213,10 +304,11 @@ MissingPairs::Deepest MissingPairs::find_deepest(const std::size_t a, const std:
     }
   }
   const BoxTree surface(face_boxes);
-  std::vector<std::array<double, 2>> nearest; // distance and what is allowed there, of this rank
+  // Distance, what is allowed there, and whether a pair names the face, of this rank.
+  std::vector<std::array<double, 3>> nearest;
   for (const auto &x : inside) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<double, 2> found{infinity, infinity};
+    std::array<double, 3> found{infinity, infinity, 0.};
     double square = infinity;
     surface.visit_near(x, square, [&](const unsigned int f) {
       const FacetProjection projection = BilinearFacet(faces[f]).project(x, {0.});
@@ -224,16 +316,18 @@ MissingPairs::Deepest MissingPairs::find_deepest(const std::size_t a, const std:
       if (!(other < square))
         return;
       square = other;
-      found = {std::sqrt(other), allowed_depth(facets_[b][f])};
+      found = {std::sqrt(other), allowed_depth(facets_[b][f]), named_b.facets[f] ? 1. : 0.};
     });
     nearest.push_back(found);
   }
   Deepest deepest;
   const auto of_ranks = dealii::Utilities::MPI::all_gather(communicator, nearest);
   for (std::size_t p = 0; p < inside.size(); ++p) {
-    std::array<double, 2> found = of_ranks[0][p];
+    std::array<double, 3> found = of_ranks[0][p];
     for (const auto &of_rank : of_ranks)
       found = std::min(found, of_rank[p]);
+    if (is_named[p] && found[2] > 0.)
+      continue;
     const double relative = found[0] / found[1];
     if (std::isfinite(found[0]) && relative > deepest.relative)
       deepest = {found[0], relative, inside[p]};
@@ -247,11 +341,34 @@ std::optional<MissingPairs::Deepest> MissingPairs::find_overlap(const Couple &co
                                                                 const Vector *displacements) const {
   if (!overlap(boxes[couple.body], boxes[couple.other]))
     return {};
-  Deepest deepest = find_deepest(couple.body, couple.other, positions, boxes, displacements);
-  const Deepest back = find_deepest(couple.other, couple.body, positions, boxes, displacements);
+  Deepest deepest = find_deepest(couple, false, positions, boxes, displacements);
+  const Deepest back = find_deepest(couple, true, positions, boxes, displacements);
   if (back.relative > deepest.relative)
     deepest = back;
   return deepest.relative > 1. ? std::optional<Deepest>(deepest) : std::nullopt;
+}
+
+std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple,
+                                                            const Vector *displacements) const {
+  const MPI_Comm communicator = discretization_.communicator();
+  std::vector<Probe> own; // the middle of facets: where one element is as deep as the body no node is within
+  for (const BoundaryFacet &facet : facets_[couple.body]) {
+    Tensor<1, 3> x;
+    for (unsigned int v = 0; v < 4; ++v)
+      x += 0.25 * position_of(facet.corners[v], facet.dofs[v], displacements);
+    own.push_back({x[0], x[1], x[2], 0.});
+  }
+  const std::vector<Tensor<1, 3>> points = positions_of(gather(own, communicator));
+  std::vector<Corners> elements;
+  for (const Element &element : discretization_.elements(couple.body))
+    elements.push_back(corners_of(element, displacements));
+  constexpr double well_within = 0.1; // of an element
+  std::vector<unsigned int> counts = count_elements(elements, points, -well_within);
+  dealii::Utilities::MPI::sum(counts, communicator, counts);
+  const auto found = std::find_if(counts.begin(), counts.end(), [](const unsigned int n) { return n > 0; });
+  if (found == counts.end())
+    return {};
+  return points[static_cast<std::size_t>(found - counts.begin())];
 }
 
 MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &positions,
@@ -260,19 +377,31 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
   const RigidSurface &surface = scene_.tools()[couple.other].surface();
   const std::vector<Node> &nodes = nodes_[couple.body];
   const bool is_first = couple.is_in_front.empty();
-  std::array<double, 5> own{}; // relative, depth, position
+  const std::vector<bool> &is_named = couple.named[0].nodes;
+  // Of nodes that were in front at the check before, or where a run resumes may have been.
+  std::vector<double> depths(nodes.size());
   std::vector<bool> is_in_front(nodes.size());
+  double followed = 0.; // how deep contact lets nodes in
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const Tensor<1, 3> &x = positions[couple.body][n];
-    const auto projection = surface.project(placement.to_tool(Point<3>(x)));
+    const auto projection = surface.project(placement.to_tool(Point<3>(positions[couple.body][n])));
     if (!projection.exists)
       continue;
-    const double allowed = part * nodes[n].facet_size;
-    // What comes in little by little stays in front until it is in; where a run resumes it may have begun.
-    const bool was_in_front = is_first ? scene_.parameters().restart.is_wanted() : couple.is_in_front[n];
-    is_in_front[n] = projection.gap >= 0. || (was_in_front && projection.gap > -allowed);
-    if (!is_first && was_in_front && projection.gap <= -allowed)
-      own = std::max(own, {-projection.gap / allowed, -projection.gap, x[0], x[1], x[2]});
+    is_in_front[n] = projection.gap >= 0.;
+    if (is_first ? scene_.parameters().restart.is_wanted() : couple.is_in_front[n])
+      depths[n] = std::max(0., -projection.gap);
+    if (is_named[n])
+      followed = std::max(followed, depths[n]);
+  }
+  followed = dealii::Utilities::MPI::max(followed, discretization_.communicator());
+  std::array<double, 5> own{}; // relative, depth, position
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const double allowed = followed + part * nodes[n].facet_size;
+    const bool is_inside = !is_first && !is_named[n] && depths[n] >= allowed;
+    // What comes in little by little stays in front until it is in.
+    is_in_front[n] = is_in_front[n] || (depths[n] > 0. && !is_inside);
+    const Tensor<1, 3> &x = positions[couple.body][n];
+    if (is_inside)
+      own = std::max(own, {depths[n] / allowed, depths[n], x[0], x[1], x[2]});
   }
   couple.is_in_front = std::move(is_in_front);
   const auto of_ranks = dealii::Utilities::MPI::all_gather(discretization_.communicator(), own);
@@ -299,16 +428,19 @@ void MissingPairs::load(const StateReader &reader) {
   const auto is_told = [&](const std::string &name) {
     return ("\n" + told_).find("\n" + name) != std::string::npos;
   };
-  for (Couple &couple : bodies_)
-    couple.is_open = couple.is_open && !is_told(name_of(couple, describe_body(couple)));
+  for (auto *couples : {&bodies_, &selves_})
+    for (Couple &couple : *couples)
+      couple.is_open = couple.is_open && !is_told(name_of(couple, describe_body(couple)));
   for (Couple &couple : tools_)
     couple.is_open = couple.is_open && !is_told(name_of(couple, describe_tool(couple)));
 }
 
 DiagnosticList MissingPairs::check(const SolutionState &state) {
   DiagnosticList diagnostics;
-  if (std::none_of(bodies_.begin(), bodies_.end(), [](const Couple &c) { return c.is_open; }) &&
-      std::none_of(tools_.begin(), tools_.end(), [](const Couple &c) { return c.is_open; }))
+  const auto is_open = [](const Couple &couple) { return couple.is_open; };
+  if (std::none_of(bodies_.begin(), bodies_.end(), is_open) &&
+      std::none_of(selves_.begin(), selves_.end(), is_open) &&
+      std::none_of(tools_.begin(), tools_.end(), is_open))
     return diagnostics;
   const Positions positions = positions_at(&state.displacements);
   const auto boxes = boxes_around(positions);
@@ -318,8 +450,11 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
     const std::string &body = scene_.bodies()[couple.body].name;
     std::ostringstream text;
     text.precision(3);
-    text << "Body '" << body << "' and " << other << " share no contact pair, and are " << deepest.depth
-         << " deep in each other";
+    text << "Body '" << body << "' and " << other;
+    if (couple.has_pair)
+      text << " are " << deepest.depth << " deep in each other at faces that no contact pair of theirs names";
+    else
+      text << " share no contact pair, and are " << deepest.depth << " deep in each other";
     diagnostics.push_back(Diagnostic(diagnostic::missing_pair, text.str())
                               .body(body)
                               .at(deepest.position)
@@ -331,6 +466,19 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
       if (const auto deepest = find_overlap(couple, positions, boxes, &state.displacements)) {
         report(couple, describe_body(couple), *deepest);
         diagnostics.back().body(scene_.bodies()[couple.other].name);
+      }
+  for (Couple &couple : selves_)
+    if (couple.is_open)
+      if (const auto position = find_self_overlap(couple, &state.displacements)) {
+        couple.is_open = false;
+        told_ += name_of(couple, describe_body(couple));
+        const std::string &body = scene_.bodies()[couple.body].name;
+        diagnostics.push_back(
+            Diagnostic(diagnostic::missing_pair,
+                       "Body '" + body + "' goes into itself, and has no contact pair with itself")
+                .body(body)
+                .at(*position)
+                .time(state.time));
       }
   for (Couple &couple : tools_) {
     const Tool &tool = scene_.tools()[couple.other];

@@ -369,6 +369,16 @@ void check_parts_of_steps() {
   const std::array<double, 2> on{-1., 0.}, off{0., 0.}, way{10. / stiffness.tangential, 0.};
   const FrictionAccount left = compute_friction_account({on, off, way, false, 0.1}, rule),
                         come = compute_friction_account({off, on, way, true, 0.1}, rule);
+  // A node that sticks at the start, with a third of what it could bear, slips once it bears the traction 1.
+  const std::array<double, 2> little{-1. / 3., 0.};
+  const FrictionAccount begins = compute_friction_account({little, on, way, true, 1., 1.}, rule);
+  const double slipped = 10. - (1. - 1. / 3.); // in 1/k_t
+  check("friction that begins within a step is the limit's, over the slip",
+        std::abs(begins.dissipated(1., 1.) * stiffness.tangential / slipped - 1.), 1e-12);
+  check("without what mean forces miss of it it is their work, less the change of springs",
+        std::abs((begins.dissipated(1., 1.) - begins.missed(1.)) * stiffness.tangential +
+                 0.5 * (1. - 1. / 9.) - 0.5 * (1. + 1. / 3.) * 10.),
+        1e-12);
   check("a load that is handed over dissipates without a pause",
         std::abs((left.handed_over().dissipated(1., 1.) + come.handed_over().dissipated(1., 1.)) *
                      stiffness.tangential / 10. -

@@ -23,6 +23,8 @@ struct FrictionStep {
   std::array<double, 2> motion;     ///< Δg_t of the whole step, relative to what it touches, or has left
   bool touches;                     ///< at the end
   double part_in_contact = 1.;      ///< φ: of the step, if it enters or leaves in it
+  /// τ_n: what it could bear at the start, |t| p_n/p; 0 where it does not slip in the step.
+  double limit_n = 0.;
 };
 
 /// What a node's friction takes from the motion in a step, eq. (E4) of doc/theory.md, with A the area of the
@@ -32,10 +34,11 @@ struct FrictionStep {
 /// dissipates over the slip γ = Δg_t + (t − t_n)/k_t, and L = A |t − t_n|²/(2 k_t) is what the end value
 /// takes besides; a node that leaves dissipates what its spring held. If springs store nothing, L = 0.
 ///
-/// In statics dissipation never falls, (I8): D = ½ A_n <−t_n·γ> + ½ A <−t·γ>, with φ Δg_t in γ. That is W as
-/// above, but for what a change of area makes of stored energy, and slip that turns back within the step. A
-/// node that leaves has D = A_n <Ψ_n − ½ φ t_n·Δg_t>. What mean forces take of the rest of the motion of
-/// nodes that enter or leave is `beyond`.
+/// In statics dissipation never falls, (I8): D = ½ A_n max(−t_n·γ, τ_n |γ|) + ½ A <−t·γ>, with φ Δg_t in γ. A
+/// node that sticks at the start slips once it bears τ_n, and not with t_n. In steady sliding that is W as
+/// above, but for what a change of area makes of stored energy. A node that leaves has
+/// D = A_n <Ψ_n − ½ φ t_n·Δg_t>. What mean forces take of the rest of the motion of nodes that enter or leave
+/// is `beyond`; what they miss of the friction of nodes that begin to slip is `missed`.
 ///
 /// Where a pair presses at both ends of a step, nodes that enter and nodes that leave hand its load over.
 /// When they do so is not known, and their gaps do not say it: they are short beside the slip, and stiff
@@ -46,10 +49,12 @@ struct FrictionAccount {
   double dissipation_n = 0., dissipation = 0.;
   double damping = 0.;
   double beyond_n = 0., beyond = 0.;
+  double missed_n = 0.; ///< friction, beside dissipation_n
 
   double dissipated(const double area_n, const double area) const {
-    return area_n * dissipation_n + area * dissipation;
+    return area_n * (dissipation_n + missed_n) + area * dissipation;
   }
+  double missed(const double area_n) const { return area_n * missed_n; }
   double taken_beyond(const double area_n, const double area) const {
     return area_n * beyond_n + area * beyond;
   }

@@ -146,9 +146,10 @@ SlaveTractionOf<Number> compute_slave_traction(const Law &law, const ContactStif
 }
 
 /// Between the states of a slave node at both ends of a step; a node that is out of contact has no traction.
+/// The last two are those of FrictionStep.
 FrictionAccount compute_friction_account(const SlaveHistory &history_n, const SlaveHistory &history,
                                          const SlaveMotion &motion, const FrictionRule &rule,
-                                         double part_in_contact = 1.);
+                                         double part_in_contact = 1., double limit_n = 0.);
 
 } // namespace billet
 
