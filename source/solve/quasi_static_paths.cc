@@ -128,6 +128,12 @@ std::vector<double> QuasiStatic::raises_of_penalties() const {
       of_contacts([](const auto &contact) { return contact.excessive_penetration(); });
   dealii::Utilities::MPI::max(factors, discretization_.communicator(), factors);
   const std::vector<double> room = stiffening_left();
+  const auto &stepping = scene_.parameters().time_stepping;
+  constexpr double short_step = 0.01; // of the first one
+  // Contact follows nodes to 0.4 of a facet, four times what default penalties allow.
+  constexpr double deep = 3.6;
+  const bool is_short = stepping.control == parameters::TimeStepping::Control::automatic &&
+                        time_ - state_.time < short_step * stepping.initial_step;
   for (std::size_t i = 0; i < factors.size(); ++i) {
     const bool is_tool = i < contacts_.size();
     const auto [tolerance, has_own_penalty] =
@@ -135,8 +141,10 @@ std::vector<double> QuasiStatic::raises_of_penalties() const {
                                  scene_.pairs()[contacts_[i].pair()].input->has_own_penalty)
                 : std::make_pair(scene_.body_pairs()[i - contacts_.size()].penetration_tolerance,
                                  scene_.body_pairs()[i - contacts_.size()].input->has_own_penalty);
-    // A penalty that the scene sets stays; the warnings tell what it makes softer.
-    const bool is_too_much = !motion_ && tolerance == 0. && !has_own_penalty && factors[i] > 1.;
+    // A penalty that the scene sets stays while it can; the warnings tell what it makes softer. It cannot
+    // where nodes are about to go deeper than contact follows them.
+    const bool is_too_much =
+        !motion_ && tolerance == 0. && factors[i] > (has_own_penalty && !is_short ? deep : 1.);
     const double raise = std::min(std::clamp(2. * factors[i], least_raise, largest_raise), most * room[i]);
     factors[i] = is_too_much && raise > worth_it ? raise : 1.;
   }

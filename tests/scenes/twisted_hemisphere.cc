@@ -37,9 +37,10 @@ int main(int argc, char *argv[]) {
     for (const auto &node : run.problem.body_contact(0).report())
       if (node.status == ContactStatus::stick && node.pressure > 0.)
         stuck = std::max(stuck, radii.at(node.dofs[0]));
-    // Work over angle is the mean moment of the step; the pair's moment is on its first body.
+    // Work over angle is the mean moment of the step, where friction does not begin within it; the pair's
+    // moment is on its first body.
     const double moment = std::abs(state.body_pair_loads[0].moment[2]);
-    if (middle > 1.2 && middle < 2.)
+    if (middle > 1.4 && middle < 2.)
       moments.add(
           std::abs(0.5 * (moment + moment_n) * rate * (now - time) / (state.energies.external - work) - 1.));
     moment_n = moment;
