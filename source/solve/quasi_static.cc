@@ -546,6 +546,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   append(report.diagnostics, std::move(messages));
   append(report.diagnostics, linear_->take_diagnostics());
   if (report.converged) {
+    append(report.diagnostics, linear_->check_condition());
     append(report.diagnostics, check_penalties());
     if (report.is_stalled)
       report.diagnostics.push_back(describe_stall(report));

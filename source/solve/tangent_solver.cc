@@ -90,6 +90,7 @@ bool TangentSolver::factorize_directly() {
   is_direct_now_ = true;
   if (direct_->factorize()) {
     norm_ = is_ill_conditioned_ ? 0. : matrix_->NormInf();
+    condition_ = 0.;
     ++n_factorized_;
     if ((n_factorized_ & (n_factorized_ - 1)) == 0) // at the 1st, 2nd, 4th, ...
       estimate_condition();
@@ -202,16 +203,20 @@ void TangentSolver::watch_condition(const Epetra_Vector &b, const Epetra_Vector 
   double of_b = 0., of_x = 0.;
   b.Norm2(&of_b);
   x.Norm2(&of_x);
+  if (of_b > 0.)
+    condition_ = std::max(condition_, norm_ * of_x / of_b);
+}
+
+DiagnosticList TangentSolver::check_condition() {
   constexpr double largest = 1e12; // four digits are left
-  const double condition = of_b > 0. ? norm_ * of_x / of_b : 0.;
-  if (!(condition > largest))
-    return;
+  if (is_ill_conditioned_ || !is_direct_now_ || !(condition_ > largest))
+    return {};
   std::ostringstream text;
   text.precision(1);
-  text << "The condition of the matrix is " << std::scientific << condition
+  text << "The condition of the matrix is " << std::scientific << condition_
        << " or more: few of the sixteen digits of a correction are right";
-  diagnostics_.push_back(Diagnostic(diagnostic::ill_conditioned, text.str()).measure("condition", condition));
   is_ill_conditioned_ = true;
+  return {Diagnostic(diagnostic::ill_conditioned, text.str()).measure("condition", condition_)};
 }
 
 unsigned int TangentSolver::take_iterations() {

@@ -25,7 +25,7 @@ from extremes.runner import ALONE  # noqa: E402
 OF_THE_MESH = {"bricks-may-lock", "coarse-on-tool", "element-too-soft", "element-too-stiff", "faceted-curvature",
                "few-contact-nodes", "flat-elements", "pressure-checkerboard", "tool-smaller-than-facets"}
 OUTCOMES = ("right", "warned", "stopped", "wrong", "no end", "crashed", "refused", "unclear")
-SECONDS, REFERENCE_SECONDS = 40, 120  # of a processor
+SECONDS, REFERENCE_SECONDS = 240, 240  # of a processor
 UNKNOWN = 0.25  # error of a reference without another one
 
 

@@ -597,7 +597,7 @@ ABOUT = {
     "turning tools": ("A plane on a ring, a ball and a roll on a block, pressed and turned 0.1 to 20 times with default steps",
                       "force and moment at the end within 3 % of a quarter of a turn in steps of 0.02: once all slides, they stay"),
     "removal": ("A bent strip, a dented block, two clamped plates, whose tool is removed at once or released in 0.02 to 0.5",
-                "no energy that appears after the removal: plastic and elastic within 5 % of both before it"),
+                "no energy that appears after the removal: plastic and elastic within 5 % of both before it; a strip that only its rolls would hold has to be stopped"),
     "pins": ("A pin in a lug of its radius, 12 to 96 facets around, with equal and unequal facets, with and without a surface correction",
              "force within 5 % of 192 matching facets with penalty 100, any warning excuses"),
     "explicit": ("Balls of 0.1 to 2 facets on points of a facet; a plate that flies with its edge at the edge of a tool, or of a plate; 0.01 to 0.3 of the wave speed",

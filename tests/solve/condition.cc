@@ -43,7 +43,7 @@ unsigned int times_told(const double soft, const bool symmetric) {
   unsigned int n_told = 0;
   for (unsigned int i = 0; i < 4; ++i) {
     check("it is solved", solver.factorize() && solver.solve(b, x, 1e-10));
-    n_told += find(solver.take_diagnostics(), diagnostic::ill_conditioned) != nullptr ? 1 : 0;
+    n_told += find(solver.check_condition(), diagnostic::ill_conditioned) != nullptr ? 1 : 0;
   }
   return n_told;
 }

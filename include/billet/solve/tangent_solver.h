@@ -42,17 +42,17 @@ public:
   const std::string &failure() const { return failure_; }
   /// Of an iterative solver, since the last call.
   unsigned int take_iterations();
-  /// Messages since the last call: how much memory an iterative solver takes, that a direct one had to help,
-  /// that the matrix is ill-conditioned.
+  /// Messages since the last call: how much memory an iterative solver takes, that a direct one had to help.
   DiagnosticList take_diagnostics();
+  /// That the matrix factorised last is ill-conditioned; once.
+  DiagnosticList check_condition();
 
 private:
   bool factorize_directly();
   bool fall_back();
   /// Of the matrix just factorised, by two solves.
   void estimate_condition();
-  /// Reports, once, a condition |A| |x|/|b| that takes most digits: no more than that of the matrix, and for
-  /// free.
+  /// |A| |x|/|b|: no more than the condition of the matrix, and for free.
   void watch_condition(const Epetra_Vector &b, const Epetra_Vector &x);
 
   parameters::Solver::LinearSolver direct_kind_;
@@ -68,6 +68,7 @@ private:
   bool has_reported_memory_ = false, is_ill_conditioned_ = false;
   unsigned int n_factorized_ = 0; ///< directly
   double norm_ = 0.;              ///< |A|, as factorised directly
+  double condition_ = 0.;         ///< at least, of the same
   std::string name_, failure_;
   DiagnosticList diagnostics_;
   HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},
