@@ -28,7 +28,8 @@ std::vector<double> times_between(const double from, const double to, const unsi
 } // namespace
 
 MotionWatch::MotionWatch(const Scene &scene, const Supports &supports, const Discretization &discretization)
-    : communicator_(discretization.communicator()), end_time_(scene.parameters().time_stepping.end_time) {
+    : communicator_(discretization.communicator()), end_time_(scene.parameters().time_stepping.end_time),
+      rest_(1e-9 * discretization.radius()) {
   for (std::size_t i = 0; i < scene.tools().size(); ++i) {
     const Tool &tool = scene.tools()[i];
     if (std::none_of(scene.pairs().begin(), scene.pairs().end(),
@@ -66,7 +67,7 @@ void MotionWatch::add(Track track) {
   const std::vector<Point> points = places(track, times_between(0., std::min(end_time_, track.end), n));
   for (const Point &point : points)
     track.extent = std::max(track.extent, distance(point, points.front()));
-  if (track.extent > 0.)
+  if (track.extent > rest_)
     tracks_.push_back(std::move(track));
 }
 

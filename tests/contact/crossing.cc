@@ -92,6 +92,10 @@ void check_formulas() {
   free_part(at(0., 0., 1000.), at(0., 0., 1.), deep(0.2), &n);
   check("far away costs one evaluation", n == 1);
 
+  n = 0;
+  check("a way without measure ends", free_part(at(0., 0., -0.1), at(1e15, 0., -0.1), deep(0.2), &n) == 1.);
+  check("after so many evaluations at most", n <= 10002);
+
   const auto thin = [](const Point &x) { return plate(x, 0.05); };
   check("plate, to its middle", std::abs(free_part(at(0., 0., 1.), at(0., 0., -1.), thin) - 1.025 / 2.),
         tolerance(2.));

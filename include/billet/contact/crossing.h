@@ -28,13 +28,15 @@ struct SurfaceSide {
 /// Conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1996, ch. 2): a node in front at
 /// distance d cannot meet anything on its next d of way. `locate(s)` is where it is after part s of the
 /// motion, `length` bounds its way relative to any point of the surface. Near the surface, and behind it, the
-/// way goes on by `resolution` at least. The part that is returned is short of the limit by 1/32 of that at
-/// most.
+/// way goes on by `finest` at least, and by a ten thousandth of the motion: a matrix that is all but
+/// singular corrects without measure. The part that is returned is short of the limit by 1/32 of that at most.
 ///
 /// The signed distance is continuous where a node goes through the surface, and jumps where it comes in from
 /// beyond the border: only the first counts. A node that is too deep at the start has no limit here.
 template <class Locate>
-double find_free_part(const Locate &locate, const double length, const double resolution) {
+double find_free_part(const Locate &locate, const double length, const double finest) {
+  constexpr double most_places = 1e4;
+  const double resolution = std::max(finest, length / most_places);
   using Side = SurfaceSide::Side;
   enum class State { outside, inside, hidden };
   SurfaceSide here = locate(0.);
