@@ -216,6 +216,13 @@ inline const DiagnosticKind element_too_soft(
     "layer of bricks with mean dilatation that are as long as high.",
     "Use 'Hourglass stiffness = 1', or 'Element = one point'");
 
+inline const DiagnosticKind plastic_bending_coarse(
+    "plastic-bending-coarse", Severity::warning,
+    "A body of one-point elements yields as it bends, with few of them through its thickness or along the "
+    "fold. More than a tenth of its energy is in modes that the stabilisation resists, with one yield stress "
+    "for an element.",
+    "Use four or more bricks through the thickness, and shorter ones where the bend is sharpest");
+
 inline const DiagnosticKind bricks_may_lock(
     "bricks-may-lock", Severity::warning,
     "A thin body has long bricks, or few through its thickness, of an element that is too stiff in bending. "

@@ -24,14 +24,12 @@ ElementComparison::ElementComparison(const MaterialLaw &material, const ElementF
       material.hardening);
 }
 
-double ElementComparison::energy(const double volumetric_strain,
-                                 const double elastic_deviatoric_energy) const {
-  const double of_volume = 0.5 * elastic_.bulk * volumetric_strain * volumetric_strain;
+double ElementComparison::equivalent_plastic_strain(const double elastic_deviatoric_energy) const {
   // G e:e = ½ 3G ε², ε the equivalent strain.
   const double stiffness = 3. * elastic_.shear;
   const double strain = std::sqrt(2. * elastic_deviatoric_energy / stiffness);
   if (!yield_stress_ || stiffness * strain <= yield_stress_(0.))
-    return of_volume + elastic_deviatoric_energy;
+    return 0.;
   // 3G (ε − α) = σ(α), of which the left falls faster than the right.
   double low = 0., high = strain;
   constexpr unsigned int n_bisections = 48;
@@ -39,10 +37,21 @@ double ElementComparison::energy(const double volumetric_strain,
     const double middle = 0.5 * (low + high);
     (stiffness * (strain - middle) > yield_stress_(middle) ? low : high) = middle;
   }
-  return of_volume + 0.5 * stiffness * (strain - low) * (strain - low) + plastic_work_(low);
+  return low;
 }
 
-double ElementComparison::energy(const dealii::Tensor<2, 3> &F, const double stabilisation) const {
+double ElementComparison::energy(const double volumetric_strain,
+                                 const double elastic_deviatoric_energy) const {
+  const double of_volume = 0.5 * elastic_.bulk * volumetric_strain * volumetric_strain;
+  const double plastic_strain = equivalent_plastic_strain(elastic_deviatoric_energy);
+  if (plastic_strain == 0.)
+    return of_volume + elastic_deviatoric_energy;
+  const double stiffness = 3. * elastic_.shear;
+  const double elastic_strain = std::sqrt(2. * elastic_deviatoric_energy / stiffness) - plastic_strain;
+  return of_volume + 0.5 * stiffness * elastic_strain * elastic_strain + plastic_work_(plastic_strain);
+}
+
+ElementComparison::Strains ElementComparison::measure(const dealii::Tensor<2, 3> &F) const {
   // C − I, without the digits that C would lose.
   dealii::Tensor<2, 3> H = F;
   for (unsigned int i = 0; i < 3; ++i)
@@ -56,12 +65,11 @@ double ElementComparison::energy(const dealii::Tensor<2, 3> &F, const double sta
   double deviatoric = 0.;
   for (const double strain : strains)
     deviatoric += (strain - volumetric / 3.) * (strain - volumetric / 3.);
-  return energy(volumetric, elastic_.shear * deviatoric + stabilisation);
+  return {volumetric, elastic_.shear * deviatoric};
 }
 
-double ElementComparison::one_point_energy(const ElementVectors &positions,
-                                           const ElementVectors &displacements,
-                                           const double hourglass_stiffness) const {
+bool ElementComparison::add_one_point(const ElementVectors &positions, const ElementVectors &displacements,
+                                      const double hourglass_stiffness, ElementEnergies &energies) const {
   ElementFormulation formulation;
   formulation.hourglass_stiffness = hourglass_stiffness;
   const OnePointElement element(elastic_, formulation);
@@ -69,20 +77,27 @@ double ElementComparison::one_point_energy(const ElementVectors &positions,
   OnePointElement::Kinematics kinematics;
   if (!OnePointElement::initialize(positions, reference) ||
       !OnePointElement::compute(reference, displacements, kinematics))
-    return -1.;
-  return reference.volume *
-         energy(kinematics.F, element.stabilise(reference, kinematics, {}).energy / reference.volume);
+    return false;
+  Strains strains = measure(kinematics.F);
+  const double of_centre = energy(strains);
+  strains.deviatoric_energy += element.stabilise(reference, kinematics, {}).energy / reference.volume;
+  energies.used += reference.volume * energy(strains);
+  energies.hourglass += reference.volume * (energy(strains) - of_centre);
+  if (const double plastic_strain = equivalent_plastic_strain(strains.deviatoric_energy); plastic_strain > 0.)
+    energies.plastic += reference.volume * plastic_work_(plastic_strain);
+  return true;
 }
 
 bool ElementComparison::compare(const ElementVectors &positions, const ElementVectors &displacements,
                                 ElementEnergies &energies) const {
-  ElementEnergies own;
+  ElementEnergies own, one_point;
   PointDeformations accurate;
-  own.one_point = one_point_energy(positions, displacements, 1.);
-  if (own.one_point < 0. || !compute_assumed_strain(positions, displacements, poisson_, accurate))
+  if (!add_one_point(positions, displacements, 1., one_point) ||
+      !compute_assumed_strain(positions, displacements, poisson_, accurate))
     return false;
+  own.one_point = one_point.used;
   for (unsigned int q = 0; q < n_element_points; ++q)
-    own.accurate += accurate.volumes[q] * energy(accurate.F[q]);
+    own.accurate += accurate.volumes[q] * energy(measure(accurate.F[q]));
 
   const auto add_points = [&](const auto &element) {
     using Element = std::decay_t<decltype(element)>;
@@ -92,7 +107,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
       return false;
     for (unsigned int q = 0; q < n_element_points; ++q)
       own.used += Element::reference_volume(reference, q) *
-                  energy(Element::template deformation<false>(reference, kinematics, q));
+                  energy(measure(Element::template deformation<false>(reference, kinematics, q)));
     return true;
   };
   switch (formulation_.element) {
@@ -105,9 +120,8 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
       return false;
     break;
   case ElementFormulation::Element::one_point:
-    own.used = formulation_.hourglass_stiffness == 1.
-                   ? own.one_point
-                   : one_point_energy(positions, displacements, formulation_.hourglass_stiffness);
+    if (!add_one_point(positions, displacements, formulation_.hourglass_stiffness, own))
+      return false;
     break;
   }
   if (!std::isfinite(own.used + own.one_point + own.accurate))

@@ -38,6 +38,17 @@ std::string advise_on_stiffness(const ElementEnergies &energies, const ElementFo
          " that are as long as high, four or more through the thickness";
 }
 
+constexpr std::size_t n_energies = 5;
+
+void append(const ElementEnergies &energies, std::vector<double> &values) {
+  values.insert(values.end(),
+                {energies.used, energies.one_point, energies.accurate, energies.hourglass, energies.plastic});
+}
+ElementEnergies energies_in(const std::vector<double> &values, const std::size_t body) {
+  const double *own = &values[n_energies * body];
+  return {own[0], own[1], own[2], own[3], own[4]};
+}
+
 } // namespace
 
 ElementWatch::ElementWatch(const Scene &scene, const Discretization &discretization)
@@ -59,11 +70,11 @@ void ElementWatch::compare(const SolutionState &state) {
     for (const auto &element : discretization_.elements(b))
       comparisons_[b].compare(nodal_positions(element.cell), gather(state.displacements, element.dofs),
                               energies);
-    sums.insert(sums.end(), {energies.used, energies.one_point, energies.accurate});
+    append(energies, sums);
   }
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
   for (std::size_t b = 0; b < comparisons_.size(); ++b)
-    energies_[b] = {sums[3 * b], sums[3 * b + 1], sums[3 * b + 2]};
+    energies_[b] = energies_in(sums, b);
   compared_time_ = state.time;
 }
 
@@ -128,6 +139,28 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
   return diagnostics;
 }
 
+DiagnosticList ElementWatch::judge_bending() const {
+  constexpr double of_hourglass_modes = 0.1, of_yielding = 0.1;
+  DiagnosticList diagnostics;
+  for (std::size_t b = 0; b < energies_.size(); ++b) {
+    const ElementEnergies &energies = energies_[b];
+    const double share = energies.hourglass / energies.used;
+    if (!counts(b) || scene_.bodies()[b].formulation.element != ElementType::one_point ||
+        !(share > of_hourglass_modes) || !(energies.plastic > of_yielding * energies.used))
+      continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "The body yields as it bends within single elements: " << 100. * share
+         << " % of the energy is in modes that one-point elements see only by their stabilisation, which "
+            "has one yield stress for the whole element. Forces may be off by tens of per cent";
+    diagnostics.push_back(Diagnostic(diagnostic::plastic_bending_coarse, text.str())
+                              .body(scene_.bodies()[b].name)
+                              .time(compared_time_)
+                              .measure("part", share));
+  }
+  return diagnostics;
+}
+
 DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_last) {
   constexpr double growth = 2., still_loaded = 0.5;
   const EnergyLedger &ledger = state.energies;
@@ -140,8 +173,11 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
     compared_energy_ = energy;
   }
   largest_energy_ = std::isfinite(energy) ? std::max(largest_energy_, energy) : largest_energy_;
-  if (is_last)
-    return judge(false);
+  if (is_last) {
+    DiagnosticList diagnostics = judge(false), of_bending = judge_bending();
+    diagnostics.insert(diagnostics.end(), of_bending.begin(), of_bending.end());
+    return diagnostics;
+  }
   return is_static && is_first && compared_energy_ > 0. ? judge(true) : DiagnosticList();
 }
 
@@ -159,19 +195,20 @@ double ElementWatch::error() const {
 void ElementWatch::save(StateWriter &writer) const {
   std::vector<double> values = {compared_energy_, compared_time_, largest_energy_};
   for (const auto &energies : energies_)
-    values.insert(values.end(), {energies.used, energies.one_point, energies.accurate});
+    append(energies, values);
   writer.write("element energies", values);
 }
 
 void ElementWatch::load(const StateReader &reader) {
-  const std::vector<double> values = reader.read("element energies");
-  if (values.size() != 3 + 3 * energies_.size()) // of other bodies
+  std::vector<double> values = reader.read("element energies");
+  if (values.size() != 3 + n_energies * energies_.size()) // of other bodies
     return;
   compared_energy_ = values[0];
   compared_time_ = values[1];
   largest_energy_ = values[2];
+  values.erase(values.begin(), values.begin() + 3);
   for (std::size_t b = 0; b < energies_.size(); ++b)
-    energies_[b] = {values[3 + 3 * b], values[4 + 3 * b], values[5 + 3 * b]};
+    energies_[b] = energies_in(values, b);
 }
 
 } // namespace billet

@@ -124,6 +124,22 @@ int main() {
                   return 1e-5 * dealii::Tensor<1, 3>({along * up, 0., -0.5 * along * along});
                 }));
     check("of bricks whose edges are skew one point is too stiff", skewed.factor() > 1.2);
+
+    const ElementEnergies bent = compare(law, Element::one_point, x, u);
+    check("bending is a hourglass mode", relative(bent.hourglass, bent.used), 1e-6);
+    check("elastic bodies dissipate nothing", bent.plastic == 0.);
+    const auto stretched = move(x, [](const dealii::Tensor<1, 3> &p) {
+      return 0.05 * dealii::Tensor<1, 3>({p[0], -0.5 * p[1], -0.5 * p[2]});
+    });
+    MaterialLaw plastic = law;
+    plastic.hardening = LinearHardening{2., 0.};
+    const ElementEnergies pulled = compare(plastic, Element::one_point, x, stretched);
+    check("stretch is none", std::abs(pulled.hourglass) < 1e-9 * pulled.used);
+    check("what flow dissipates is most of it",
+          pulled.plastic > 0.9 * pulled.used && pulled.plastic < pulled.used);
+    const ElementEnergies folded = compare(plastic, Element::one_point, x, bend(x, l, 0.02));
+    check("so it is where bending yields",
+          folded.plastic > 0.5 * folded.used && folded.hourglass > 0.9 * folded.used);
   }
   {
     const double yield = 2., modulus = 50.;

@@ -13,6 +13,8 @@ struct ElementEnergies {
   double used = 0.;      ///< the element of the body
   double one_point = 0.; ///< the one-point element, without a factor on its stabilisation
   double accurate = 0.;  ///< the assumed field without parasitic shear
+  double hourglass = 0.; ///< of `used`: what a one-point element has by its stabilisation alone
+  double plastic = 0.;   ///< of `used`, of one-point elements: what is dissipated
 
   /// How many times as stiff the element is as it should be, (L4): at least.
   double factor() const { return accurate > 0. ? used / accurate : 1.; }
@@ -20,6 +22,8 @@ struct ElementEnergies {
     used += other.used;
     one_point += other.one_point;
     accurate += other.accurate;
+    hourglass += other.hourglass;
+    plastic += other.plastic;
     return *this;
   }
 };
@@ -41,9 +45,19 @@ public:
   double energy(double volumetric_strain, double elastic_deviatoric_energy) const;
 
 private:
-  double energy(const dealii::Tensor<2, 3> &F, double stabilisation = 0.) const;
-  double one_point_energy(const ElementVectors &positions, const ElementVectors &displacements,
-                          double hourglass_stiffness) const;
+  /// Of logarithmic strains, as energy() takes them.
+  struct Strains {
+    double volumetric, deviatoric_energy;
+  };
+  Strains measure(const dealii::Tensor<2, 3> &F) const;
+  double energy(const Strains &strains) const {
+    return energy(strains.volumetric, strains.deviatoric_energy);
+  }
+  /// α of (L5).
+  double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
+  /// Adds to `used`, `hourglass` and `plastic`; false if the element is inside out.
+  bool add_one_point(const ElementVectors &positions, const ElementVectors &displacements,
+                     double hourglass_stiffness, ElementEnergies &energies) const;
 
   ElasticModuli elastic_;
   double poisson_;

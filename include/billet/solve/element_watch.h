@@ -40,6 +40,8 @@ public:
 
 private:
   void compare(const SolutionState &state);
+  /// Bodies that bend and yield with too few one-point elements through the thickness.
+  DiagnosticList judge_bending() const;
   /// (L4), on the safe side for bodies that yield.
   double factor_of(std::size_t body) const;
   /// Whether its element is too stiff or too soft for what it does.
