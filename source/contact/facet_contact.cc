@@ -329,6 +329,8 @@ void FacetContact::account_for_friction(const std::size_t s, const SlaveMotion &
       compute_friction_account(history_n_[s], history_[s], motion, rule, part, limit_n);
   const double own = own_part(s);
   states_[s].dissipation = own * account.dissipated(history_n_[s].area, history_[s].area);
+  states_[s].dissipation_handed_over =
+      own * account.handed_over().dissipated(history_n_[s].area, history_[s].area);
   states_[s].damping = own * history_[s].area * account.damping;
   states_[s].taken_beyond = own * account.taken_beyond(history_n_[s].area, history_[s].area);
   states_[s].missed = own * account.missed(history_n_[s].area);
@@ -527,7 +529,7 @@ FacetContactLoad FacetContact::compute_load() const {
   const bool hands_over = is_static_ && presses_at_both_ends();
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    load.dissipation += hands_over ? state.dissipation_handed_over() : state.dissipation;
+    load.dissipation += hands_over ? state.dissipation_handed_over : state.dissipation;
     load.damping += state.damping;
     if (!state.presses())
       continue;
@@ -614,7 +616,7 @@ StepWorks FacetContact::compute_step_works(const double weight) const {
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
     works.touching -= state.taken_beyond - state.missed -
-                      (hands_over ? state.dissipation_handed_over() - state.dissipation : 0.);
+                      (hands_over ? state.dissipation_handed_over - state.dissipation : 0.);
     const PressureHistory &before = pressed_n_[s];
     const double ramp_depth =
         initial_depths_.empty() ? 0. : (allowed_part_n_ - allowed_part_) * initial_depths_[s];

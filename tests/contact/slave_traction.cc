@@ -379,6 +379,15 @@ void check_parts_of_steps() {
         std::abs((begins.dissipated(1., 1.) - begins.missed(1.)) * stiffness.tangential +
                  0.5 * (1. - 1. / 9.) - 0.5 * (1. + 1. / 3.) * 10.),
         1e-12);
+  // So does one that sticks against that, whose traction pushes it at first.
+  const FrictionAccount pushed = compute_friction_account({{1. / 3., 0.}, on, way, true, 1., 1.}, rule);
+  check("whichever way it was held",
+        std::abs(pushed.dissipated(1., 1.) * stiffness.tangential / (10. - (1. + 1. / 3.)) - 1.), 1e-12);
+  check("less what mean forces miss, and what they are given, it is their work, too",
+        std::abs((pushed.dissipated(1., 1.) - pushed.missed(1.) + pushed.taken_beyond(1., 1.)) *
+                     stiffness.tangential +
+                 0.5 * (1. - 1. / 9.) - 0.5 * (1. - 1. / 3.) * 10.),
+        1e-12);
   check("a load that is handed over dissipates without a pause",
         std::abs((left.handed_over().dissipated(1., 1.) + come.handed_over().dissipated(1., 1.)) *
                      stiffness.tangential / 10. -

@@ -482,7 +482,12 @@ class Running(unittest.TestCase):
         self.assertEqual(report.safe(records, "penalty"), "1 to 100")
         # Turned beside another one that is as it is by default it is turned alone.
         self.assertEqual(report.safe([*records, of(["penalty", "mu"], [100.0, 0.0], "failed")], "penalty"), "1 to 10")
-        # Soft ones are not safe, but for scenes that are soft anyway.
+        # Told ones are safe unless it is about penalties; soft ones are not, but for scenes that are soft anyway.
+        told = {"depth": 0.0, "warnings": ["contact-too-soft"]}
+        self.assertEqual([report.outcome_of({**of([], [], soft=True), **r}) for r in (told, {**told, "depth": 1.0}, {**told, "warnings": ["penalty-too-low"]}, {})],
+                         ["told", "soft", "soft", "soft"])
+        for parameter, range_of in (("mu", "0 to 0.3"), ("penalty", "0.3")):
+            self.assertEqual(report.safe([{**of([parameter], [v], soft=v == 0.0), **told} for v in (0.0, 0.3)], parameter), range_of)
         turned = [{**of(["nu"], [nu], soft=True), "base": "drag", "changes": {"facets": "planed", "nu": nu}} for nu in (0.0, 0.3)]
         self.assertEqual(report.safe(turned, "nu"), "-")
         self.assertEqual(report.soft_by_default(turned), {"drag/facets=planed"})

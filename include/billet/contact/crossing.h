@@ -29,7 +29,8 @@ struct SurfaceSide {
 /// distance d cannot meet anything on its next d of way. `locate(s)` is where it is after part s of the
 /// motion, `length` bounds its way relative to any point of the surface. Near the surface, and behind it, the
 /// way goes on by `finest` at least, and by a ten thousandth of the motion: a matrix that is all but
-/// singular corrects without measure. The part that is returned is short of the limit by 1/32 of that at most.
+/// singular corrects without measure. The part that is returned is short of the limit by 1/32 of that at
+/// most.
 ///
 /// The signed distance is continuous where a node goes through the surface, and jumps where it comes in from
 /// beyond the border: only the first counts. A node that is too deep at the start has no limit here.

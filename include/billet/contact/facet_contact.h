@@ -285,10 +285,7 @@ private:
     bool rests = false;   ///< touches without pressing
     // By friction in this step, this rank's part [energy]:
     double dissipation = 0., damping = 0., taken_beyond = 0., missed = 0.;
-    /// As FrictionAccount::handed_over().
-    double dissipation_handed_over() const {
-      return missed + std::max(0., dissipation - missed + taken_beyond);
-    }
+    double dissipation_handed_over = 0.; ///< the first one by FrictionAccount::handed_over()
 
     bool presses() const { return touched.exists() && (contact.gap < 0. || rests); }
   };

@@ -38,7 +38,8 @@ private:
 
   MPI_Comm communicator_;
   double end_time_;
-  double rest_; ///< what moves no further, as a point on the axis of rotation, rests but for rounding [length]
+  double
+      rest_; ///< what moves no further, as a point on the axis of rotation, rests but for rounding [length]
   std::vector<Track> tracks_; ///< of this rank; those of tools on all
 };
 

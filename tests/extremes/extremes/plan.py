@@ -348,7 +348,7 @@ FIXED = (
     "upset/penalty=0.001", "upset/penalty=1e+06", "upset/nu=0.4999,element=mean dilatation", "upset/kinematics=neo-Hookean,strained=True,strain=-1",
     "upset/law=elastoplastic,hardening modulus=0", "upset/law=elastoplastic,hardening modulus=-0.1", "upset/element=one point,distortion=3",
     "upset/strained=True,aspect=1000,strain=-0.5", "upset/mu=0.2,length=0.000976562,stress=1,time=1 like mu=0.2",
-    "pull/kinematics=Hencky,strain=2", "slide/penalty=10000,mu=0.3", "slide/mu=10", "slide/friction law=shear limited,mu=0.6",
+    "pull/kinematics=Hencky,strain=2", "slide/penalty=10000,mu=0.3", "slide/mu=10", "slide/mu=0.3,step=1", "slide/friction law=shear limited,mu=0.6",
     "slide/mu=0.2,turned=137 like mu=0.2", "ball/radius=0.001", "twist/turns=10,mu=0.2", "place/feature=seams", "place/feature=rectangle",
     "upset/tangent=numerical,first step=1,largest step=10,strain=-1,mu=0.2", "rest/penalty=1000",
     "stack/modulus ratio=1e+06", "stack/facets=planed,penalty=10", "drag/mu=0.3", "touching/mu=0.1", "clip/penalty=100",
@@ -357,7 +357,8 @@ FIXED = (
     "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
     "bars.explicit/number type=float", "upset/force=0.01,penalty=10", "laden.explicit/load=0.001,penalty=1", "laden.implicit/spring=1",
     "twist/mu=0.3,moment=0.0001", "drag/facets=planed,smoothing=0.5", "clip/margin=0.1", "bars.explicit/edges=true,penalty=1",
-    "strike.explicit/feature=apex", "strike.explicit/feature=rectangle,speed=0.3", "strike.implicit/feature=disc,speed=0.3", "strike.implicit/radius=0.1", "press.explicit/strained=True,law=elastoplastic,strain=-2.99573", "stretch.explicit/kinematics=Hencky,strain=0.5",
+    "strike.explicit/feature=apex", "strike.explicit/feature=rectangle,speed=0.3", "strike.implicit/feature=disc,speed=0.3", "strike.implicit/radius=0.1", "strike.implicit/mu=0.3,feature=coincident,turns=1",
+    "press.explicit/strained=True,law=elastoplastic,strain=-2.99573", "stretch.explicit/kinematics=Hencky,strain=0.5",
     "stretch.implicit/kinematics=neo-Hookean,strain=-1", "upset/strained=True,aspect=0.001,strain=-2.99573",
     "slide/target error=0.1,mu=0.2 like mu=0.2,augmentation=0.0001,first step=0.005,largest step=0.005,tolerance=1e-09",
 )

@@ -17,7 +17,7 @@ from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE  # noqa: E402
 from .plan import FRICTION_LAWS  # noqa: E402
 from .scenes import KINDS, KNOBS  # noqa: E402
 
-COLOURS = {"right": "#4c9f70", "soft": "#a9d3b5", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
+COLOURS = {"right": "#4c9f70", "told": "#7fbf94", "soft": "#b9dcc3", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
            "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
 WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient",
          **{f"mu, {law}": f"friction coefficient, `{law}`" for law in FRICTION_LAWS[1:]}, "nu": "Poisson's ratio", "step": "fixed step, of the load",
@@ -61,8 +61,10 @@ def alone(records, parameter):
 
 
 def outcome_of(record):
-    """As the tables have it: where all that must hold does, but a penalty is soft, "soft"."""
-    return "soft" if record.get("outcome") == "right" and record.get("soft") else record.get("outcome")
+    """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "told" if it is so by a few per cent only."""
+    if record.get("outcome") != "right" or not record.get("soft"):
+        return record.get("outcome")
+    return "soft" if record.get("depth", DEEP) > DEEP or "penalty-too-low" in record.get("warnings", ["penalty-too-low"]) else "told"
 
 
 def is_default(record, but=None):
@@ -88,8 +90,8 @@ def safe(records, parameter, soft=frozenset()):
     if not own:
         pairs = alone(records, parameter)
         return f"{span(pairs, parameter)}, in pairs" if pairs else ""
-    excused = set() if parameter in PENALTIES + STRAINED else soft
-    return span([r if variant(r) in excused else {**r, "outcome": outcome_of(r)} for r in own], parameter)
+    is_strict = parameter in PENALTIES + STRAINED
+    return span([r if not is_strict and (variant(r) in soft or outcome_of(r) == "told") else {**r, "outcome": outcome_of(r)} for r in own], parameter)
 
 
 def span(own, parameter):
@@ -208,16 +210,17 @@ def write(records, folder, planned=0, program=""):
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
     soft = soft_by_default(records)
-    outcomes = [o for o in (OUTCOMES[0], "soft", *OUTCOMES[1:]) if any(outcome_of(r) == o for r in records)]
+    outcomes = [o for o in (OUTCOMES[0], "told", "soft", *OUTCOMES[1:]) if any(outcome_of(r) == o for r in records)]
     whole = Counter(map(outcome_of, records))
     parts = ["# Scenes at the extremes", f"Written by `scripts/extremes`, on one rank: {len(records)} {f'of the {planned} ' if planned > len(records) else ''}tiny scenes of the plan "
              "(1 to 64 bricks), each parameter over its range, alone and in pairs, in every kind of run. In each, what must hold is "
              "computed from what the run wrote: equilibrium, closed forms of bars and columns, the yield condition, the friction cone "
              "of nodes and of whole forces, the ledger of energies, momentum, impulse, mirror symmetry, penetration, elements inside "
              "out, and that the same scene in other units takes as many steps and iterations, and turned in space gives the same.",
-             f"*right*: all of that holds. *soft*: it does, but a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is soft, since it "
-             "takes more than a fifth of the motion: what is in balance then is less than the scene asks for, and forces are too small, by any factor. A larger penalty, "
-             "or a 'Penetration tolerance', mends that. *doubtful*: it does not hold, and the log says why, and what to do: energies fail to balance, a law is no longer "
+             "*right*: all of that holds. *told*: it does, and a warning says that penetration takes more than 4 % of the energy along a load path, and how much. "
+             f"*soft*: it does, but a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is low for the facets: what is in balance then is less "
+             "than the scene asks for, and forces are too small, by any factor. A larger penalty, "
+             "or a 'Penetration tolerance', mends both. *doubtful*: it does not hold, and the log says why, and what to do: energies fail to balance, a law is no longer "
              "stable at such strains, or elements are too stiff or too soft in bending. "
              "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
              f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
@@ -227,8 +230,8 @@ def write(records, folder, planned=0, program=""):
                    + [[kind, *[sum(r["base"] in bases and outcome_of(r) == o for r in records) for o in outcomes],
                        sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),
              "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
-             "alone is right, and not soft, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. "
-             "Scenes that are soft as they are" + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "") + " count as soft for penalties, strains and shapes only. "
+             "alone is right or told, and not soft, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. "
+             "Scenes that are soft as they are" + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "") + " count as soft for penalties, strains and shapes only, and so do those that are told. "
              "Blocks are strained as named only under penalties that do not give way: where a strain or a shape is turned they are raised to what that takes, "
              "up to 1e5 E/h (the default of 10 E/h lets an elastic block that is pressed to ln -1 give way at -0.76, and one pressed to ln -3 at -1.3: soft, and the log says so). "
              "*In pairs*: it is never turned alone, and all its scenes count; soft ones are so by the other parameter. Empty: not tried. Counts are of all scenes, those in pairs with it included. Scenes of "
