@@ -111,6 +111,14 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
     bodies_of.push_back(pairs_.back().bodies);
   }
   paths_ = find_load_paths(scene.bodies().size(), bodies_of);
+  for (LoadPath &path : paths_)
+    path.bears_given_loads =
+        std::any_of(path.bodies.begin(), path.bodies.end(),
+                    [&](const std::size_t body) { return !scene.bodies()[body].loads.empty(); }) ||
+        (!scene.parameters().is_dynamic() && // else the tool's inertia drives
+         std::any_of(path.pairs.begin(), path.pairs.end(), [&](const std::size_t pair) {
+           return pairs_[pair].tool != none && scene.tools()[pairs_[pair].tool].is_driven();
+         }));
   softness_.resize(paths_.size());
 
   const double tolerance = 1e-8 * discretization.radius();
@@ -263,8 +271,9 @@ void ContactReview::add(const Solution &solution) {
           deformation += element.elastic_energy + element.plastic_work + element.hourglass_energy;
       deformation = dealii::Utilities::MPI::sum(deformation, discretization_.communicator());
     }
-    if (std::isfinite(penetration + deformation + ledger.total()))
-      softness_[i].add(state.time, penetration, deformation, ledger.total());
+    const double all = paths_[i].bears_given_loads ? ledger.total() : ledger.of_elements() + ledger.contact;
+    if (std::isfinite(penetration + deformation + all))
+      softness_[i].add(state.time, penetration, deformation, all);
   }
 }
 

@@ -17,6 +17,7 @@ namespace billet {
 /// and their penetrations add up. Tools are rigid and connect nothing.
 struct LoadPath {
   std::vector<std::size_t> bodies, pairs;
+  bool bears_given_loads = false; ///< of bodies, or of driven tools: its forces are right at any stiffness
 };
 /// `bodies_of`: the one or two bodies of each pair.
 std::vector<LoadPath> find_load_paths(std::size_t n_bodies,
@@ -27,7 +28,7 @@ std::vector<LoadPath> find_load_paths(std::size_t n_bodies,
 /// deformation.
 class PathSoftness {
 public:
-  /// At these times; `all_energy`: whatever there is in the scene, of motion, too.
+  /// At these times; `all_energy`: of all that counts, (L6).
   void add(double time, double penetration, double deformation, double all_energy);
   /// The part by which forces of driven tools are too small; 0 where contact is no matter for the scene.
   double part() const;
