@@ -41,7 +41,8 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind step_longer_than_period(
     "step-longer-than-period", Severity::warning,
-    "Fixed steps are longer than the time in which an elastic wave crosses a body that hits something.",
+    "Fixed steps are longer than 0.35 of the time in which an elastic wave crosses a body that hits "
+    "something.",
     "Reduce 'Initial step', or use 'Step control = automatic'");
 
 inline const DiagnosticKind implausible_travel(

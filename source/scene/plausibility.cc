@@ -228,7 +228,8 @@ void check_force(const Scene &scene, const std::size_t t, const Start &start, Di
 }
 
 void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
-  constexpr double fast = 0.3;
+  // A bar on a wall bounces with 16 % less momentum in steps of 0.6, with 7 % less in ones of 0.3.
+  constexpr double fast = 0.3, coarse = 0.35;
   const parameters::TimeStepping &steps = scene.parameters().time_stepping;
   double fastest_wave = 0.;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
@@ -249,7 +250,7 @@ void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagno
                                 .body(body.name)
                                 .value("end time / crossing time", steps.end_time / crossing));
     if (!scene.parameters().is_explicit() && steps.control == parameters::TimeStepping::Control::fixed &&
-        start.speeds[b] > 0. && scene.capabilities().contact && steps.initial_step > crossing)
+        start.speeds[b] > 0. && scene.capabilities().contact && steps.initial_step > coarse * crossing)
       diagnostics.push_back(Diagnostic(diagnostic::step_longer_than_period,
                                        ratio("Step / time of an elastic wave through the body is",
                                              steps.initial_step / crossing))
