@@ -81,8 +81,9 @@ bool ElementComparison::add_one_point(const ElementVectors &positions, const Ele
   Strains strains = measure(kinematics.F);
   const double of_centre = energy(strains);
   strains.deviatoric_energy += element.stabilise(reference, kinematics, {}).energy / reference.volume;
-  energies.used += reference.volume * energy(strains);
-  energies.hourglass += reference.volume * (energy(strains) - of_centre);
+  const double whole = energy(strains);
+  energies.used += reference.volume * whole;
+  energies.hourglass += reference.volume * (whole - of_centre);
   if (const double plastic_strain = equivalent_plastic_strain(strains.deviatoric_energy); plastic_strain > 0.)
     energies.plastic += reference.volume * plastic_work_(plastic_strain);
   return true;
@@ -120,7 +121,9 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
       return false;
     break;
   case ElementFormulation::Element::one_point:
-    if (!add_one_point(positions, displacements, formulation_.hourglass_stiffness, own))
+    if (formulation_.hourglass_stiffness == 1.)
+      own += one_point;
+    else if (!add_one_point(positions, displacements, formulation_.hourglass_stiffness, own))
       return false;
     break;
   }

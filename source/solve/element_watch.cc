@@ -40,7 +40,7 @@ std::string advise_on_stiffness(const ElementEnergies &energies, const ElementFo
 
 constexpr std::size_t n_energies = 5;
 
-void append(const ElementEnergies &energies, std::vector<double> &values) {
+void add_numbers(const ElementEnergies &energies, std::vector<double> &values) {
   values.insert(values.end(),
                 {energies.used, energies.one_point, energies.accurate, energies.hourglass, energies.plastic});
 }
@@ -70,7 +70,7 @@ void ElementWatch::compare(const SolutionState &state) {
     for (const auto &element : discretization_.elements(b))
       comparisons_[b].compare(nodal_positions(element.cell), gather(state.displacements, element.dofs),
                               energies);
-    append(energies, sums);
+    add_numbers(energies, sums);
   }
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
   for (std::size_t b = 0; b < comparisons_.size(); ++b)
@@ -144,10 +144,11 @@ DiagnosticList ElementWatch::judge_bending() const {
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const ElementEnergies &energies = energies_[b];
-    const double share = energies.hourglass / energies.used;
     if (!counts(b) || scene_.bodies()[b].formulation.element != ElementType::one_point ||
-        !(share > of_hourglass_modes) || !(energies.plastic > of_yielding * energies.used))
+        !(energies.hourglass > of_hourglass_modes * energies.used) ||
+        !(energies.plastic > of_yielding * energies.used))
       continue;
+    const double share = energies.hourglass / energies.used;
     std::ostringstream text;
     text.precision(3);
     text << "The body yields as it bends within single elements: " << 100. * share
@@ -174,8 +175,8 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   }
   largest_energy_ = std::isfinite(energy) ? std::max(largest_energy_, energy) : largest_energy_;
   if (is_last) {
-    DiagnosticList diagnostics = judge(false), of_bending = judge_bending();
-    diagnostics.insert(diagnostics.end(), of_bending.begin(), of_bending.end());
+    DiagnosticList diagnostics = judge(false);
+    append(diagnostics, judge_bending());
     return diagnostics;
   }
   return is_static && is_first && compared_energy_ > 0. ? judge(true) : DiagnosticList();
@@ -195,7 +196,7 @@ double ElementWatch::error() const {
 void ElementWatch::save(StateWriter &writer) const {
   std::vector<double> values = {compared_energy_, compared_time_, largest_energy_};
   for (const auto &energies : energies_)
-    append(energies, values);
+    add_numbers(energies, values);
   writer.write("element energies", values);
 }
 

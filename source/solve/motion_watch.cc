@@ -28,8 +28,8 @@ std::vector<double> times_between(const double from, const double to, const unsi
 } // namespace
 
 MotionWatch::MotionWatch(const Scene &scene, const Supports &supports, const Discretization &discretization)
-    : communicator_(discretization.communicator()), end_time_(scene.parameters().time_stepping.end_time),
-      rest_(1e-9 * discretization.radius()) {
+    : communicator_(discretization.communicator()), end_time_(scene.parameters().time_stepping.end_time) {
+  const double rounding = 1e-9 * discretization.radius();
   for (std::size_t i = 0; i < scene.tools().size(); ++i) {
     const Tool &tool = scene.tools()[i];
     if (std::none_of(scene.pairs().begin(), scene.pairs().end(),
@@ -44,11 +44,12 @@ MotionWatch::MotionWatch(const Scene &scene, const Supports &supports, const Dis
              const auto x = tool.placement(t).to_space(point);
              return Point{x[0], x[1], x[2]};
            },
-           tool.removal_time()});
+           tool.removal_time()},
+          rounding);
     }
   }
   for (const SupportTrack &motion : supports.moving_nodes())
-    add({"a support", [motion](const double t) { return motion.at(t); }, end_time_});
+    add({"a support", [motion](const double t) { return motion.at(t); }, end_time_}, rounding);
 }
 
 std::vector<MotionWatch::Point> MotionWatch::places(const Track &track, const std::vector<double> &times) {
@@ -62,12 +63,12 @@ std::vector<MotionWatch::Point> MotionWatch::places(const Track &track, const st
   return found;
 }
 
-void MotionWatch::add(Track track) {
+void MotionWatch::add(Track track, const double rounding) {
   constexpr unsigned int n = 200;
   const std::vector<Point> points = places(track, times_between(0., std::min(end_time_, track.end), n));
   for (const Point &point : points)
     track.extent = std::max(track.extent, distance(point, points.front()));
-  if (track.extent > rest_)
+  if (track.extent > rounding)
     tracks_.push_back(std::move(track));
 }
 

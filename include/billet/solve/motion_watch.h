@@ -32,14 +32,13 @@ private:
     double end;         ///< from when on it is gone
     double extent = 0.; ///< largest distance from where it starts, in the whole run [length]
   };
-  void add(Track track);
+  /// What moves no further than `rounding`, as a point on the axis of rotation, is at rest.
+  void add(Track track, double rounding);
   /// Where it is at these times, without those at which its motion has no value.
   static std::vector<Point> places(const Track &track, const std::vector<double> &times);
 
   MPI_Comm communicator_;
   double end_time_;
-  double
-      rest_; ///< what moves no further, as a point on the axis of rotation, rests but for rounding [length]
   std::vector<Track> tracks_; ///< of this rank; those of tools on all
 };
 

@@ -61,7 +61,7 @@ def alone(records, parameter):
 
 
 def outcome_of(record):
-    """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "told" if it is so by a few per cent only."""
+    """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "told" if only a warning says by how much."""
     if record.get("outcome") != "right" or not record.get("soft"):
         return record.get("outcome")
     return "soft" if record.get("depth", DEEP) > DEEP or "penalty-too-low" in record.get("warnings", ["penalty-too-low"]) else "told"

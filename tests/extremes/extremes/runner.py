@@ -25,7 +25,7 @@ OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "cra
 # Messages of a run that comes to its end, and what they make of it: doubtful, soft, ...
 DOUBT = ("energy-imbalance", "stalled-step", "unstable-law", "element-too-stiff", "element-too-soft", "inverted-at-end")
 SOFT = ("penalty-too-low", "contact-too-soft")
-# ... or with forces as much of which need not balance, nor be symmetric.
+# ... or with forces as much of which need not balance.
 ROUND_OFF = ("round-off-limits-forces",)
 NOTED_ROUND_OFF = ("balanced-to-round-off",)
 # So a step that was accepted where its residual no longer fell.
@@ -145,7 +145,7 @@ class Runner:
 
         # It is printed once; later steps may leave more.
         rounded = STALLED_AT_MOST if of(STALLED) else ROUND_OFF_AT_MOST if of(ROUND_OFF) else NOTED_AT_MOST if of(NOTED_ROUND_OFF) else 0.0
-        found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in (*BALANCES, *invariants.SYMMETRIES) else f for f in found]
+        found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f for f in found]
         numbers = {}
         if any(f.name in invariants.SYMMETRIES and not f.holds for f in found):
             numbers["sensitivity"] = self._sensitivity(setup, result, work)
