@@ -119,9 +119,8 @@ inline const DiagnosticKind contact_too_soft(
 
 inline const DiagnosticKind tangential_penalty_too_low(
     "tangential-penalty-too-low", Severity::warning,
-    "Nodes stick to elastic tangential springs that are softer than the bodies: friction is too small by "
-    "more "
-    "than 1 % of the normal force.",
+    "Nodes stick to elastic tangential springs that are soft beside the bodies: friction that sticks is too "
+    "small by more than 3 %.",
     "Increase 'Tangential penalty', or leave it out: it is that of the normal direction then");
 
 inline const DiagnosticKind few_contact_nodes(
@@ -173,6 +172,13 @@ inline const DiagnosticKind contact_dissipates(
     "and closes. The message names the cause.",
     "Where bodies should bounce, reduce 'Error tolerance', 'Largest step' or the penalty");
 
+inline const DiagnosticKind numerical_dissipation(
+    "numerical-dissipation", Severity::warning,
+    "Implicit time integration has dissipated more than a tenth of the largest energy: its steps do not "
+    "resolve the motion.",
+    "Reduce 'Error tolerance' or 'Largest step', if the motion matters that is damped; 'Method = Newmark' "
+    "dissipates nothing");
+
 inline const DiagnosticKind nodes_behind_tool(
     "nodes-behind-tool", Severity::warning,
     "Nodes have moved around the edge of a tool. Its surface has no back: what is behind it is free.",
@@ -184,8 +190,7 @@ inline const DiagnosticKind round_off_limits_forces(
     "round-off-limits-forces", Severity::warning,
     "Round-off in the positions leaves a larger residual than 'Force tolerance' allows.",
     "Use a lower penalty, with a 'Penetration tolerance' where that is too low, or place bodies nearer to "
-    "the "
-    "origin");
+    "the origin");
 
 inline const DiagnosticKind balanced_to_round_off("balanced-to-round-off", Severity::note,
                                                   "Round-off in the positions leaves a larger residual than "

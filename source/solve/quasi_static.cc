@@ -690,6 +690,7 @@ void QuasiStatic::commit(const double t) {
   has_lost_pace_ = false;
   // When the forces go they leave a measure for what is small.
   lasting_scale_ = std::max(lasting_scale_, 1e-3 * force_scale_);
+  round_off_.add(t, contact_round_off_force(), force_scale_);
   last_increment_ = trial_;
   last_increment_ -= u_n_;
   last_offset_increments_.resize(offsets_.size());

@@ -12,13 +12,6 @@
 
 namespace billet {
 
-namespace {
-
-/// Part of the forces that round-off may take without a warning, whatever tolerance the scene asks for.
-constexpr double notable_round_off = 1e-8;
-
-} // namespace
-
 DiagnosticList QuasiStatic::check_penalties() {
   DiagnosticList messages;
   const double displacement = u_n_.linfty_norm();
@@ -43,28 +36,6 @@ DiagnosticList QuasiStatic::check_penalties() {
   for (std::size_t i = 0; i < body_contacts_.size(); ++i)
     look(body_contacts_[i]->name(), body_contacts_[i]->penetration(), displacement,
          state_.body_pair_loads[i].stored_energy);
-  const double tolerance = scene_.parameters().solver.force_tolerance;
-  if (force_scale_ > 0. && contact_round_off_force() > tolerance * force_scale_) {
-    const double part = contact_round_off_force() / force_scale_;
-    std::ostringstream text;
-    text.precision(2);
-    text << "Round-off of contact's penalties may be " << part << " of the forces, 'Force tolerance' is "
-         << tolerance;
-    const bool is_notable = part > notable_round_off;
-    if (!is_notable)
-      text << ". Forces are in balance to that part only";
-    else if (part > 1. && !motion_)
-      text << ": the forces of the scene are lost in it";
-    else if (part > max_stalled_residual && !motion_)
-      text << ": forces are known to this part only";
-    else
-      text << "; residuals up to " << max_stalled_residual << " are accepted";
-    messages.push_back(
-        Diagnostic(is_notable ? diagnostic::round_off_limits_forces : diagnostic::balanced_to_round_off,
-                   text.str())
-            .time(time_)
-            .measure("part of the forces", part));
-  }
   return messages;
 }
 
@@ -109,6 +80,7 @@ Diagnostic QuasiStatic::describe_stall(const NewtonReport &report) const {
 DiagnosticList QuasiStatic::check_round_off(const double part) const {
   const double tolerance = scene_.parameters().solver.force_tolerance * std::max(1., accuracy_);
   // Bodies that nothing acts on yet have no other forces than round-off, nor have those in flight.
+  constexpr double notable_round_off = 1e-8; // of the forces, whatever tolerance the scene asks for
   const bool is_loaded = !motion_ && force_scale_ > 0.1 * round_off_force_;
   if (!is_loaded || part <= std::max(tolerance, notable_round_off))
     return {};
@@ -120,6 +92,10 @@ DiagnosticList QuasiStatic::check_round_off(const double part) const {
               .time(time_)
               .measure("part of the forces", part)
               .advice("Place bodies nearer to the origin, or choose moduli less far apart")};
+}
+
+DiagnosticList QuasiStatic::check_contact_round_off() const {
+  return round_off_.finish(scene_.parameters().solver.force_tolerance, motion_ != nullptr);
 }
 
 bool QuasiStatic::is_lost_in_round_off(const double t, NewtonReport &report) {

@@ -35,6 +35,8 @@ void QuasiStatic::save(StateWriter &writer) const {
   save_nodal(writer, "contact forces", nodes, contact_forces_n_);
   writer.write("largest energy", {largest_energy_});
   writer.write("contact balance", {contact_balance_});
+  writer.write("round-off", round_off_.save());
+  writer.write("rejected step", step_energy_.save());
   if (!body_frames_.empty())
     writer.write("free modes", {static_cast<double>(support_.n_free)});
   save_stabilisation(writer);
@@ -152,6 +154,8 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
     load_nodal(reader, "internal forces", nodes, internal_forces_n_);
     largest_energy_ = reader.number("largest energy");
     contact_balance_ = reader.number("contact balance");
+    round_off_.load(reader.read("round-off"));
+    step_energy_.load(reader.read("rejected step"));
     if (motion_) {
       element_balance_ = reader.number("element balance");
       contact_losses_.load(reader.read("contact losses"));

@@ -24,6 +24,8 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
   const EnergyLedger &energies = solution.state().energies;
   largest_kinetic_ = std::max(largest_kinetic_, energies.kinetic);
   largest_internal_ = std::max(largest_internal_, energies.of_elements());
+  largest_energy_ = std::max(largest_energy_, energies.total());
+  numerical_ = energies.numerical;
   DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
   append(diagnostics, missing_pairs_.check(solution.state()));
   if (is_last)
@@ -43,14 +45,26 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
   return diagnostics;
 }
 
-DiagnosticList RunReview::finish() const { return contacts_.finish(); }
+DiagnosticList RunReview::finish() const {
+  DiagnosticList diagnostics = contacts_.finish();
+  constexpr double much = 0.1;
+  if (numerical_ > much * largest_energy_) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "Time integration has dissipated " << 100. * numerical_ / largest_energy_
+         << " % of the largest energy";
+    diagnostics.push_back(Diagnostic(diagnostic::numerical_dissipation, text.str())
+                              .measure("part of the largest energy", numerical_ / largest_energy_));
+  }
+  return diagnostics;
+}
 
 void RunReview::save(StateWriter &writer) const {
   writer.in("review", [&] {
     elements_.save(writer);
     contacts_.save(writer);
     missing_pairs_.save(writer);
-    writer.write("energies", {largest_kinetic_, largest_internal_});
+    writer.write("energies", {largest_kinetic_, largest_internal_, largest_energy_});
   });
 }
 
@@ -63,6 +77,7 @@ void RunReview::load(StateReader &reader) {
       const std::vector<double> largest = reader.read("energies");
       largest_kinetic_ = largest.at(0);
       largest_internal_ = largest.at(1);
+      largest_energy_ = largest.at(2);
     });
 }
 

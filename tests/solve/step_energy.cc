@@ -51,6 +51,11 @@ int main() {
   check("out of balance", energy.judge(1., 0.1, {-1., 1., 1.}, 0.) == Verdict::rejected);
   check("and cut", energy.judge(1., 0.1 / 16., {-1., 1., 1.}, 0.) == Verdict::rejected);
   check("a jump", energy.judge(1., 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::jump);
+  check("also later in the rejected step", energy.judge(1.05, 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::jump);
+  check("longer ones there are cut", energy.judge(1.05, 0.1 / 16., {-1., 1., 1.}, 0.) == Verdict::rejected);
+  StepEnergy resumed;
+  resumed.load(energy.save());
+  check("a run that goes on knows that", resumed.judge(1.06, 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::jump);
   check("the next step begins anew", energy.judge(1.1, 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::rejected);
   check("nothing from nothing", energy.judge(2., 0.1, {0., 0., 0.}, 0.) == Verdict::balanced);
   return billet::testing::exit_code();

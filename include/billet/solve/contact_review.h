@@ -85,6 +85,10 @@ public:
   void load(const StateReader &reader);
 
 private:
+  /// Sum of the tangential forces of nodes, and what they lack since springs are soft, (L7) of doc/theory.md.
+  struct Friction {
+    double force = 0., lost = 0.;
+  };
   struct Pair {
     std::string name;
     std::vector<std::size_t> bodies;
@@ -93,14 +97,14 @@ private:
     bool has_touched = false;
     double largest_force = 0., time = 0.; ///< and when
     ForceSpread spread;                   ///< at the largest force
-    double lost_friction = 0.;            ///< largest over the run [force]
+    Friction largest_friction;            ///< each over the run
     double largest_of_edges = 0.;         ///< force that edges carry, at least [force]
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   ForceSpread spread_of(const Pair &pair, const std::vector<ContactNodeReport> &reports) const;
-  /// The friction that soft tangential springs leave out, (L7) of doc/theory.md, on this rank [force].
-  double lost_friction_of(std::size_t pair, const std::vector<ContactNodeReport> &reports) const;
+  /// On this rank; none where tangential springs are as stiff as those of pressure.
+  Friction friction_of(std::size_t pair, const std::vector<ContactNodeReport> &reports) const;
   void judge_pairs(DiagnosticList &diagnostics) const;
   void judge_paths(DiagnosticList &diagnostics) const;
   void judge_forces(DiagnosticList &diagnostics) const;

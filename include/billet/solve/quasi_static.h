@@ -14,6 +14,7 @@
 #include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
 #include "billet/solve/rigid_body_support.h"
+#include "billet/solve/round_off_watch.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/step_energy.h"
 #include "billet/solve/tangent_solver.h"
@@ -117,6 +118,8 @@ public:
   DiagnosticList check_stabilisation() const;
   /// Of static scenes, at the end of the run: whether contact has lost or made energy all in all.
   DiagnosticList check_balance() const;
+  /// At the end: what round-off of contact's penalties is beside the largest forces of the run.
+  DiagnosticList check_contact_round_off() const;
   /// Of static scenes with bodies that are stabilised, or null.
   const ContactStabilisation *stabilisation() const { return stabilisation_.get(); }
   bool solves_iteratively() const override { return linear_->is_iterative(); }
@@ -428,6 +431,7 @@ private:
   // lost of it in dynamic scenes; the largest energy so far.
   double contact_balance_ = 0., trial_contact_loss_ = 0.;
   ContactLosses contact_losses_;
+  RoundOffWatch round_off_;
   double largest_energy_ = 0.;
   double force_scale_ = 0., lasting_scale_ = 0., round_off_force_ = 0., spring_round_off_ = 0.;
   bool contact_bears_ = false;                      ///< at the last residual

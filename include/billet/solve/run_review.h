@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Judges a run by its accepted steps: whether its scene is plausible and complete, its elements and contact
-/// fine enough.
+/// Judges a run by its accepted steps: whether its scene is plausible and complete, its elements, contact
+/// and steps fine enough.
 /// All in one place, for both kinds of schemes.
 class RunReview {
 public:
@@ -42,7 +42,9 @@ private:
   ElementWatch elements_;
   ContactReview contacts_;
   MissingPairs missing_pairs_;
-  double largest_kinetic_ = 0., largest_internal_ = 0.;
+  double largest_kinetic_ = 0., largest_internal_ = 0.,
+         largest_energy_ = 0.; ///< the last: of all that counts
+  double numerical_ = 0.;      ///< dissipated by implicit time integration until the last step
 };
 
 } // namespace billet

@@ -2,6 +2,8 @@
 #ifndef BILLET_SOLVE_STEP_ENERGY_H
 #define BILLET_SOLVE_STEP_ENERGY_H
 
+#include <vector>
+
 namespace billet {
 
 /// Judges static steps by the work that contact does from nowhere, (Q4). Steps out of balance are cut; one
@@ -23,7 +25,8 @@ public:
   /// Where there was less work before, as a part of the step's own, nothing is judged: bodies begin to touch,
   /// and there is nothing yet that could be lost.
   static constexpr double min_before = 0.1;
-  /// An imbalance that cuts to this part of the first rejected step leave as it is belongs to the solution.
+  /// An imbalance that cuts to this part of a rejected step leave as it is, anywhere within that step,
+  /// belongs to the solution.
   static constexpr double least_cut = 1. / 32.;
 
   /// Part of all work, that of this step included; 0 without work.
@@ -32,8 +35,14 @@ public:
   /// `floor`: works below that count as none. Of a step from time `t_n`.
   Verdict judge(double t_n, double length, const Works &works, double floor);
 
+  std::vector<double> save() const { return {rejected_until_, first_length_}; }
+  void load(const std::vector<double> &numbers) {
+    rejected_until_ = numbers.at(0);
+    first_length_ = numbers.at(1);
+  }
+
 private:
-  double rejected_at_ = -1., first_length_ = 0.;
+  double rejected_until_ = -1., first_length_ = 0.; ///< end of the first rejected step, and its length
 };
 
 } // namespace billet

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/round_off_watch.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/solve/newton.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+/// Part of the forces that round-off may take without a warning, whatever tolerance the scene asks for.
+constexpr double notable_round_off = 1e-8;
+
+} // namespace
+
+void RoundOffWatch::add(const double time, const double round_off, const double forces) {
+  if (round_off > round_off_) {
+    round_off_ = round_off;
+    time_ = time;
+  }
+  forces_ = std::max(forces_, forces);
+}
+
+DiagnosticList RoundOffWatch::finish(const double tolerance, const bool accepts_all) const {
+  if (!(forces_ > 0.) || !(round_off_ > tolerance * forces_))
+    return {};
+  const double part = round_off_ / forces_;
+  std::ostringstream text;
+  text.precision(2);
+  text << "Round-off of contact's penalties may be " << part
+       << " of the largest forces, 'Force tolerance' is " << tolerance;
+  const bool is_notable = part > notable_round_off;
+  if (!is_notable)
+    text << ". Forces are in balance to that part only";
+  else if (part > 1. && !accepts_all)
+    text << ": the forces of the scene are lost in it";
+  else if (part > max_stalled_residual && !accepts_all)
+    text << ": forces are known to this part only";
+  else
+    text << "; residuals up to " << max_stalled_residual << " are accepted";
+  return {Diagnostic(is_notable ? diagnostic::round_off_limits_forces : diagnostic::balanced_to_round_off,
+                     text.str())
+              .time(time_)
+              .measure("part of the forces", part)};
+}
+
+void RoundOffWatch::load(const std::vector<double> &numbers) {
+  time_ = numbers.at(0);
+  round_off_ = numbers.at(1);
+  forces_ = numbers.at(2);
+}
+
+} // namespace billet
