@@ -439,6 +439,9 @@ class Running(unittest.TestCase):
         self.assertIsNone(scenes.nudged(scenes.make("upset", {}), 1e-13))
         # a speed of 10 and, over 0.04, one size
         self.assertEqual(scenes.nudged(setup, 0.5)["Bodies"]["block"]["Initial velocity"], "10 + 17.5; 0 + -10.5; 0 + 5.25")
+        at_rest = scenes.nudged(scenes.make("laden.implicit", {}), 0.5)["Bodies"]["block"]["Initial velocity"]
+        for found, expected in zip(at_rest.split("; 0 + "), (12.5, -7.5, 3.75)):
+            self.assertAlmostEqual(float(found.removeprefix("0 + ")), expected)
 
     def test_other_programs(self):
         runner = self.runner("exit 1")

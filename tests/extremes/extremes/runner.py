@@ -163,7 +163,7 @@ class Runner:
         return {"outcome": outcome, "reason": said + "; ".join(broken), **numbers}
 
     def _sensitivity(self, setup, result, work):
-        """Of this run to a nudge at its start; 0 where nothing moves at the start, or the nudged one does not run."""
+        """Of this run to a nudge at its start; 0 of a static one, or where the nudged one does not run."""
         sections = nudged(setup, invariants.NUDGE)
         if sections is None:
             return 0.0

@@ -57,16 +57,17 @@ class Setup:
 
 def nudged(setup, part):
     """The sections of `setup` with every first velocity changed, so that no symmetry is left, by about this part of it, and by
-    what moves it until the end by this part of its size; None if nothing has one."""
+    what moves it until the end by this part of its size; None of a static scene."""
+    time_stepping = setup.sections["Time stepping"]
+    if time_stepping.get("Scheme", "quasi-static") == "quasi-static":
+        return None
+    end = float(time_stepping["End time"]) / setup.frame.time
+    by = [number(share * part * (setup.facts.get("speed", 0.0) + 1 / end) * setup.frame.speed) for share in (1.0, -0.6, 0.3)]
     bodies = {}
-    end = float(setup.sections["Time stepping"]["End time"]) / setup.frame.time
     for name, of_body in setup.sections["Bodies"].items():
-        if "Initial velocity" in of_body:
-            v = of_body["Initial velocity"].split(";")
-            by = [number(share * part * (setup.facts["speed"] + 1 / end) * setup.frame.speed) for share in (1.0, -0.6, 0.3)]
-            of_body = {**of_body, "Initial velocity": ";".join(f"{x.rstrip()} + {y}" for x, y in zip(v, by))}
-        bodies[name] = of_body
-    return {**setup.sections, "Bodies": bodies} if bodies != setup.sections["Bodies"] else None
+        v = of_body.get("Initial velocity", "0; 0; 0").split(";")
+        bodies[name] = {**of_body, "Initial velocity": ";".join(f"{x.rstrip()} + {y}" for x, y in zip(v, by))}
+    return {**setup.sections, "Bodies": bodies}
 
 
 def reach(k, end):
