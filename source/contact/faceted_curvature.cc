@@ -33,13 +33,14 @@ struct CurvedFacet {
 /// The facets of all ranks, or of this one with the normals of all; first those of this rank.
 std::vector<CurvedFacet> collect_facets(const Discretization &discretization, const std::size_t body,
                                         const std::vector<unsigned int> &boundary_ids,
-                                        std::size_t &n_own_facets) {
+                                        const Vector *displacements, std::size_t &n_own_facets) {
   std::vector<std::array<double, 16>> own;
   for (const auto &facet : collect_boundary_facets(discretization, body, boundary_ids)) {
     std::array<double, 16> numbers{};
     for (unsigned int a = 0; a < 4; ++a) {
       for (unsigned int i = 0; i < 3; ++i)
-        numbers[4 * a + i] = facet.corners[a][i];
+        numbers[4 * a + i] =
+            facet.corners[a][i] + (displacements != nullptr ? (*displacements)(facet.dofs[a][i]) : 0.);
       numbers[4 * a + 3] = static_cast<double>(facet.dofs[a][0]);
     }
     own.push_back(numbers);
@@ -143,14 +144,18 @@ constexpr double part_of_clearance = 0.2;
 
 } // namespace
 
-ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pair) {
+ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pair,
+                        const Vector *displacements) {
   const MPI_Comm communicator = discretization.communicator();
   std::size_t n_own_facets = 0, n_others = 0;
-  const auto facets = collect_facets(discretization, pair.bodies[0], pair.boundary_ids[0], n_own_facets),
-             others = collect_facets(discretization, pair.bodies[1], pair.boundary_ids[1], n_others);
+  const auto facets = collect_facets(discretization, pair.bodies[0], pair.boundary_ids[0], displacements,
+                                     n_own_facets),
+             others = collect_facets(discretization, pair.bodies[1], pair.boundary_ids[1], displacements,
+                                     n_others);
   const NearFacets near(others);
   constexpr std::array<double, 3> along{-1., 0., 1.};
   std::array<double, 6> worst{}; // relative, gap, clearance, position
+  bool fits = false;
   for (std::size_t f = 0; f < n_own_facets; ++f) {
     const CurvedFacet &facet = facets[f];
     if (!(std::abs(facet.curvature) * facet.size > 1e-6)) // flat
@@ -161,6 +166,7 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
         const auto found = near.find(x, facet.normal, facet.size);
         if (found.facet == nullptr || !fit(facet, *found.facet))
           continue;
+        fits = true;
         const double error = facet::height<double>(facet.bulge, {xi, eta}) +
                              facet::height(found.facet->bulge, found.projection.parameters),
                      clearance = found.projection.gap - error, relative = std::abs(error) / facet.size;
@@ -172,6 +178,7 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
   for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, worst))
     if (of_rank[0] > result.relative)
       result = {of_rank[1], of_rank[0], of_rank[2], Tensor<1, 3>({of_rank[3], of_rank[4], of_rank[5]})};
+  result.fits = dealii::Utilities::MPI::max(fits ? 1 : 0, communicator) > 0;
   return result;
 }
 
@@ -199,7 +206,7 @@ void check_correction(const Scene &scene, const BodyPair &pair, const Discretiza
   for (unsigned int side = 0; side < 2; ++side) {
     std::size_t n_own_facets = 0;
     const auto facets =
-        collect_facets(discretization, pair.bodies[side], pair.boundary_ids[side], n_own_facets);
+        collect_facets(discretization, pair.bodies[side], pair.boundary_ids[side], nullptr, n_own_facets);
     std::array<double, 4> worst{};      // tilt, position
     double named = 0., of_normals = 0.; // sums of heights
     for (const auto &facet : facets) {  // of all ranks
@@ -234,26 +241,109 @@ void check_correction(const Scene &scene, const BodyPair &pair, const Discretiza
   }
 }
 
+namespace {
+
+using Correction = parameters::ContactPair::Correction;
+
+/// Of pairs of two bodies that nothing corrects.
+bool is_faceted(const BodyPair &pair) {
+  return pair.correction.kind == Correction::Kind::none && !pair.is_self_contact &&
+         pair.bodies[0] != pair.bodies[1];
+}
+
+double radius_of(const Tensor<1, 3> &x, const Correction &correction) {
+  const Tensor<1, 3> arm = x - correction.point;
+  return correction.kind == Correction::Kind::cylinder
+             ? (arm - (arm * correction.axis) * correction.axis).norm()
+             : arm.norm();
+}
+
+/// By how much the corrected facets of both sides miss the surface that a scene names, at most [length].
+/// Between the corners the surface has the bilinear radius of these. Collective.
+double find_correction_error(const Discretization &discretization, const BodyPair &pair) {
+  constexpr std::array<double, 3> along{-0.5, 0., 0.5};
+  double sum = 0.;
+  for (unsigned int side = 0; side < 2; ++side) {
+    double worst = 0.;
+    for (const auto &boundary :
+         collect_boundary_facets(discretization, pair.bodies[side], pair.boundary_ids[side])) {
+      FacetCorners corners;
+      std::copy(boundary.corners.begin(), boundary.corners.end(), corners.begin());
+      const FacetBulge bulge = bulge_of(boundary, pair.correction);
+      const Tensor<1, 3> area = boundary.area_vector();
+      if (!(area.norm() > 0.))
+        continue;
+      for (const double xi : along)
+        for (const double eta : along) {
+          const auto weights = facet::weights({xi, eta});
+          const Tensor<1, 3> x = facet::interpolate(weights, corners) +
+                                 facet::height<double>(bulge, {xi, eta}) * area / area.norm();
+          double radius = 0.;
+          for (unsigned int a = 0; a < 4; ++a)
+            radius += weights[a] * radius_of(corners[a], pair.correction);
+          worst = std::max(worst, std::abs(radius_of(x, pair.correction) - radius));
+        }
+    }
+    sum += dealii::Utilities::MPI::max(worst, discretization.communicator());
+  }
+  return sum;
+}
+
+Diagnostic describe(const BodyPair &pair, const ChordGap &chords, const std::string &when) {
+  std::ostringstream text;
+  text << "The curved faces fit each other, but the chords of their facets miss each other " << when
+       << "by up to " << chords.gap << " (" << chords.relative
+       << " facet sizes); the clearance of the true surfaces is " << chords.clearance;
+  return Diagnostic(diagnostic::faceted_curvature, text.str())
+      .pair(pair.name)
+      .at(chords.position)
+      .value("chord gap [length]", chords.gap)
+      .value("clearance [length]", chords.clearance)
+      .measure("chord gap [facet sizes]", chords.relative);
+}
+
+} // namespace
+
 DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization) {
   DiagnosticList diagnostics;
   for (const auto &pair : scene.body_pairs()) {
-    using Correction = parameters::ContactPair::Correction;
-    if (pair.correction.kind != Correction::Kind::none || pair.is_self_contact ||
-        pair.bodies[0] == pair.bodies[1])
+    if (!is_faceted(pair))
       continue;
     const ChordGap chords = find_chord_gap(discretization, pair);
-    if (!(chords.relative > pair.input->allowed_penetration.value))
+    if (chords.relative > pair.input->allowed_penetration.value)
+      diagnostics.push_back(describe(pair, chords, ""));
+  }
+  return diagnostics;
+}
+
+DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization,
+                                      const Vector &displacements, const double time) {
+  const double notable = 0.03 * displacements.linfty_norm();
+  DiagnosticList diagnostics;
+  for (const auto &pair : scene.body_pairs()) {
+    if (pair.correction.kind != Correction::Kind::none) {
+      const double error = find_correction_error(discretization, pair);
+      if (!(error > notable))
+        continue;
+      std::ostringstream text;
+      text.precision(3);
+      text << "'Surface correction' leaves errors of up to " << error
+           << " in the gap, since facets are large beside the radius";
+      diagnostics.push_back(Diagnostic(diagnostic::faceted_curvature, text.str())
+                                .pair(pair.name)
+                                .measure("error of the gap [length]", error)
+                                .advice("Use smaller facets on both faces"));
       continue;
-    std::ostringstream text;
-    text << "The curved faces fit each other, but the chords of their facets miss each other by up to "
-         << chords.gap << " (" << chords.relative << " facet sizes); the clearance of the true surfaces is "
-         << chords.clearance;
-    diagnostics.push_back(Diagnostic(diagnostic::faceted_curvature, text.str())
-                              .pair(pair.name)
-                              .at(chords.position)
-                              .value("chord gap [length]", chords.gap)
-                              .value("clearance [length]", chords.clearance)
-                              .measure("chord gap [facet sizes]", chords.relative));
+    }
+    if (!is_faceted(pair))
+      continue;
+    const ChordGap at_start = find_chord_gap(discretization, pair);
+    const double allowed = pair.input->allowed_penetration.value;
+    if (!at_start.fits || at_start.relative > allowed)
+      continue;
+    const ChordGap chords = find_chord_gap(discretization, pair, &displacements);
+    if (chords.relative > allowed || chords.gap > notable)
+      diagnostics.push_back(describe(pair, chords, "at the end ").time(time));
   }
   return diagnostics;
 }

@@ -438,6 +438,11 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
   return error / (parameters_.error_tolerance * reference);
 }
 
+double ImplicitMotion::wanted_accuracy() const {
+  constexpr double by_default = 1e-3;
+  return parameters_.error_tolerance > 0. ? std::min(1., parameters_.error_tolerance / by_default) : 1.;
+}
+
 void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
                             EnergyLedger &energies) {
   // With p = M Δv and the mean forces F̄, what the nodes' motions v̄·p + F̄·Δu do not cancel out is the

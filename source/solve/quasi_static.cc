@@ -663,9 +663,10 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
   const Epetra_Vector x_n = pack(u_n_, offsets_n_);
   Epetra_Vector x = pack(displacements, offsets);
   parameters::Solver settings = scene_.parameters().solver;
-  settings.force_tolerance *= accuracy_;
-  settings.energy_tolerance *= accuracy_;
-  settings.displacement_tolerance *= accuracy_;
+  const double accuracy = accuracy_ * (motion_ ? motion_->wanted_accuracy() : 1.);
+  settings.force_tolerance *= accuracy;
+  settings.energy_tolerance *= accuracy;
+  settings.displacement_tolerance *= accuracy;
   constexpr unsigned int most_for_a_measurement = 8; // what it tells is not worth more
   if (is_probing_)
     settings.most_iterations = std::min(settings.most_iterations, most_for_a_measurement);

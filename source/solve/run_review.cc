@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/run_review.h"
 
+#include "billet/contact/faceted_curvature.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/discretization/inverted_corners.h"
 #include "billet/scene/plausibility.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace billet {
@@ -32,6 +34,9 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
     for (Diagnostic &inverted :
          find_inverted_corners(scene_, discretization_, solution.state().displacements))
       diagnostics.push_back(inverted.time(solution.state().time));
+  if (is_last)
+    append(diagnostics, find_faceted_curvature(scene_, discretization_, solution.state().displacements,
+                                               solution.state().time));
   constexpr double far = 3.; // sizes of the scene
   const double moved = solution.state().displacements.linfty_norm() / (2. * discretization_.radius());
   if (!scene_.parameters().is_dynamic() && moved > far) {
@@ -48,13 +53,13 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
 DiagnosticList RunReview::finish() const {
   DiagnosticList diagnostics = contacts_.finish();
   constexpr double much = 0.1;
-  if (numerical_ > much * largest_energy_) {
+  if (const double size = std::abs(numerical_); size > much * largest_energy_) {
     std::ostringstream text;
     text.precision(3);
-    text << "Time integration has dissipated " << 100. * numerical_ / largest_energy_
-         << " % of the largest energy";
+    text << "Time integration has " << (numerical_ > 0. ? "dissipated " : "made ")
+         << 100. * size / largest_energy_ << " % of the largest energy";
     diagnostics.push_back(Diagnostic(diagnostic::numerical_dissipation, text.str())
-                              .measure("part of the largest energy", numerical_ / largest_energy_));
+                              .measure("part of the largest energy", size / largest_energy_));
   }
   return diagnostics;
 }
