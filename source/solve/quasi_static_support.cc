@@ -102,6 +102,26 @@ RigidBodySupport::Result QuasiStatic::find_support(const std::vector<bool> &unlo
   return support.find();
 }
 
+std::optional<RigidBodySupport::Mode> QuasiStatic::find_sliding_soon() const {
+  RigidBodySupport support(discretization_.communicator(), body_frames_, unknown_tools_.size());
+  add_supports(support);
+  for (std::size_t body = 0; body < body_frames_.size(); ++body)
+    if (is_stabilised(body))
+      support.hold(body);
+  bool any = false;
+  add_supporting_points([&](const std::size_t, const std::size_t, const SupportingPoint &point,
+                            const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
+    any = any || point.is_near_limit();
+    if (point.is_near_limit())
+      support.add_spent_contact(point, of, on);
+    else
+      support.add_contact(point, of, on);
+  });
+  if (dealii::Utilities::MPI::max(any ? 1 : 0, discretization_.communicator()) == 0)
+    return {};
+  return support.find().sliding;
+}
+
 RigidBodySupport::Result QuasiStatic::find_support_by_contact() const {
   RigidBodySupport support(discretization_.communicator(), body_frames_, unknown_tools_.size());
   support.weigh_pushes();
@@ -147,6 +167,8 @@ bool QuasiStatic::loses_bodies(const double t, NewtonReport &report) {
       return true;
     watch_unloaded_bodies(found, t, report);
     support_ = found;
+    if (!support_.sliding)
+      support_.sliding = find_sliding_soon();
     if (stabilisation_ && stabilisation_->acts())
       support_by_contact_ = find_support_by_contact();
     return false;
@@ -245,7 +267,8 @@ std::string QuasiStatic::describe_sliding() const {
     return "";
   std::ostringstream text;
   text << "; at the end of the last step body '" << scene_.bodies()[support_.sliding->body].name
-       << "' slides on all that it touches along its rigid-body mode with " << print(support_.sliding->motion)
+       << "' slides, or nearly does, on all that it touches along its rigid-body mode with "
+       << print(support_.sliding->motion)
        << ": friction has reached its limit, and cannot resist more. Hold the body, press it harder, or "
           "increase friction";
   return text.str();

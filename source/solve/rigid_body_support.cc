@@ -155,7 +155,8 @@ void deflate(const std::vector<double> &motion, Rows &basis) {
 
 RigidBodySupport::RigidBodySupport(const MPI_Comm communicator, std::vector<Body> bodies,
                                    const std::size_t n_tools)
-    : communicator_(communicator), bodies_(std::move(bodies)), n_tools_(n_tools), gram_(n() * n(), 0.) {}
+    : communicator_(communicator), bodies_(std::move(bodies)), n_tools_(n_tools), gram_(n() * n(), 0.),
+      slide_(n(), 0.) {}
 
 void RigidBodySupport::add(const Tensor<1, 3> &position, const Tensor<1, 3> &direction, const Side &side,
                            const double sign, Row &row) const {
@@ -236,6 +237,13 @@ void RigidBodySupport::add_unloaded_contact(const SupportingPoint &point, const 
   add_one_way(row_of(point.position, point.normal, of, on));
 }
 
+void RigidBodySupport::add_spent_contact(const SupportingPoint &point, const Side &of, const Side &on) {
+  add_both_ways(row_of(point.position, point.normal, of, on));
+  const Row row = row_of(point.position, point.slip, of, on);
+  for (std::size_t i = 0; i < n(); ++i)
+    slide_[i] += row[i];
+}
+
 RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
   Mode mode{0, {}};
   double largest = 0.;
@@ -306,8 +314,15 @@ RigidBodySupport::Result RigidBodySupport::find() const {
   for (const auto &part : dealii::Utilities::MPI::all_gather(communicator_, one_way_))
     for (auto row = part.begin(); row != part.end(); row += static_cast<std::ptrdiff_t>(size))
       one_way.emplace_back(row, row + static_cast<std::ptrdiff_t>(size));
-  if (!basis.empty())
-    result.sliding = mode_of(basis.front());
+  if (!basis.empty()) {
+    Row slide(size), sliding(size);
+    dealii::Utilities::MPI::sum(slide_, communicator_, slide);
+    for (const auto &motion : basis)
+      for (std::size_t i = 0; i < size; ++i)
+        sliding[i] += dot(motion, slide) * motion[i];
+    const bool has_direction = dot(sliding, sliding) > none * none * dot(slide, slide);
+    result.sliding = mode_of(has_direction ? sliding : basis.front());
+  }
   while (const auto motion = find_unresisted(basis, one_way)) {
     if (!result.free)
       result.free = mode_of(*motion);

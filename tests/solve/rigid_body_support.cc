@@ -174,5 +174,20 @@ int main(int argc, char **argv) {
     const auto found = support.find();
     check("of two bodies that do not touch one is free", !found.is_free[0] && found.is_free[1]);
   }
+  {
+    // Pressed between planes, with friction spent along x, but for what the squeeze adds away from the
+    // middle.
+    RigidBodySupport support = one_cube();
+    for (const auto &face : {z, -z})
+      for (const auto &corner : corners(face)) {
+        Tensor<1, 3> slip = 2. * x + 0.5 * (corner * y) * y;
+        slip /= slip.norm();
+        support.add_spent_contact({corner, -face, Friction::sticks, slip}, first, standing);
+      }
+    const auto found = support.find();
+    check("spent friction: the body slides along it",
+          found.sliding && std::abs(found.sliding->motion.translation * x) > 0.99 &&
+              found.sliding->motion.rotation.norm() < 0.01);
+  }
   return billet::testing::exit_code();
 }

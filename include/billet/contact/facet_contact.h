@@ -228,18 +228,18 @@ public:
   /// The same of slaves and crossing edges as visit(SupportingPoint, surface of the point, surface of what it
   /// touches).
   template <class Visit> void visit_supporting(const Visit &visit) const {
-    const bool has_friction = !std::holds_alternative<Frictionless>(settings_.friction);
     for (std::size_t s = 0; s < slaves_.size(); ++s)
       if (states_[s].presses())
-        visit(make_supporting_point(positions_[slaves_[s].node], states_[s].contact.normal, has_friction,
-                                    states_[s].traction.status, states_[s].traction.traction),
+        visit(make_supporting_point(positions_[slaves_[s].node], states_[s].contact.normal,
+                                    settings_.friction, states_[s].traction.status,
+                                    states_[s].traction.traction),
               slaves_[s].surface, search_.facets()[states_[s].touched.facet].surface);
     for (const auto &crossing : crossings_)
       if (crossing.counted_gap() < 0.) {
         dealii::Tensor<1, 3> position;
         for (unsigned int i = 0; i < 2; ++i)
           position += crossing.weights[i] * positions_[crossing.nodes[i]];
-        visit(make_supporting_point(position, crossing.normal, false, ContactStatus::slip, {}),
+        visit(make_supporting_point(position, crossing.normal, Frictionless(), ContactStatus::slip, {}),
               crossing.surfaces[0], crossing.surfaces[1]);
       }
   }

@@ -120,7 +120,7 @@ public:
   template <class Visit> void visit_supporting(const Visit &visit) const {
     for (const auto &state : states_)
       if (state.status != ContactStatus::open)
-        visit(make_supporting_point(state.position, state.normal, pair_.has_friction(), state.status,
+        visit(make_supporting_point(state.position, state.normal, pair_.friction, state.status,
                                     state.traction));
   }
 

@@ -3,8 +3,13 @@
 #define BILLET_CONTACT_SUPPORTING_POINT_H
 
 #include "billet/contact/traction.h"
+#include "billet/friction/friction_law.h"
 
 #include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <type_traits>
+#include <variant>
 
 namespace billet {
 
@@ -19,28 +24,44 @@ struct SupportingPoint {
   dealii::Tensor<1, 3> position; ///< [length]
   dealii::Tensor<1, 3> normal;   ///< unit, out of what is touched
   Friction friction = Friction::none;
-  dealii::Tensor<1, 3> slip; ///< unit, of a point that slips: how the body slides on what it touches
+  dealii::Tensor<1, 3> slip; ///< unit: how the body slides on what it touches there, or would
+  double use = 0.;           ///< the part of friction's limit that a point which sticks bears
+
+  /// Whether friction bears there all that it can, or nearly.
+  bool is_near_limit() const {
+    constexpr double nearly = 0.9;
+    return friction == Friction::slips || (friction == Friction::sticks && use >= nearly);
+  }
 };
 
 /// The point at `position` with this traction on the body. Without tangential traction no slip has a
 /// direction: such a point counts as frictionless.
 inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &position,
-                                             const dealii::Tensor<1, 3> &normal, const bool has_friction,
+                                             const dealii::Tensor<1, 3> &normal, const FrictionLaw &friction,
                                              const ContactStatus status,
                                              const dealii::Tensor<1, 3> &traction) {
   SupportingPoint point{position, normal, SupportingPoint::Friction::none, {}};
-  if (!has_friction)
-    return point;
-  point.friction = SupportingPoint::Friction::sticks;
-  if (status != ContactStatus::slip)
+  if (std::holds_alternative<Frictionless>(friction))
     return point;
   const dealii::Tensor<1, 3> tangential = traction - (traction * normal) * normal;
   const double size = tangential.norm();
-  if (size > 0.) {
-    point.friction = SupportingPoint::Friction::slips;
+  if (size > 0.)
     point.slip = -tangential / size;
-  } else
-    point.friction = SupportingPoint::Friction::none;
+  if (status == ContactStatus::slip) {
+    if (size > 0.)
+      point.friction = SupportingPoint::Friction::slips;
+    return point;
+  }
+  point.friction = SupportingPoint::Friction::sticks;
+  const double limit = std::visit(
+      [&](const auto &law) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(law)>, Frictionless>)
+          return 0.;
+        else
+          return law.limit(std::max(0., traction * normal), 0.).value;
+      },
+      friction);
+  point.use = limit > 0. ? size / limit : 0.;
   return point;
 }
 

@@ -391,6 +391,8 @@ private:
   bool moves_too_far(double t, NewtonReport &report) const;
   /// Of a failed step: bodies that slid on all that they touched at the end of the last one.
   std::string describe_sliding() const;
+  /// A mode that only points resist which slip, or nearly do. Collective.
+  std::optional<RigidBodySupport::Mode> find_sliding_soon() const;
   /// Of all pairs in the step, before commit(). Collective.
   StepWorks compute_step_works() const;
   /// Whether contact makes or loses so much energy that a static step has to be cut.

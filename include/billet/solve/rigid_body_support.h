@@ -45,6 +45,8 @@ public:
                    const dealii::Tensor<1, 3> &normal);
   /// Adds a point of the body `of` that touches `on`.
   void add_contact(const SupportingPoint &point, const Side &of, const Side &on);
+  /// Adds one whose friction is at its limit, and resists nothing more: it says where its body would slide.
+  void add_spent_contact(const SupportingPoint &point, const Side &of, const Side &on);
   /// Adds one that no force presses: it resists a motion into the surface only, and has no friction.
   void add_unloaded_contact(const SupportingPoint &point, const Side &of, const Side &on);
   /// Asks for Result::is_free. On all ranks.
@@ -65,7 +67,8 @@ public:
   struct Result {
     std::size_t n_free = 0;      ///< modes of the bodies that nothing resists
     std::optional<Mode> free;    ///< one of them: of the body that moves most in it
-    std::optional<Mode> sliding; ///< one that only points resist that slip
+    /// One that only points resist that slip; where friction is spent, that along which it was.
+    std::optional<Mode> sliding;
     /// Of each body, if weigh_pushes(): whether it takes part in a mode that nothing resists. `free` is one
     /// of these modes then.
     std::vector<bool> is_free;
@@ -91,6 +94,7 @@ private:
   std::vector<double> gram_; ///< Σ r rᵀ of rows that resist both ways, n × n
   bool pushes_ = false;
   std::vector<double> one_way_; ///< rows that resist r z < 0 only, one after the other
+  Row slide_;                   ///< Σ r of spent points, along their slip
 };
 
 } // namespace billet
