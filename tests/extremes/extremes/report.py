@@ -193,7 +193,7 @@ def slow(records):
         return f"None took more than {PATIENCE:g} s of the processor; the longest, `{took[0][1]['name']}`, {took[0][0]:.0f} s."
     return (f"{len(long)} took more than {PATIENCE:g} s of the processor: " + ", ".join(
         f"`{r['name']}` ({s:.0f} s, {r['outcome']}{steps(r)})"
-        for s, r in long[:20]) + ".")
+        for s, r in long[:5]) + ".")
 
 
 def forgetful(records):
@@ -203,7 +203,7 @@ def forgetful(records):
         return ""
     return (f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows until symmetry is lost; run once more, nudged at the start by "
             f"{NUDGE:g} of velocity and size, displacements at the end differ by as much, or at least a tenth of it; among them are " + ", ".join(
-                f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:20]) + ".")
+                f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:5]) + ".")
 
 
 def write(records, folder, planned=0, program=""):
