@@ -417,6 +417,19 @@ class Running(unittest.TestCase):
                 verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
             self.assertEqual(verdict["outcome"], "right" if right else "wrong", (key, balanced))
 
+    def test_raised_penalty(self):
+        case = plan.Case("upset", {}, (), ())
+        for key, right in ((None, False), ("penalty-raised", True), ("penalty-too-low", False)):
+            runner = self.runner()
+            work = self.folder / "work"
+            work.mkdir(exist_ok=True)
+            write_warnings(work, *([key] if key else []))
+            setup = scenes.make("upset", {})
+            setup.checks = [lambda r: [must.Finding("penetration", 0.8, 1e-3)]]
+            with unittest.mock.patch.object(Result, "read", return_value=made_up("upset")):
+                verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
+            self.assertEqual(verdict["outcome"], "right" if right else "wrong", key)
+
     def test_lost_symmetry(self):
         # Excused only where a nudge at the start changes the end: where it does not, the program is not symmetric.
         case = plan.Case("skid.implicit", {"mu": 2}, (), ())

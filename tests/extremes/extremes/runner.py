@@ -28,6 +28,8 @@ SOFT = ("penalty-too-low", "contact-too-soft")
 # ... or with forces as much of which need not balance.
 ROUND_OFF = ("round-off-limits-forces",)
 NOTED_ROUND_OFF = ("balanced-to-round-off",)
+# The program has made the penalty stiffer.
+RAISED = ("penalty-raised",)
 # So a step that was accepted where its residual no longer fell.
 STALLED = ("stalled-step",)
 DEEP = 0.1  # facet sizes
@@ -143,6 +145,8 @@ class Runner:
         def of(keys):
             return [r for r in records if r["key"] in keys]
 
+        if of(RAISED):
+            found = [f for f in found if f.name != "penetration"]  # the penalty is no longer the scene's
         # It is printed once; later steps may leave more.
         rounded = STALLED_AT_MOST if of(STALLED) else ROUND_OFF_AT_MOST if of(ROUND_OFF) else NOTED_AT_MOST if of(NOTED_ROUND_OFF) else 0.0
         found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f for f in found]
