@@ -82,7 +82,9 @@ DiagnosticList QuasiStatic::check_round_off(const double part) const {
   // Bodies that nothing acts on yet have no other forces than round-off, nor have those in flight.
   constexpr double notable_round_off = 1e-8; // of the forces, whatever tolerance the scene asks for
   const bool is_loaded = !motion_ && force_scale_ > 0.1 * round_off_force_;
-  if (!is_loaded || part <= std::max(tolerance, notable_round_off))
+  // That of contact is told at the end, see check_contact_round_off().
+  const bool is_of_contact = contact_round_off_force() > tolerance * force_scale_;
+  if (!is_loaded || is_of_contact || part <= std::max(tolerance, notable_round_off))
     return {};
   std::ostringstream text;
   text.precision(2);
