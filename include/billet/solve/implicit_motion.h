@@ -70,8 +70,8 @@ public:
   double tool_slope(std::size_t tool) const;
   /// The residual that round-off in the displacements makes [force].
   double round_off_force() const { return round_off_force_; }
-  /// By what the tolerances of iterations are multiplied: where the user wants smaller errors of steps than by
-  /// default what iterations leave must not be as large as these.
+  /// By what the tolerances of iterations are multiplied: where the user wants smaller errors of steps than
+  /// by default what iterations leave must not be as large as these.
   double wanted_accuracy() const;
 
   /// Error of the step's time integration as part of what is allowed, at the last add_loads(); 0 if nothing

@@ -65,8 +65,8 @@ public:
     RigidMotion motion;
   };
   struct Result {
-    std::size_t n_free = 0;      ///< modes of the bodies that nothing resists
-    std::optional<Mode> free;    ///< one of them: of the body that moves most in it
+    std::size_t n_free = 0;   ///< modes of the bodies that nothing resists
+    std::optional<Mode> free; ///< one of them: of the body that moves most in it
     /// One that only points resist that slip; where friction is spent, that along which it was.
     std::optional<Mode> sliding;
     /// Of each body, if weigh_pushes(): whether it takes part in a mode that nothing resists. `free` is one
