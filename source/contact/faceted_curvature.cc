@@ -251,13 +251,6 @@ bool is_faceted(const BodyPair &pair) {
          pair.bodies[0] != pair.bodies[1];
 }
 
-double radius_of(const Tensor<1, 3> &x, const Correction &correction) {
-  const Tensor<1, 3> arm = x - correction.point;
-  return correction.kind == Correction::Kind::cylinder
-             ? (arm - (arm * correction.axis) * correction.axis).norm()
-             : arm.norm();
-}
-
 /// By how much the corrected facets of both sides miss the surface that a scene names, at most [length].
 /// Between the corners the surface has the bilinear radius of these. Collective.
 double find_correction_error(const Discretization &discretization, const BodyPair &pair) {
@@ -280,8 +273,8 @@ double find_correction_error(const Discretization &discretization, const BodyPai
                                  facet::height<double>(bulge, {xi, eta}) * area / area.norm();
           double radius = 0.;
           for (unsigned int a = 0; a < 4; ++a)
-            radius += weights[a] * radius_of(corners[a], pair.correction);
-          worst = std::max(worst, std::abs(radius_of(x, pair.correction) - radius));
+            radius += weights[a] * arm_to(corners[a], pair.correction).norm();
+          worst = std::max(worst, std::abs(arm_to(x, pair.correction).norm() - radius));
         }
     }
     sum += dealii::Utilities::MPI::max(worst, discretization.communicator());

@@ -326,18 +326,20 @@ double contact_reach(const BoundaryFacet &facet) {
   return std::min(0.1 * std::sqrt(facet.area_vector().norm()), 0.4 * facet.thickness);
 }
 
+Tensor<1, 3> arm_to(const Tensor<1, 3> &x, const parameters::ContactPair::Correction &correction) {
+  const Tensor<1, 3> from_point = x - correction.point;
+  return correction.kind == parameters::ContactPair::Correction::Kind::cylinder
+             ? from_point - (from_point * correction.axis) * correction.axis
+             : from_point;
+}
+
 FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction) {
   using Correction = parameters::ContactPair::Correction;
   FacetBulge bulge{};
   const double area = facet.area_vector().norm();
   if (correction.kind == Correction::Kind::none || !(area > 0.))
     return bulge;
-  const auto arm = [&](const Tensor<1, 3> &x) {
-    const Tensor<1, 3> from_point = x - correction.point;
-    return correction.kind == Correction::Kind::cylinder
-               ? from_point - (from_point * correction.axis) * correction.axis
-               : from_point;
-  };
+  const auto arm = [&](const Tensor<1, 3> &x) { return arm_to(x, correction); };
   const Tensor<1, 3> normal = facet.area_vector() / area;
   for (unsigned int i = 0; i < 4; ++i) {
     const Tensor<1, 3> a = facet.corners[facet::around[i]], b = facet.corners[facet::around[(i + 1) % 4]],

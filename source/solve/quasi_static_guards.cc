@@ -80,7 +80,6 @@ Diagnostic QuasiStatic::describe_stall(const NewtonReport &report) const {
 DiagnosticList QuasiStatic::check_round_off(const double part) const {
   const double tolerance = scene_.parameters().solver.force_tolerance * std::max(1., accuracy_);
   // Bodies that nothing acts on yet have no other forces than round-off, nor have those in flight.
-  constexpr double notable_round_off = 1e-8; // of the forces, whatever tolerance the scene asks for
   const bool is_loaded = !motion_ && force_scale_ > 0.1 * round_off_force_;
   // That of contact is told at the end, see check_contact_round_off().
   const bool is_of_contact = contact_round_off_force() > tolerance * force_scale_;

@@ -86,12 +86,17 @@ template <class AddContact> void QuasiStatic::add_supporting_points(const AddCon
     });
 }
 
-RigidBodySupport::Result QuasiStatic::find_support(const std::vector<bool> &unloaded_bodies) const {
+RigidBodySupport QuasiStatic::hold_bodies() const {
   RigidBodySupport support(discretization_.communicator(), body_frames_, unknown_tools_.size());
   add_supports(support);
   for (std::size_t body = 0; body < body_frames_.size(); ++body)
     if (is_stabilised(body))
       support.hold(body);
+  return support;
+}
+
+RigidBodySupport::Result QuasiStatic::find_support(const std::vector<bool> &unloaded_bodies) const {
+  RigidBodySupport support = hold_bodies();
   add_supporting_points([&](const std::size_t body, const std::size_t other, const SupportingPoint &point,
                             const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
     if (!unloaded_bodies.empty() && (unloaded_bodies[body] || unloaded_bodies[other]))
@@ -103,11 +108,7 @@ RigidBodySupport::Result QuasiStatic::find_support(const std::vector<bool> &unlo
 }
 
 std::optional<RigidBodySupport::Mode> QuasiStatic::find_sliding_soon() const {
-  RigidBodySupport support(discretization_.communicator(), body_frames_, unknown_tools_.size());
-  add_supports(support);
-  for (std::size_t body = 0; body < body_frames_.size(); ++body)
-    if (is_stabilised(body))
-      support.hold(body);
+  RigidBodySupport support = hold_bodies();
   bool any = false;
   add_supporting_points([&](const std::size_t, const std::size_t, const SupportingPoint &point,
                             const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {

@@ -9,13 +9,6 @@
 
 namespace billet {
 
-namespace {
-
-/// Part of the forces that round-off may take without a warning, whatever tolerance the scene asks for.
-constexpr double notable_round_off = 1e-8;
-
-} // namespace
-
 void RoundOffWatch::add(const double time, const double round_off, const double forces) {
   if (round_off > round_off_) {
     round_off_ = round_off;

@@ -30,13 +30,13 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
   numerical_ = energies.numerical;
   DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
   append(diagnostics, missing_pairs_.check(solution.state()));
-  if (is_last)
+  if (is_last) {
     for (Diagnostic &inverted :
          find_inverted_corners(scene_, discretization_, solution.state().displacements))
       diagnostics.push_back(inverted.time(solution.state().time));
-  if (is_last)
     append(diagnostics, find_faceted_curvature(scene_, discretization_, solution.state().displacements,
                                                solution.state().time));
+  }
   constexpr double far = 3.; // sizes of the scene
   const double moved = solution.state().displacements.linfty_norm() / (2. * discretization_.radius());
   if (!scene_.parameters().is_dynamic() && moved > far) {

@@ -14,6 +14,10 @@ namespace billet {
 /// it, is not to be thrown out from the depth.
 double contact_reach(const BoundaryFacet &facet);
 
+/// From the axis, or the centre, of the surface that a scene names, to a point [length].
+dealii::Tensor<1, 3> arm_to(const dealii::Tensor<1, 3> &x,
+                            const parameters::ContactPair::Correction &correction);
+
 /// Of the true surface that a scene names for a face, above the undeformed facet; 0 if it names none. Its
 /// distance from the axis, or the centre, is linear between the nodes of an edge.
 FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);

@@ -365,7 +365,9 @@ private:
   // Whether the state of a static step that has converged may be the next one, in
   // solve/quasi_static_support.cc. All collective.
   void prepare_support_check();
-  /// What holds the bodies at the trial state.
+  /// What holds the bodies beside contact, at the trial state.
+  RigidBodySupport hold_bodies() const;
+  /// The same with contact.
   RigidBodySupport::Result find_support(const std::vector<bool> &unloaded_bodies = {}) const;
   template <class AddContact> void add_supporting_points(const AddContact &add) const;
   void add_supports(RigidBodySupport &support) const;

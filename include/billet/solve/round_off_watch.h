@@ -8,6 +8,9 @@
 
 namespace billet {
 
+/// Part of the forces that round-off may take without a warning, whatever tolerance the scene asks for.
+constexpr double notable_round_off = 1e-8;
+
 /// Judges what round-off of positions makes of contact's forces, beside the largest forces of the run: a
 /// first touch is light, and what is lost in it matters to nobody.
 class RoundOffWatch {
