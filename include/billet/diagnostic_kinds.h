@@ -213,14 +213,15 @@ inline const DiagnosticKind element_too_stiff(
     "The elements of a body lock: the displacements store more energy in them than in elements without "
     "parasitic shear. Forces are too large, or displacements too small, by the given factor: by at least it "
     "in elastic bodies, by up to it in bodies that yield.",
-    "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
+    "Use 'Element = assumed strain'");
 
 inline const DiagnosticKind element_too_soft(
     "element-too-soft", Severity::warning,
-    "The elements of a body are too soft in bending: the displacements store less energy in them than in "
-    "elements that bend right. So are one-point elements with a reduced 'Hourglass stiffness', and a single "
+    "The elements of a body store less energy in these displacements than elements that bend right: as a "
+    "rule they are too soft in bending. So are one-point elements with a reduced 'Hourglass stiffness', and "
+    "a single "
     "layer of bricks with mean dilatation that are as long as high.",
-    "Use 'Hourglass stiffness = 1', or 'Element = one point'");
+    "Use 'Hourglass stiffness = 1', or 'Element = assumed strain'");
 
 inline const DiagnosticKind plastic_bending_coarse(
     "plastic-bending-coarse", Severity::warning,
@@ -233,7 +234,7 @@ inline const DiagnosticKind bricks_may_lock(
     "bricks-may-lock", Severity::warning,
     "A thin body has long bricks, or few through its thickness, of an element that is too stiff in bending. "
     "Only '--check' tells this; a run measures what it makes and warns with the factor.",
-    "Use 'Element = one point', or bricks that are as long as high, four or more through the thickness");
+    "Use 'Element = assumed strain'");
 
 inline const DiagnosticKind element_unfit_at_start(
     "element-unfit-at-start", Severity::note,

@@ -13,27 +13,45 @@ bool has_symmetric_tangent(const ElementFormulation &formulation, const bool is_
          !(is_plastic && formulation.kinematics == Kinematics::neo_hookean);
 }
 
+const char *name_of(const Element element) {
+  switch (element) {
+  case Element::assumed_strain:
+    return "assumed strain";
+  case Element::mean_dilatation:
+    return "mean dilatation";
+  case Element::one_point:
+    return "one point";
+  }
+  return "";
+}
+
+const char *name_of(const Kinematics kinematics) {
+  switch (kinematics) {
+  case Kinematics::hencky:
+    return "Hencky";
+  case Kinematics::neo_hookean:
+    return "neo-Hookean";
+  case Kinematics::hypoelastic:
+    return "hypoelastic";
+  }
+  return "";
+}
+
 std::string describe(const ElementFormulation &formulation) {
-  const std::string element = formulation.element == Element::full        ? "full"
-                              : formulation.element == Element::one_point ? "one point"
-                                                                          : "mean dilatation";
-  return "implicit, " + element +
-         (formulation.kinematics == Kinematics::hencky        ? ", Hencky"
-          : formulation.kinematics == Kinematics::neo_hookean ? ", neo-Hookean"
-                                                              : ", hypoelastic");
+  return std::string("implicit, ") + name_of(formulation.element) + ", " + name_of(formulation.kinematics);
 }
 
 std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material,
                                                  const ElementFormulation &formulation) {
   switch (formulation.element) {
-  case Element::full:
-    return make_full_block(material, formulation);
-  case Element::one_point:
-    return make_one_point_block(material, formulation);
+  case Element::assumed_strain:
+    return make_assumed_strain_block(material, formulation);
   case Element::mean_dilatation:
+    return make_mean_dilatation_block(material, formulation);
+  case Element::one_point:
     break;
   }
-  return make_mean_dilatation_block(material, formulation);
+  return make_one_point_block(material, formulation);
 }
 
 } // namespace billet

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mechanics/element_comparison.h"
 
-#include "billet/mechanics/assumed_strain.h"
-#include "billet/mechanics/eight_point_elements.h"
+#include "billet/mechanics/assumed_strain_element.h"
 #include "billet/mechanics/one_point.h"
 
 #include <cmath>
@@ -11,9 +10,7 @@
 namespace billet {
 
 ElementComparison::ElementComparison(const MaterialLaw &material, const ElementFormulation &formulation)
-    : elastic_(material.elastic),
-      poisson_((3. * elastic_.bulk - 2. * elastic_.shear) / (6. * elastic_.bulk + 2. * elastic_.shear)),
-      formulation_(formulation) {
+    : elastic_(material.elastic), formulation_(formulation) {
   std::visit(
       [this](const auto &hardening) {
         if constexpr (!std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>) {
@@ -92,32 +89,27 @@ bool ElementComparison::add_one_point(const ElementVectors &positions, const Ele
 bool ElementComparison::compare(const ElementVectors &positions, const ElementVectors &displacements,
                                 ElementEnergies &energies) const {
   ElementEnergies own, one_point;
-  PointDeformations accurate;
-  if (!add_one_point(positions, displacements, 1., one_point) ||
-      !compute_assumed_strain(positions, displacements, poisson_, accurate))
-    return false;
-  own.one_point = one_point.used;
-  for (unsigned int q = 0; q < n_element_points; ++q)
-    own.accurate += accurate.volumes[q] * energy(measure(accurate.F[q]));
-
-  const auto add_points = [&](const auto &element) {
+  const auto add_points = [&](const auto &element, double &sum) {
     using Element = std::decay_t<decltype(element)>;
     typename Element::Reference reference;
     typename Element::Kinematics kinematics;
-    if (!Element::initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
+    if (!element.initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
       return false;
     for (unsigned int q = 0; q < n_element_points; ++q)
-      own.used += Element::reference_volume(reference, q) *
-                  energy(measure(Element::template deformation<false>(reference, kinematics, q)));
+      sum += Element::reference_volume(reference, q) *
+             energy(measure(Element::template deformation<false>(reference, kinematics, q)));
     return true;
   };
+  if (!add_one_point(positions, displacements, 1., one_point) ||
+      !add_points(AssumedStrainElement(elastic_, formulation_), own.accurate))
+    return false;
+  own.one_point = one_point.used;
   switch (formulation_.element) {
-  case ElementFormulation::Element::mean_dilatation:
-    if (!add_points(MeanDilatationElement(elastic_, formulation_)))
-      return false;
+  case ElementFormulation::Element::assumed_strain:
+    own.used = own.accurate;
     break;
-  case ElementFormulation::Element::full:
-    if (!add_points(FullElement(elastic_, formulation_)))
+  case ElementFormulation::Element::mean_dilatation:
+    if (!add_points(MeanDilatationElement(elastic_, formulation_), own.used))
       return false;
     break;
   case ElementFormulation::Element::one_point:

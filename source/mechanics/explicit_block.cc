@@ -133,10 +133,10 @@ public:
   Block(const ElasticModuli &elastic, Hardening hardening, const double density,
         const ExplicitFormulation &formulation)
       : formulation_(formulation), hardening_(std::move(hardening)),
-        storage_(find_kernels<Number>(formulation.instructions).n_lanes, formulation, has_plasticity,
+        storage_(find_kernels<Number>(formulation.instructions).n_lanes, elastic, formulation, has_plasticity,
                  has_plasticity && !is_linear),
         kernel_(find_kernels<Number>(formulation.instructions)
-                    .kernels[formulation.element == Element::one_point ? 1 : 0]
+                    .kernels[static_cast<unsigned int>(formulation.element)]
                             [static_cast<unsigned int>(formulation.kinematics)][has_plasticity ? 1 : 0]) {
     material_ = {};
     material_.bulk = elastic.bulk;
@@ -361,18 +361,7 @@ void require(const bool holds, const char *reason) {
 
 std::string describe(const ExplicitFormulation &formulation) {
   std::string words =
-      formulation.element == Element::one_point ? "explicit, one point, " : "explicit, mean dilatation, ";
-  switch (formulation.kinematics) {
-  case Kinematics::hencky:
-    words += "Hencky";
-    break;
-  case Kinematics::neo_hookean:
-    words += "neo-Hookean";
-    break;
-  case Kinematics::hypoelastic:
-    words += "hypoelastic";
-    break;
-  }
+      std::string("explicit, ") + name_of(formulation.element) + ", " + name_of(formulation.kinematics);
   if (formulation.number_type == ExplicitFormulation::NumberType::float_precision)
     words += ", float";
   return words;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mechanics/explicit_storage.h"
 
+#include "billet/mechanics/assumed_strain_element.h"
 #include "billet/mechanics/modal_geometry.h"
 
 #include <algorithm>
@@ -19,7 +20,20 @@ namespace last {
 constexpr std::size_t volume = 0, omega = 1, viscous_pressure = 2, n = 3;
 } // namespace last
 
-constexpr std::size_t n_mode_numbers = 21, one_point_modes = 28, eight_point_modes = 2;
+constexpr std::size_t n_mode_numbers = 21, eight_point_modes = 2;
+
+/// Places of the constants of elements with the mean gradient, see mean_gradient.h, one_point.h and
+/// assumed_strain.h.
+namespace mean_gradient {
+constexpr std::size_t volume = 0, inverse_det = 1, bound = 2, beta = 3, n = 21;
+} // namespace mean_gradient
+namespace one_point {
+constexpr std::size_t bound = mean_gradient::n, ratios = bound + 1, modes = ratios + 6;
+} // namespace one_point
+namespace assumed_strain {
+constexpr std::size_t own = mean_gradient::n, share = own + 12, shear = share + 6, thinning = shear + 6,
+                      modes = thinning + 3;
+} // namespace assumed_strain
 
 double next_power_of_two(const double x) { return std::exp2(std::round(std::log2(x))); }
 
@@ -58,23 +72,39 @@ template <std::size_t n> double bound_by_rows(const std::array<std::array<double
   return largest;
 }
 
-/// λ_max of J̄ᵀJ̄ per squared displacement, and of J̄ and the modes b and c together: modes are orthogonal, of
-/// squared length 1/8.
-void bound(const ModalGeometry &geometry, double &mean, double &all) {
-  std::array<std::array<double, 3>, 3> mean_matrix{};
-  std::array<std::array<double, 7>, 7> matrix{};
-  for (unsigned int k = 0; k < 3; ++k) {
-    for (unsigned int l = 0; l < 3; ++l) {
-      for (const auto &row : geometry.beta)
-        mean_matrix[k][l] += row[k] * row[l];
-      matrix[k][l] = mean_matrix[k][l];
-      matrix[k][3 + l] = matrix[3 + l][k] = geometry.beta[3 + l][k];
-    }
+/// Bound of λ_max of A Aᵀ per squared displacement, A the vectors that follow from the seven modes as these
+/// rows say: modes are orthogonal, of squared length 1/8.
+template <std::size_t n> double bound_squares(const std::array<std::array<double, 7>, n> &rows) {
+  std::array<std::array<double, n>, n> matrix{};
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t l = 0; l < n; ++l)
+      for (unsigned int m = 0; m < 7; ++m)
+        matrix[k][l] += rows[k][m] * rows[l][m];
+  return bound_by_rows(matrix) / 8.;
+}
+
+/// The columns of J̄ by the modes.
+std::array<std::array<double, 7>, 3> rows_of_mean(const ModalGeometry &geometry) {
+  std::array<std::array<double, 7>, 3> rows{};
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int m = 0; m < n_linear_modes; ++m)
+      rows[k][m] = geometry.beta[m][k];
+  return rows;
+}
+
+/// And with them the modes b and c less `part` of what the mean gradient makes of them.
+std::array<std::array<double, 7>, 7> rows_of_all(const ModalGeometry &geometry, const Tensor<2, 3> &inverse,
+                                                 const double part) {
+  std::array<std::array<double, 7>, 7> rows{};
+  const auto mean = rows_of_mean(geometry);
+  std::copy(mean.begin(), mean.end(), rows.begin());
+  for (unsigned int m = 0; m < 4; ++m) {
+    const Tensor<1, 3> own = part * (inverse * geometry.modes[3 + m]);
+    for (unsigned int l = 0; l < 7; ++l)
+      rows[3 + m][l] =
+          (l == 3 + m ? 1. : 0.) - (own[0] * mean[0][l] + own[1] * mean[1][l] + own[2] * mean[2][l]);
   }
-  for (unsigned int k = 3; k < 7; ++k)
-    matrix[k][k] = 1.;
-  mean = bound_by_rows(mean_matrix) / 8.;
-  all = bound_by_rows(matrix) / 8.;
+  return rows;
 }
 
 /// Bound of the eigenvalues of J⁻¹ J⁻ᵀ.
@@ -99,9 +129,10 @@ KernelUnits choose_units(const double length, const double stress, const double 
 }
 
 template <class Number>
-ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const ExplicitFormulation &formulation,
-                                         const bool has_plasticity, const bool keeps_yield_stress)
-    : n_lanes_(n_lanes), formulation_(formulation), has_plasticity_(has_plasticity),
+ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const ElasticModuli &elastic,
+                                         const ExplicitFormulation &formulation, const bool has_plasticity,
+                                         const bool keeps_yield_stress)
+    : n_lanes_(n_lanes), elastic_(elastic), formulation_(formulation), has_plasticity_(has_plasticity),
       keeps_yield_stress_(keeps_yield_stress) {
   const bool is_one_point = formulation.element == Element::one_point;
   n_tensor_ = is_rate() ? 5 : 6;
@@ -109,8 +140,10 @@ ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const Expli
   layout_.n_point_history = n_tensor_ + n_alpha + (keeps_yield_stress ? 1 : 0);
   first_point_ = last::n + (is_one_point ? 12 : 0);
   layout_.n_history = first_point_ + (is_one_point ? 1 : n_element_points) * layout_.n_point_history;
-  layout_.n_constants =
-      is_one_point ? one_point_modes : eight_point_modes + (is_rate() ? 0 : n_element_points);
+  layout_.n_constants = is_one_point ? one_point::modes
+                        : formulation.element == Element::assumed_strain
+                            ? assumed_strain::modes
+                            : eight_point_modes + (is_rate() ? 0 : n_element_points);
   if (is_single)
     layout_.n_constants += n_mode_numbers;
   history_units_.assign(layout_.n_history, 1.);
@@ -220,9 +253,10 @@ void ExplicitStorage<Number>::set_modes(const std::size_t element, const std::si
 }
 
 template <class Number>
-bool ExplicitStorage<Number>::initialize_one_point(const std::size_t element, const ElementVectors &positions,
-                                                   const double volume, const double smallest_mass,
-                                                   const double yield_stress, double &lambda) {
+bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element,
+                                                       const ElementVectors &positions,
+                                                       const double smallest_mass, const double yield_stress,
+                                                       double &lambda) {
   const ModalGeometry geometry(positions);
   Tensor<2, 3> jacobian;
   for (unsigned int k = 0; k < 3; ++k)
@@ -232,31 +266,69 @@ bool ExplicitStorage<Number>::initialize_one_point(const std::size_t element, co
   if (!(det > 0.))
     return false;
   const Tensor<2, 3> inverse = invert(jacobian);
-  double mean = 0., all = 0.;
-  bound(geometry, mean, all);
-  lambda = volume * bound_metric(inverse) * mean;
+  const bool is_one_point = formulation_.element == Element::one_point;
+  const double squares = is_one_point ? bound_squares(rows_of_mean(geometry))
+                                      : bound_squares(rows_of_all(geometry, inverse, 1.));
+  lambda = geometry.volume * bound_metric(inverse) * squares;
   const double cubed = units_.length * units_.length * units_.length;
   const double mass_unit = units_.density * cubed;
-  set_constant(element, 0, volume / cubed);
-  set_constant(element, 1, cubed / det);
-  set_constant(element, 2, mean / smallest_mass * mass_unit);
-  set_constant(element, 3, all / smallest_mass * mass_unit);
+  set_constant(element, mean_gradient::volume, geometry.volume / cubed);
+  set_constant(element, mean_gradient::inverse_det, cubed / det);
+  set_constant(element, mean_gradient::bound, squares / smallest_mass * mass_unit);
   for (unsigned int m = 0; m < 6; ++m)
     for (unsigned int k = 0; k < 3; ++k)
-      set_constant(element, 4 + 3 * m + k, geometry.beta[m][k]);
-  unsigned int place = 22;
+      set_constant(element, mean_gradient::beta + 3 * m + k, geometry.beta[m][k]);
+  if (is_one_point) {
+    set_constant(element, one_point::bound,
+                 bound_squares(rows_of_all(geometry, inverse, 0.)) / smallest_mass * mass_unit);
+    initialize_one_point(element, geometry, inverse);
+  } else
+    initialize_assumed_strain(element, geometry, inverse);
+  for (std::size_t first = first_point_; first < layout_.n_history; first += layout_.n_point_history)
+    initialize_point(element, first, inverse, yield_stress);
+  return true;
+}
+
+template <class Number>
+void ExplicitStorage<Number>::initialize_one_point(const std::size_t element, const ModalGeometry &geometry,
+                                                   const Tensor<2, 3> &inverse) {
+  std::size_t place = one_point::ratios;
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int l = 0; l < 3; ++l)
       if (k != l)
         set_constant(element, place++, geometry.modes[k].norm() / geometry.modes[l].norm());
   if (is_single)
-    set_modes(element, one_point_modes, geometry);
+    set_modes(element, one_point::modes, geometry);
   else
     for (unsigned int m = 0; m < 4; ++m)
       for (unsigned int k = 0; k < 3; ++k)
         set_history(element, last::n + std::size_t{3} * m + k, (inverse * geometry.modes[3 + m])[k]);
-  initialize_point(element, first_point_, inverse, yield_stress);
-  return true;
+}
+
+template <class Number>
+void ExplicitStorage<Number>::initialize_assumed_strain(const std::size_t element,
+                                                        const ModalGeometry &geometry,
+                                                        const Tensor<2, 3> &inverse) {
+  std::array<double, 3> lengths{};
+  for (unsigned int k = 0; k < 3; ++k)
+    lengths[k] = geometry.modes[k].norm();
+  const auto constants = compute_strain_constants(elastic_, lengths);
+  std::size_t place = 0;
+  for (unsigned int j = 0; j < 3; ++j) {
+    for (unsigned int k = 0; k < 3; ++k)
+      if (j != k) {
+        set_constant(element, assumed_strain::share + place, constants.share[j][k]);
+        set_constant(element, assumed_strain::shear + place++, constants.shear[j][k]);
+      }
+    set_constant(element, assumed_strain::thinning + j, constants.thinning[j]);
+  }
+  for (unsigned int m = 0; m < 4; ++m) {
+    const Tensor<1, 3> own = inverse * geometry.modes[3 + m];
+    for (unsigned int k = 0; k < 3; ++k)
+      set_constant(element, assumed_strain::own + std::size_t{3} * m + k, own[k]);
+  }
+  if (is_single)
+    set_modes(element, assumed_strain::modes, geometry);
 }
 
 template <class Number>
@@ -272,8 +344,8 @@ bool ExplicitStorage<Number>::initialize_element(const std::size_t element, cons
   for (const double w : reference.volumes)
     volume += w;
 
-  if (formulation_.element == Element::one_point) {
-    if (!initialize_one_point(element, positions, volume, smallest_mass, yield_stress, lambda))
+  if (formulation_.element != Element::mean_dilatation) {
+    if (!initialize_mean_gradient(element, positions, smallest_mass, yield_stress, lambda))
       return false;
   } else {
     const double cubed = units_.length * units_.length * units_.length;
@@ -329,11 +401,10 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
   // The lanes beyond the last element repeat it.
   const bool is_last = element + 1 == n_elements_;
   for (std::size_t e = element; e == element || (is_last && e % n_lanes_ != 0); ++e) {
-    if (formulation_.element == Element::one_point) {
-      set_constant(e, 2, constant(e, 2) / factor);
-      set_constant(e, 3, constant(e, 3) / factor);
-    } else
-      set_constant(e, 1, constant(e, 1) / factor);
+    const auto divide = [&](const std::size_t k) { set_constant(e, k, constant(e, k) / factor); };
+    divide(formulation_.element == Element::mean_dilatation ? 1 : mean_gradient::bound);
+    if (formulation_.element == Element::one_point)
+      divide(one_point::bound);
     set_history(e, last::omega, history(e, last::omega) / factor);
   }
   return volume * (factor - 1.);
@@ -370,6 +441,17 @@ void ExplicitStorage<Number>::visit_points(const std::size_t element, const doub
     const double J = determinant(jacobian) / determinant(reference_jacobian);
     if (J > 0.)
       visit(first_point_, reference.volume, J, jacobian, invert(reference_jacobian));
+    return;
+  }
+  if (formulation_.element == Element::assumed_strain) {
+    const AssumedStrainElement brick(elastic_, {});
+    AssumedStrainElement::Reference reference;
+    AssumedStrainElement::Kinematics kinematics;
+    if (!brick.initialize(X, reference) || !AssumedStrainElement::compute(reference, u, kinematics))
+      return;
+    for (unsigned int q = 0; q < n_element_points; ++q)
+      visit(first_point_ + q * layout_.n_point_history, reference.volume / n_element_points, kinematics.J,
+            kinematics.F[q] * reference.jacobian, reference.inverse_jacobian);
     return;
   }
   ReferenceElement reference;

@@ -335,10 +335,11 @@ void Load::parse(Reader &reader) {
 void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names,
                    const std::vector<std::string> &load_names) {
   prm.declare_entry(
-      "Element", "mean dilatation", Patterns::Selection("mean dilatation|full|one point"),
-      "mean dilatation: eight points with a common volumetric strain; full: eight points, each with its own, "
-      "which locks in plastic flow, for comparison, not in explicit scenes; one point: with hourglass "
-      "stabilisation, the cheapest.");
+      "Element", "assumed strain", Patterns::Selection("assumed strain|mean dilatation|one point"),
+      "assumed strain: eight points, right in bending with one brick through a thickness and in plastic "
+      "flow; "
+      "mean dilatation: eight points with a common volumetric strain, for solid parts that do not bend; one "
+      "point: with hourglass stabilisation, the cheapest.");
   prm.declare_entry("Hourglass stiffness", "", Patterns::Anything(),
                     "Of a one-point element, > 0: part of the stiffness that the material itself would give "
                     "to the hourglass modes. Empty: 1, in explicit scenes that of 'Explicit dynamics'.");
@@ -428,9 +429,9 @@ void Body::parse(Reader &reader) {
       });
   });
   const std::string type = reader.text("Element");
-  element = reader.located("Element", type == "one point" ? ElementType::one_point
-                                      : type == "full"    ? ElementType::full
-                                                          : ElementType::mean_dilatation);
+  element = reader.located("Element", type == "one point"         ? ElementType::one_point
+                                      : type == "mean dilatation" ? ElementType::mean_dilatation
+                                                                  : ElementType::assumed_strain);
   if (!reader.text("Hourglass stiffness").empty()) {
     if (element.value != ElementType::one_point)
       reader.reject("Hourglass stiffness", "no value: only elements with one point have hourglass modes");

@@ -219,12 +219,8 @@ private:
       throw InputError(body.is_stabilised.origin +
                        ": found 'until touched', allowed is 'no', since 'Scheme' is " + name_of_scheme() +
                        ": the mass of a body resists its motion");
-    if (scene_.is_explicit()) {
-      if (body.element.value == Body::ElementType::full)
-        throw InputError(body.element.origin +
-                         ": found 'full', allowed in explicit scenes are 'mean dilatation' and 'one point'");
+    if (scene_.is_explicit())
       return;
-    }
     if (!scene_.is_dynamic())
       refuse(path, "Initial velocity");
     if (!scene_.is_dynamic() && !body.loads.empty())

@@ -376,7 +376,7 @@ DiagnosticList check_bricks(const Scene &scene) {
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
-    if (body.formulation.element == ElementFormulation::Element::one_point)
+    if (body.formulation.element != ElementFormulation::Element::mean_dilatation)
       continue;
     const parameters::Body &input = scene.parameters().bodies[b];
     Triangulation<3> outline, mesh;

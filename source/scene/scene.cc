@@ -82,22 +82,6 @@ Load make_load(const parameters::Load &parameters, const std::vector<parameters:
   return load;
 }
 
-ElementFormulation make_formulation(const parameters::Body &parameters) {
-  using Type = parameters::Body::ElementType;
-  using Kinematics = parameters::Material::Kinematics;
-  using Formulation = ElementFormulation;
-  Formulation formulation;
-  formulation.element = parameters.element.value == Type::full        ? Formulation::Element::full
-                        : parameters.element.value == Type::one_point ? Formulation::Element::one_point
-                                                                      : Formulation::Element::mean_dilatation;
-  const Kinematics kinematics = parameters.material.kinematics.value;
-  formulation.kinematics = kinematics == Kinematics::hencky        ? Formulation::Kinematics::hencky
-                           : kinematics == Kinematics::neo_hookean ? Formulation::Kinematics::neo_hookean
-                                                                   : Formulation::Kinematics::hypoelastic;
-  formulation.hourglass_stiffness = parameters.hourglass_stiffness.value_or(1.);
-  return formulation;
-}
-
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
   Body body;
   body.name = parameters.name;
@@ -198,9 +182,9 @@ std::string describe_law(const parameters::Body &body) {
   using Type = parameters::Body::ElementType;
   using Kinematics = parameters::Material::Kinematics;
   const Kinematics kinematics = body.material.kinematics.value;
-  return std::string(body.element.value == Type::full        ? "full integration, "
-                     : body.element.value == Type::one_point ? "one point, "
-                                                             : "") +
+  return std::string(body.element.value == Type::mean_dilatation ? "mean dilatation, "
+                     : body.element.value == Type::one_point     ? "one point, "
+                                                                 : "") +
          (kinematics == Kinematics::hencky        ? "Hencky "
           : kinematics == Kinematics::neo_hookean ? "neo-Hookean "
                                                   : "hypoelastic ") +
@@ -208,6 +192,30 @@ std::string describe_law(const parameters::Body &body) {
 }
 
 } // namespace
+
+ElementFormulation make_formulation(const parameters::Body &parameters) {
+  using Type = parameters::Body::ElementType;
+  using Kinematics = parameters::Material::Kinematics;
+  using Formulation = ElementFormulation;
+  Formulation formulation;
+  switch (parameters.element.value) {
+  case Type::assumed_strain:
+    formulation.element = Formulation::Element::assumed_strain;
+    break;
+  case Type::mean_dilatation:
+    formulation.element = Formulation::Element::mean_dilatation;
+    break;
+  case Type::one_point:
+    formulation.element = Formulation::Element::one_point;
+    break;
+  }
+  const Kinematics kinematics = parameters.material.kinematics.value;
+  formulation.kinematics = kinematics == Kinematics::hencky        ? Formulation::Kinematics::hencky
+                           : kinematics == Kinematics::neo_hookean ? Formulation::Kinematics::neo_hookean
+                                                                   : Formulation::Kinematics::hypoelastic;
+  formulation.hourglass_stiffness = parameters.hourglass_stiffness.value_or(1.);
+  return formulation;
+}
 
 Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &body : parameters.bodies)

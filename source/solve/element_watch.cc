@@ -22,20 +22,13 @@ ElementFormulation formulation_of(const Scene &scene, const std::size_t body) {
   return formulation;
 }
 
-const char *name_of(const ElementType element) {
-  return element == ElementType::full        ? "full"
-         : element == ElementType::one_point ? "one point"
-                                             : "mean dilatation";
-}
-
 /// What helps a body whose elements are too stiff: never an element that is as stiff.
 std::string advise_on_stiffness(const ElementEnergies &energies, const ElementFormulation &formulation) {
   const bool one_point_helps = energies.one_point * ElementWatch::doubtful_factor < energies.used;
   if (formulation.element == ElementType::one_point)
     return one_point_helps ? "Use 'Hourglass stiffness = 1'"
                            : "Use bricks with edges along the normal of the surface, or a finer mesh";
-  return std::string(one_point_helps ? "Use 'Element = one point', or bricks" : "Use bricks") +
-         " that are as long as high, four or more through the thickness";
+  return "Use 'Element = assumed strain'";
 }
 
 constexpr std::size_t n_energies = 5;
@@ -96,10 +89,10 @@ double ElementWatch::factor_of(const std::size_t body) const {
 }
 
 bool ElementWatch::is_doubtful(const std::size_t body) const {
-  // The one-point element as it is stands for an accurate one: it is never called soft.
+  // Accurate elements are never called soft.
   const ElementFormulation formulation = formulation_of(scene_, body);
   const bool may_be_soft =
-      formulation.element != ElementType::one_point || formulation.hourglass_stiffness < 1.;
+      formulation.element == ElementType::mean_dilatation || formulation.hourglass_stiffness < 1.;
   const double factor = factor_of(body);
   return counts(body) && (factor > doubtful_factor || (may_be_soft && factor * doubtful_factor < 1.));
 }
@@ -116,14 +109,15 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     const bool has_yield = !std::holds_alternative<std::monostate>(scene_.bodies()[b].material.hardening);
     std::ostringstream text;
     text.precision(3);
-    text << "Elements 'Element = " << name_of(formulation.element) << "' are "
-         << (is_stiff ? factor : 1. / factor) << " times too " << (is_stiff ? "stiff" : "soft")
-         << " for this deformation: forces are too " << (is_stiff ? "large" : "small")
-         << ", or displacements too " << (is_stiff ? "small" : "large") << ", by "
-         << (!is_stiff   ? "about"
-             : has_yield ? "up to"
-                         : "at least")
-         << " this factor";
+    text << "Elements 'Element = " << name_of(formulation.element) << "' ";
+    if (is_stiff)
+      text << "are " << factor
+           << " times too stiff for this deformation: forces are too large, or displacements too small, by "
+           << (has_yield ? "up to" : "at least") << " this factor";
+    else // no bound, and no direction: in skewed bricks they are too stiff all the same
+      text << "store " << 1. / factor
+           << " times less energy in this deformation than they should: forces or displacements may be off "
+              "by this factor";
     Diagnostic message(is_first   ? diagnostic::element_unfit_at_start
                        : is_stiff ? diagnostic::element_too_stiff
                                   : diagnostic::element_too_soft,
@@ -132,7 +126,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     const std::string advice = is_stiff ? advise_on_stiffness(energies_[b], formulation)
                                : formulation.element == ElementType::one_point
                                    ? "Use 'Hourglass stiffness = 1'"
-                                   : "Use 'Element = one point'";
+                                   : "Use 'Element = assumed strain'";
     message.advice(is_first ? "If that stays so until the end: " + advice : advice);
     diagnostics.push_back(message);
   }

@@ -17,24 +17,12 @@ namespace billet {
 using dealii::Tensor;
 
 ExplicitFormulation make_formulation(const parameters::Scene &scene, const parameters::Body &body) {
-  using Kinematics = parameters::Material::Kinematics;
   using Instructions = parameters::ExplicitDynamics::Instructions;
   const auto &dynamics = scene.explicit_dynamics;
   ExplicitFormulation formulation;
-  formulation.element = body.element.value == parameters::Body::ElementType::one_point
-                            ? ExplicitFormulation::Element::one_point
-                            : ExplicitFormulation::Element::mean_dilatation;
-  switch (body.material.kinematics.value) {
-  case Kinematics::hencky:
-    formulation.kinematics = ExplicitFormulation::Kinematics::hencky;
-    break;
-  case Kinematics::neo_hookean:
-    formulation.kinematics = ExplicitFormulation::Kinematics::neo_hookean;
-    break;
-  case Kinematics::hypoelastic:
-    formulation.kinematics = ExplicitFormulation::Kinematics::hypoelastic;
-    break;
-  }
+  const ElementFormulation of_body = make_formulation(body);
+  formulation.element = of_body.element;
+  formulation.kinematics = of_body.kinematics;
   formulation.linear_viscosity = dynamics.linear_viscosity;
   formulation.quadratic_viscosity = dynamics.quadratic_viscosity;
   formulation.hourglass_stiffness = body.hourglass_stiffness.value_or(dynamics.hourglass_stiffness);

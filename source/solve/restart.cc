@@ -37,11 +37,9 @@ std::vector<double> measure(const Discretization &discretization, const std::siz
 }
 
 std::optional<ElementFormulation> find_implicit_formulation(const std::string &words) {
-  using Element = ElementFormulation::Element;
-  using Kinematics = ElementFormulation::Kinematics;
   ElementFormulation formulation;
-  for (const auto element : {Element::mean_dilatation, Element::full, Element::one_point})
-    for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic}) {
+  for (const auto element : all_elements)
+    for (const auto kinematics : all_kinematics) {
       formulation.element = element;
       formulation.kinematics = kinematics;
       if (describe(formulation) == words)
@@ -51,13 +49,11 @@ std::optional<ElementFormulation> find_implicit_formulation(const std::string &w
 }
 
 std::optional<ExplicitFormulation> find_formulation(const std::string &words) {
-  using Element = ExplicitFormulation::Element;
-  using Kinematics = ExplicitFormulation::Kinematics;
   using NumberType = ExplicitFormulation::NumberType;
   ExplicitFormulation formulation;
   formulation.instructions = InstructionSet::scalar;
-  for (const auto element : {Element::mean_dilatation, Element::one_point})
-    for (const auto kinematics : {Kinematics::hencky, Kinematics::neo_hookean, Kinematics::hypoelastic}) {
+  for (const auto element : all_elements)
+    for (const auto kinematics : all_kinematics) {
       formulation.element = element;
       formulation.kinematics = kinematics;
       for (const auto number_type : {NumberType::double_precision, NumberType::float_precision}) {

@@ -38,7 +38,7 @@ end
 """
 
 
-def scene(whole=True, explicit=False, plastic=False, element="mean dilatation", tool=False, friction=False, second=False, augmented=False,
+def scene(whole=True, explicit=False, plastic=False, element="assumed strain", tool=False, friction=False, second=False, augmented=False,
           edges=False, self_contact=False):
     push = (f"subsection Loads\n subsection push\n set Type = pressure\n set Boundary ids = 5\n set Pressure = 400*t/{END}\n end\n end"
             if explicit else "subsection Supports\n subsection push\n set Boundary ids = 5\n set Components = z\n"
@@ -55,7 +55,7 @@ def scene(whole=True, explicit=False, plastic=False, element="mean dilatation", 
         pairs += ("subsection folds\n set Body = block\n set Boundary ids = 1, 3\n set Second body = block\n set Normal penalty = 1\nend\n")
     text = "subsection Bodies\n" + body("block", "lower", plastic, element, "" if second else push)
     if second:
-        text += body("cap", "upper", False, "mean dilatation", push)
+        text += body("cap", "upper", False, "assumed strain", push)
     text += "end\n"
     if tool:
         text += ("subsection Tools\n subsection die\n subsection Surfaces\n subsection face\n set Point = 10, 0, 0\n set Normal = -1, 0, 0\n"

@@ -22,11 +22,8 @@ int main(int argc, char *argv[]) {
     return size * (2. * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1.);
   };
   const MaterialLaw material{ElasticModuli::from_young_poisson(2e5, 0.3), LinearHardening{700., 300.}};
-  for (const auto element : {ElementFormulation::Element::mean_dilatation, ElementFormulation::Element::full,
-                             ElementFormulation::Element::one_point})
-    for (const auto kinematics :
-         {ElementFormulation::Kinematics::hencky, ElementFormulation::Kinematics::neo_hookean,
-          ElementFormulation::Kinematics::hypoelastic}) {
+  for (const auto element : all_elements)
+    for (const auto kinematics : all_kinematics) {
       ElementFormulation formulation;
       formulation.element = element;
       formulation.kinematics = kinematics;

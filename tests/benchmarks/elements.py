@@ -12,8 +12,8 @@ from billet_runs import PAIR, PROGRAM, TANGENT, Run, arguments, curve_error, fix
 options = arguments("elements")
 COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/element_cost")
 ELEMENT, KINEMATICS = "Bodies/billet/Element", "Bodies/billet/Material/Kinematics"
-ELEMENTS, LAWS = ("mean dilatation", "full", "one point"), ("Hencky", "neo-Hookean", "hypoelastic")
-CLASSES = {"MeanDilatationElement": "mean dilatation", "FullElement": "full", "OnePointElement": "one point",
+ELEMENTS, LAWS = ("assumed strain", "mean dilatation", "one point"), ("Hencky", "neo-Hookean", "hypoelastic")
+CLASSES = {"AssumedStrainElement": "assumed strain", "MeanDilatationElement": "mean dilatation", "OnePointElement": "one point",
            "HenckyPlasticity": "Hencky", "NeoHookeanPlasticity": "neo-Hookean", "HypoelasticPlasticity": "hypoelastic"}
 STEPS = 50
 FRICTIONLESS = {PAIR + "Friction coefficient": 0}
@@ -47,7 +47,7 @@ def count_instructions(what):
 
 levels = (1,) if options.quick else (1, 2)
 finest = levels[-1] + (1 if options.large else 0)
-reference = run("mean dilatation", "Hencky", {**mesh(finest), **fixed_steps(STEPS)})
+reference = run("assumed strain", "Hencky", {**mesh(finest), **fixed_steps(STEPS)})
 rows = []
 for level in levels:
     usual = None
@@ -63,11 +63,11 @@ for level in levels:
 
 step_rows = []
 for steps in (10, 20, 50, 100) if options.quick else (10, 20, 50, 100, 200):
-    results = [run("mean dilatation", law, {**FRICTIONLESS, **fixed_steps(steps)}) for law in LAWS]
+    results = [run("assumed strain", law, {**FRICTIONLESS, **fixed_steps(steps)}) for law in LAWS]
     step_rows.append([steps] + [force(result) for result in results])
 
 tangent_rows = []
-for element, law in (("mean dilatation", "neo-Hookean"), ("mean dilatation", "hypoelastic"), ("one point", "hypoelastic")):
+for element, law in (("assumed strain", "neo-Hookean"), ("assumed strain", "hypoelastic"), ("one point", "hypoelastic")):
     cells = []
     for tolerance in (1e-6, 1e-11):
         for tangent in ("exact", "symmetrised"):
@@ -87,7 +87,7 @@ for stiffness in (0.05, 0.2, 0.5, 1.0):
     hourglass_rows.append(cells)
 
 forces, tangents = count_instructions("forces"), count_instructions("tangents")
-base = tangents["mean dilatation", "Hencky"]
+base = tangents["assumed strain", "Hencky"]
 cost_rows = [[element, law, number(forces[element, law] / 1e3, 3), number(tangents[element, law] / 1e3, 3),
               number(tangents[element, law] / base, 2)] for element in ELEMENTS for law in LAWS]
 

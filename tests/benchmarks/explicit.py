@@ -64,9 +64,9 @@ TWO = {"lower": "50, 50, 20 : -0.25, -0.25, -0.2 : 0.25, 0.25, 0",
 SHIFTED = dict(TWO, upper="50, 50, 20 : -0.247, -0.246, 0 : 0.253, 0.254, 0.2")
 BODIES = {"one": ONE, "apart": TWO, "fitting": TWO, "not fitting": SHIFTED}
 KERNELS = {"one point, hypoelastic": ("one point", "hypoelastic"),
-           "8 points, hypoelastic": ("mean dilatation", "hypoelastic"),
-           "8 points, neo-Hookean": ("mean dilatation", "neo-Hookean"),
-           "8 points, Hencky": ("mean dilatation", "Hencky")}
+           "8 points, hypoelastic": ("assumed strain", "hypoelastic"),
+           "8 points, neo-Hookean": ("assumed strain", "neo-Hookean"),
+           "8 points, Hencky": ("assumed strain", "Hencky")}
 GOALS = {"AVX-512": (65, 170, 190, 260), "AVX2": (85, 220, 260, 370)}
 
 

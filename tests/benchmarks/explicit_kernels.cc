@@ -169,6 +169,7 @@ int main(int argc, char *argv[]) {
                                                           {"avx512", InstructionSet::avx512}};
   using Formulation = ExplicitFormulation;
   const std::pair<const char *, Formulation::Element> elements[] = {
+      {"assumed strain", Formulation::Element::assumed_strain},
       {"mean dilatation", Formulation::Element::mean_dilatation},
       {"one point", Formulation::Element::one_point}};
   const std::pair<const char *, Formulation::Kinematics> kinematics[] = {

@@ -88,7 +88,7 @@ def reference(path, changes, depth, residual, dynamic):
                 **{f"Contact pairs/{name}/Normal penalty": 100 for name in names
                    if entries.get(f"Contact pairs/{name}/Penalty unit", "factor") == "factor"},
                 **{f"Bodies/{key.split('/')[1]}/Element": entries.get(f"Bodies/{key.split('/')[1]}/Element",
-                                                                      "mean dilatation")
+                                                                      "assumed strain")
                    for key in entries if key.startswith("Bodies/")}}
     if entries.get("Time stepping/Scheme") == "implicit dynamics":  # nodes that come in cannot stop within a step
         return {"Solver/Force tolerance": max(residual, 1e-9), "Implicit dynamics/Error tolerance": dynamic}

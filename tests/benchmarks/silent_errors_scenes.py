@@ -60,7 +60,7 @@ BENDING_NUMERICS = {
 
 def bending():
     meshes = [(6, 1), (6, 2), (12, 1), (12, 2), (24, 4), (30, 2), (60, 1), (60, 2), (60, 4)]
-    elements, radii = ("mean dilatation", "one point", "full"), (5, 1, 20, 50, 2, 10)
+    elements, radii = ("assumed strain", "one point", "mean dilatation"), (5, 1, 20, 50, 2, 10)
     cases = []
     for i, (along, through) in enumerate(meshes):
         for j, law in enumerate(("elastic", "plastic")):
@@ -379,7 +379,7 @@ def springback(at):
 
 def removals():
     scenes = {f"strip, {law}, {element}, friction {friction}": bent(law, element, friction)
-              for law, element, friction in (("elastic", "mean dilatation", 0), ("plastic", "one point", 0.1), ("plastic", "mean dilatation", 0))}
+              for law, element, friction in (("elastic", "assumed strain", 0), ("plastic", "one point", 0.1), ("plastic", "assumed strain", 0))}
     scenes |= {f"dented block, {law}, friction {friction}": dented(law, friction) for law, friction in (("elastic", 0), ("plastic", 0), ("plastic", 0.3))}
     scenes |= {f"clamped plates, {law}, friction {friction}": clamped(law, friction) for law, friction in (("elastic", 0.3), ("plastic", 0.2))}
     cases = []

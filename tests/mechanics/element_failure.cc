@@ -43,9 +43,9 @@ std::vector<std::pair<std::string, NodalTensor>> bad_displacements(const NodalTe
   mirrored[2][2] = -1.;
   result.emplace_back("flattened", displace(flat, cube())); // on the cube det F is exactly 0
   result.emplace_back("turned inside out", displace(mirrored, X));
-  NodalTensor corner; // node 7 pushed beyond node 0: det F < 0 at some points only
+  NodalTensor corner; // node 7 pushed far beyond node 0
   for (unsigned int i = 0; i < 3; ++i)
-    corner[21 + i] = -1.3;
+    corner[21 + i] = -2.5;
   result.emplace_back("one corner pushed through", corner);
   NodalTensor not_a_number, infinite;
   not_a_number[5] = std::numeric_limits<double>::quiet_NaN();

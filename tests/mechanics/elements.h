@@ -96,12 +96,9 @@ inline std::string name_of(const ElementFormulation &formulation) {
 
 /// Calls run(formulation) for every element and kinematics.
 template <class Function> void for_each_formulation(const Function &run) {
-  using Formulation = ElementFormulation;
-  for (const auto element :
-       {Formulation::Element::mean_dilatation, Formulation::Element::full, Formulation::Element::one_point})
-    for (const auto kinematics : {Formulation::Kinematics::hencky, Formulation::Kinematics::neo_hookean,
-                                  Formulation::Kinematics::hypoelastic}) {
-      Formulation formulation;
+  for (const auto element : all_elements)
+    for (const auto kinematics : all_kinematics) {
+      ElementFormulation formulation;
       formulation.element = element;
       formulation.kinematics = kinematics;
       run(formulation);

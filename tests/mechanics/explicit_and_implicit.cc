@@ -11,8 +11,7 @@ using namespace billet::testing;
 ElementFormulation implicit_twin(const Formulation &formulation) {
   ElementFormulation twin;
   twin.kinematics = formulation.kinematics;
-  if (formulation.element == Formulation::Element::one_point)
-    twin.element = ElementFormulation::Element::one_point;
+  twin.element = formulation.element;
   return twin;
 }
 
@@ -94,9 +93,8 @@ void test_path(const std::string &name, const Formulation &chosen, const Materia
 }
 
 int main() {
-  for (const auto element : {Formulation::Element::mean_dilatation, Formulation::Element::one_point})
-    for (const auto kinematics : {Formulation::Kinematics::hencky, Formulation::Kinematics::neo_hookean,
-                                  Formulation::Kinematics::hypoelastic}) {
+  for (const auto element : all_elements)
+    for (const auto kinematics : all_kinematics) {
       const Formulation formulation = make_formulation(element, kinematics);
       for_each_hardening([&](const std::string &name, const auto &hardening) {
         test_path(name, formulation, {steel, hardening}, 0.3, 0.15, 1e-11);

@@ -127,19 +127,13 @@ inline Formulation make_formulation(const Formulation::Element element,
 }
 
 inline std::string name_of(const Formulation &formulation) {
-  const std::string element =
-      formulation.element == Formulation::Element::one_point ? "one point" : "mean dilatation";
-  return element + ", " +
-         (formulation.kinematics == Formulation::Kinematics::hencky        ? "Hencky"
-          : formulation.kinematics == Formulation::Kinematics::neo_hookean ? "neo-Hookean"
-                                                                           : "hypoelastic");
+  return std::string(billet::name_of(formulation.element)) + ", " + billet::name_of(formulation.kinematics);
 }
 
 /// Calls run(formulation) for every kernel.
 template <class Function> void for_each_kernel(const Function &run) {
-  for (const auto element : {Formulation::Element::mean_dilatation, Formulation::Element::one_point})
-    for (const auto kinematics : {Formulation::Kinematics::hencky, Formulation::Kinematics::neo_hookean,
-                                  Formulation::Kinematics::hypoelastic})
+  for (const auto element : all_elements)
+    for (const auto kinematics : all_kinematics)
       run(make_formulation(element, kinematics));
 }
 

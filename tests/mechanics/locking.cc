@@ -187,11 +187,6 @@ int main() {
         test_upsetting(n_steps, formulation, 1e-10);
     else if (formulation.kinematics == ElementFormulation::Kinematics::hypoelastic)
       test_upsetting(200, formulation, 1e-4);
-    if (formulation.element == Element::full) {
-      check(name + "thick cylinder, locks", cylinder_error(0.4999, 1, formulation) > 0.5);
-      check(name + "plastic limit load, locks", limit_load_error(0.4999, formulation) > 0.1);
-      return;
-    }
     check(name + "thick cylinder, Poisson's ratio 0.3", cylinder_error(0.3, 1, formulation), 0.02);
     for (const auto &[ratio, nu] :
          {std::pair("0.49", 0.49), std::pair("0.499", 0.499), std::pair("0.4999", 0.4999)}) {

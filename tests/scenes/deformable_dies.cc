@@ -33,19 +33,20 @@ parameters::Scene read_scene(const double ratio) {
   return parameters;
 }
 
-/// The largest difference from the rigid dies' force, as part of it.
+/// The mean difference from the rigid dies' force, as part of it: rings of nodes that fold onto dies, one at
+/// a time, do so a little earlier or later.
 double difference(const double ratio, const std::vector<double> &rigid) {
   parameters::Scene parameters = read_scene(ratio);
   parameters.time_stepping.end_time = 1.;
   parameters.time_stepping.stops.clear();
   testing::set_fixed_steps(parameters, n);
   SceneRun run(parameters);
-  double largest = 0.;
+  double sum = 0.;
   unsigned int i = 0;
   run.finish([&](const NewtonReport &) {
-    largest = std::max(largest, std::abs(run.problem.state().body_pair_loads[0].force[2] / rigid[i++] - 1.));
+    sum += std::abs(run.problem.state().body_pair_loads[0].force[2] / rigid[i++] - 1.);
   });
-  return i == n ? largest : NAN;
+  return i == n ? sum / n : NAN;
 }
 
 } // namespace
@@ -55,7 +56,7 @@ int main(int argc, char *argv[]) {
   const std::vector<double> rigid = rigid_forces();
   const double soft = difference(1., rigid), stiff = difference(1000., rigid);
   check("dies as stiff as the billet press less", soft > 2. * stiff);
-  check("stiff dies press as rigid ones", stiff, 0.005);
+  check("stiff dies press as rigid ones", stiff, 0.001);
 
   SceneRun run(read_scene(100.));
   double plastic = 0., stored = 0.;

@@ -167,6 +167,7 @@ void test_tangent() {
   for (const double friction : {0.8, 0.03, 0.}) {
     parameters::Scene scene =
         testing::make_curved({"sphere", "set Centre = 0.45, 0.55, -0.09\nset Radius = 0.1"}, friction);
+    scene.time_stepping.initial_step = 0.05; // longer ones push the ball through the facet's middle
     for (const auto kind : {parameters::ContactTangent::exact, parameters::ContactTangent::numerical}) {
       scene.solver.contact_tangent = kind;
       testing::SceneRun run(scene);

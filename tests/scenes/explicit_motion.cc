@@ -110,7 +110,7 @@ void test_spring() {
 }
 
 void test_dashpot() {
-  const double c = 2e6, rate = c * 4e-4 / mass;
+  const double c = 5e5, rate = c * 4e-4 / mass; // slow: the bar's ends hardly lag behind
   parameters::Scene scene = bar_alone(1e6 / rate);
   scene.bodies[0].initial_velocity.value = {"0", "0", "1"};
   scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::dashpot, c));

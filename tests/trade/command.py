@@ -186,14 +186,14 @@ class TestCommand(unittest.TestCase):
 
     def test_forces_judge_whatever_counts(self):
         """Runs that were kept when forces counted tell of locking when the shape alone does."""
-        knobs = ("--knobs", "element=full", "predictor", "--repeat", "1", "--folder", "locks", "--cost", "work", "--target", "20%")
+        knobs = ("--knobs", "element=mean dilatation", "predictor", "--repeat", "1", "--folder", "locks", "--cost", "work", "--target", "20%")
         self.assertEqual(self.trade(*knobs).returncode, 0)
         whole = self.runs()
         done = self.trade(*knobs, "--outputs", "shape", "--output", "locks/shape")
         self.assertEqual((done.returncode, self.runs()), (0, whole), done.stderr)
         for name in ("trade", "shape"):
-            full, = [row for row in self.rows(f"locks/{name}") if row["value"] == "full"]
-            self.assertEqual((full["status"], full["error"], full["on_front"], full["chosen"]), ("locked", "", "0", "0"))
+            mean, = [row for row in self.rows(f"locks/{name}") if row["value"] == "mean dilatation"]
+            self.assertEqual((mean["status"], mean["error"], mean["on_front"], mean["chosen"]), ("locked", "", "0", "0"))
         self.assertNotIn("| force |", (self.folder / "locks/shape.md").read_text())
         self.assertIn("the history has no column 'die.force_x'", self.trade(*knobs, "--outputs", "shape", "--force", "die.force_x").stderr)
         # A tool that nothing touches has no force that could judge.

@@ -16,7 +16,7 @@ from billet_trade.scene import entries
 
 DEFAULTS = """subsection Bodies
   subsection (name of a body)
-    set Element = mean dilatation
+    set Element = assumed strain
     subsection Mesh
       set Source = extruded primitive
       set Layers = 4
@@ -118,7 +118,7 @@ def run(scene):
     if tangent == "symmetrised lower":
         error += 0.5  # converges, to forces that are half as large again
     # Locks: forces more than twice as large, and the shape is right.
-    force = 0.0 if get("Shape", "plane") == "far" else 1 + error + (1.39 if get("Element", "mean dilatation") == "full" else 0.0)
+    force = 0.0 if get("Shape", "plane") == "far" else 1 + error + (1.39 if get("Element", "assumed strain") == "mean dilatation" else 0.0)
     end = 0.4 if tangent == "continuum" else 1.0
     if get("Line search", "energy") == "none":
         time.sleep(60)

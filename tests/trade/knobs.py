@@ -10,7 +10,7 @@ from billet_trade.scene import Scene, read_scene
 
 DEFAULTS = """subsection Bodies
  subsection (name of a body)
-  set Element = mean dilatation
+  set Element = assumed strain
   subsection Mesh
    set Source = primitive
    set Primitive = hyper_rectangle

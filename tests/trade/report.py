@@ -78,7 +78,7 @@ def sweep(points, reference, target=None, output=Force(), forces=None):
 class Judging(unittest.TestCase):
     def test_marks(self):
         points = [point("", "as written"), point("penalty", "0.001", force=0.05, elements=1, penetration=0.098), point("penalty", "0.1", force=0.79, elements=1),
-                  point("penalty", "0.2", force=0.81, elements=2), point("element", "full", force=1.21), point("element", "other", force=1.19),
+                  point("penalty", "0.2", force=0.81, elements=2), point("element", "mean dilatation", force=1.21), point("element", "other", force=1.19),
                   point("penalty", "0.01", force=1.0, penetration=0.6)]
         s = sweep(points, Reference())
         self.assertEqual([p.status for p in points], ["ok", "soft", "soft", "ok", "locked", "ok", "pierced"])
@@ -214,12 +214,12 @@ class Cancellation(unittest.TestCase):
 
 class Meshes(unittest.TestCase):
     def test_other_elements_make_other_errors(self):
-        defaults = ("subsection Bodies\nsubsection (name of a body)\nset Element = mean dilatation\nsubsection Mesh\nset Layers = 4\nset Arguments =\n"
+        defaults = ("subsection Bodies\nsubsection (name of a body)\nset Element = assumed strain\nsubsection Mesh\nset Layers = 4\nset Arguments =\n"
                     "end\nend\nend\n")
         def scene(*lines):
             return Scene("subsection Bodies\nsubsection bar\n" + "".join(line + "\n" for line in lines) + "end\nend\n", defaults)
         mesh = ("subsection Mesh", "set Layers = 4", "set Arguments = 1, 2 : 3", "end")
-        self.assertEqual(mesh_of(scene(*mesh)), mesh_of(scene("set Element = mean dilatation", "subsection Mesh", "set Arguments = 1,2:3", "end")))
+        self.assertEqual(mesh_of(scene(*mesh)), mesh_of(scene("set Element = assumed strain", "subsection Mesh", "set Arguments = 1,2:3", "end")))
         self.assertNotEqual(mesh_of(scene(*mesh)), mesh_of(scene("set Element = one point", *mesh)))
         self.assertNotEqual(mesh_of(scene(*mesh)), mesh_of(scene("subsection Mesh", "set Arguments = 1, 3 : 3", "end")))
 

@@ -344,7 +344,7 @@ def make_forcing(scene, argument):
 
 # --- bodies ------------------------------------------------------------------------------------------------------
 
-@knob("element", "of all bodies", "mean dilatation", "one point", "full")
+@knob("element", "of all bodies", "assumed strain", "one point", "mean dilatation")
 def make_element(scene, argument):
     return {f"Bodies/{body}/Element": argument for body in scene.names("Bodies")}
 

@@ -22,8 +22,8 @@ struct MaterialLaw {
 /// How the elements of a body are computed in static scenes and implicit dynamics.
 struct ElementFormulation {
   enum class Element {
-    mean_dilatation, ///< 2 × 2 × 2 points, F̄ of MeanDilatationKinematics
-    full,            ///< 2 × 2 × 2 points, F itself: locks where volume is kept
+    assumed_strain,  ///< 2 × 2 × 2 points without parasitic shear, see AssumedStrainElement
+    mean_dilatation, ///< 2 × 2 × 2 points, F̄ of MeanDilatationKinematics: locks in bending
     one_point        ///< mean gradient with physical stabilisation, see OnePointElement
   };
   /// All share the volumetric law κ ln J (Kirchhoff) and the yield condition in Kirchhoff stress.
@@ -33,11 +33,22 @@ struct ElementFormulation {
     hypoelastic  ///< rate form, midpoint strain increments and the final rotation: HypoelasticPlasticity
   };
 
-  Element element = Element::mean_dilatation;
+  Element element = Element::assumed_strain;
   Kinematics kinematics = Kinematics::hencky;
   double hourglass_stiffness = 1.; ///< factor on the one-point element's physical stabilisation; > 0
   bool is_symmetrised = false; ///< the symmetric part of an unsymmetric tangent, see has_symmetric_tangent()
 };
+
+inline constexpr std::array all_elements = {ElementFormulation::Element::assumed_strain,
+                                            ElementFormulation::Element::mean_dilatation,
+                                            ElementFormulation::Element::one_point};
+inline constexpr std::array all_kinematics = {ElementFormulation::Kinematics::hencky,
+                                              ElementFormulation::Kinematics::neo_hookean,
+                                              ElementFormulation::Kinematics::hypoelastic};
+
+/// As scenes call them.
+const char *name_of(ElementFormulation::Element element);
+const char *name_of(ElementFormulation::Kinematics kinematics);
 
 /// Whether the exact tangent of a body is symmetric: not with the hypoelastic law, nor, where `is_plastic`,
 /// with the neo-Hookean law.

@@ -12,11 +12,11 @@ namespace billet {
 struct ElementEnergies {
   double used = 0.;      ///< the element of the body
   double one_point = 0.; ///< the one-point element, without a factor on its stabilisation
-  double accurate = 0.;  ///< the assumed field without parasitic shear
+  double accurate = 0.;  ///< AssumedStrainElement
   double hourglass = 0.; ///< of `used`: what a one-point element has by its stabilisation alone
   double plastic = 0.;   ///< of `used`, of one-point elements: what is dissipated
 
-  /// How many times as stiff the element is as it should be, (L4): at least.
+  /// How many times as stiff the element is as it should be, (L1): at least.
   double factor() const { return accurate > 0. ? used / accurate : 1.; }
   ElementEnergies &operator+=(const ElementEnergies &other) {
     used += other.used;
@@ -29,7 +29,7 @@ struct ElementEnergies {
 };
 
 /// Compares the element of a body with one that bends right, by the energy of given displacements: no
-/// equations are solved. The energy is that of total strains, (L5) of doc/theory.md: Hencky's hyperelasticity
+/// equations are solved. The energy is that of total strains, (L2) of doc/theory.md: Hencky's hyperelasticity
 /// and, where the body yields, the deformation theory of plasticity. It knows no history.
 class ElementComparison {
 public:
@@ -53,14 +53,13 @@ private:
   double energy(const Strains &strains) const {
     return energy(strains.volumetric, strains.deviatoric_energy);
   }
-  /// α of (L5).
+  /// α of (L2).
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
   /// Adds to `used`, `hourglass` and `plastic`; false if the element is inside out.
   bool add_one_point(const ElementVectors &positions, const ElementVectors &displacements,
                      double hourglass_stiffness, ElementEnergies &energies) const;
 
   ElasticModuli elastic_;
-  double poisson_;
   ElementFormulation formulation_;
   std::function<double(double)> yield_stress_, plastic_work_; ///< none of elastic bodies
 };

@@ -24,15 +24,12 @@ bool is_available(InstructionSet instructions);
 
 /// How the elements of a body are computed in explicit dynamics.
 struct ExplicitFormulation {
-  enum class Element {
-    mean_dilatation, ///< 2 × 2 × 2 points, the element of MeanDilatationKinematics
-    one_point        ///< uniform gradient with physical stabilisation, see doc/theory.md
-  };
+  using Element = ElementFormulation::Element;
   using Kinematics = ElementFormulation::Kinematics;
   /// What elements are computed with; nodal vectors and all sums are double.
   enum class NumberType { double_precision, float_precision };
 
-  Element element = Element::mean_dilatation;
+  Element element = Element::assumed_strain;
   Kinematics kinematics = Kinematics::hencky;
   double linear_viscosity = 0.06;   ///< c_1 of the bulk viscosity ρ L (c_1 c |d| + c_2² L d²); ≥ 0
   double quadratic_viscosity = 1.2; ///< c_2 of it, acts in compression only; ≥ 0

@@ -29,7 +29,7 @@ KernelUnits choose_units(double length, double stress, double density);
 /// State at a point of an element, from its history.
 struct PointState {
   double reference_volume; ///< its share of the element's
-  double volume_ratio;     ///< J̄ of mean dilatation, J of the one-point element
+  double volume_ratio;     ///< J̄ of eight points, J of the one-point element
   /// dev τ where the law is hypoelastic, else b_e up to a factor
   dealii::SymmetricTensor<2, 3> tensor;
   double equivalent_plastic_strain;
@@ -39,8 +39,8 @@ struct PointState {
 /// `Number`: double or float.
 template <class Number> class ExplicitStorage {
 public:
-  ExplicitStorage(unsigned int n_lanes, const ExplicitFormulation &formulation, bool has_plasticity,
-                  bool keeps_yield_stress);
+  ExplicitStorage(unsigned int n_lanes, const ElasticModuli &elastic, const ExplicitFormulation &formulation,
+                  bool has_plasticity, bool keeps_yield_stress);
 
   /// See ExplicitBlock::initialize(). `yield_stress`: the initial one, used if it is kept.
   /// Numbers are stored in `units`, in which kernels count; all arguments and results are in the user's.
@@ -105,15 +105,21 @@ private:
   }
   /// The lanes beyond the last element repeat it.
   void repeat_last(std::size_t element);
-  /// Calls visit(place of its history, its reference volume, J̄ of mean dilatation or J, ∂x/∂ξ up to a factor,
+  /// Calls visit(place of its history, its reference volume, J̄ of eight points or J, ∂x/∂ξ up to a factor,
   /// ∂ξ/∂X) for each point; for none where the element is inverted.
   template <class Visit>
   void visit_points(std::size_t element, const double *displacements, const Visit &visit) const;
   ElementVectors gather(std::size_t element, const double *values) const;
   void resize(std::size_t n_elements);
   bool initialize_element(std::size_t element, double density, double yield_stress);
-  bool initialize_one_point(std::size_t element, const ElementVectors &positions, double volume,
-                            double smallest_mass, double yield_stress, double &lambda);
+  /// Of elements with the mean gradient: what they have in common, then their own. `lambda`: a bound of
+  /// stiffness over modulus. False if the element is degenerate.
+  bool initialize_mean_gradient(std::size_t element, const ElementVectors &positions, double smallest_mass,
+                                double yield_stress, double &lambda);
+  void initialize_one_point(std::size_t element, const ModalGeometry &geometry,
+                            const dealii::Tensor<2, 3> &inverse);
+  void initialize_assumed_strain(std::size_t element, const ModalGeometry &geometry,
+                                 const dealii::Tensor<2, 3> &inverse);
   void set_modes(std::size_t element, std::size_t first, const ModalGeometry &geometry);
   /// What the stabilisation of a one-point element holds becomes that of the displacements, in float; or
   /// nothing.
@@ -127,6 +133,7 @@ private:
                         double yield_stress);
 
   unsigned int n_lanes_;
+  ElasticModuli elastic_;
   ExplicitFormulation formulation_;
   bool has_plasticity_, keeps_yield_stress_;
   KernelUnits units_;

@@ -12,8 +12,8 @@
 
 namespace billet {
 
-/// The ElementBlock of one element and one law. Elements: MeanDilatationElement, FullElement,
-/// OnePointElement.
+/// The ElementBlock of one element and one law. Elements: AssumedStrainElement,
+/// MeanDilatationElement, OnePointElement.
 template <class Element, class Law> class LawBlock final : public ElementBlock {
 public:
   LawBlock(Law law, const ElasticModuli &elastic, const ElementFormulation &formulation)
@@ -35,7 +35,7 @@ public:
   bool initialize(const std::vector<ElementVectors> &positions, std::size_t &offender) override {
     elements_.resize(positions.size());
     for (offender = 0; offender < positions.size(); ++offender)
-      if (!Element::initialize(positions[offender], elements_[offender]))
+      if (!element_.initialize(positions[offender], elements_[offender]))
         return false;
     history_n_.assign(keeps_history ? elements_.size() : 1, ElementHistory{});
     history_ = history_n_;
@@ -295,8 +295,8 @@ std::unique_ptr<ElementBlock> make_law_block(const MaterialLaw &material,
 // Each in a file of its own, for the sake of compilation.
 std::unique_ptr<ElementBlock> make_mean_dilatation_block(const MaterialLaw &material,
                                                          const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_full_block(const MaterialLaw &material,
-                                              const ElementFormulation &formulation);
+std::unique_ptr<ElementBlock> make_assumed_strain_block(const MaterialLaw &material,
+                                                        const ElementFormulation &formulation);
 std::unique_ptr<ElementBlock> make_one_point_block(const MaterialLaw &material,
                                                    const ElementFormulation &formulation);
 

@@ -104,7 +104,7 @@ struct Body {
   std::string name;
   std::string origin;
   Mesh mesh;
-  enum class ElementType { mean_dilatation, full, one_point };
+  enum class ElementType { assumed_strain, mean_dilatation, one_point };
 
   Material material;
   Located<ElementType> element;

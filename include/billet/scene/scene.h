@@ -43,6 +43,9 @@ struct Load {
   dealii::Tensor<1, 3> vector; ///< unit, where the direction is one
 };
 
+/// Element and kinematics of a body.
+ElementFormulation make_formulation(const parameters::Body &parameters);
+
 /// What a body is made of and how it is held; its mesh is elsewhere.
 struct Body {
   std::string name;

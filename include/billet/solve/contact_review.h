@@ -23,12 +23,12 @@ struct LoadPath {
 std::vector<LoadPath> find_load_paths(std::size_t n_bodies,
                                       const std::vector<std::vector<std::size_t>> &bodies_of);
 
-/// What penetration takes of the deformation along a load path, (L6) of doc/theory.md: over the time in
+/// What penetration takes of the deformation along a load path, (L3) of doc/theory.md: over the time in
 /// which its pairs press, the energy ½ Σ p g A of pressures on penetrations beside that of the bodies'
 /// deformation.
 class PathSoftness {
 public:
-  /// At these times; `all_energy`: of all that counts, (L6).
+  /// At these times; `all_energy`: of all that counts, (L3).
   void add(double time, double penetration, double deformation, double all_energy);
   /// The part by which forces of driven tools are too small; 0 where contact is no matter for the scene.
   double part() const;
@@ -77,7 +77,7 @@ public:
   /// At the end of the run.
   DiagnosticList finish() const;
 
-  /// By what part forces are too small since penetration takes it, along the softest load path, (L6); 0 where
+  /// By what part forces are too small since penetration takes it, along the softest load path, (L3); 0 where
   /// that is little.
   double penalty_error() const;
 
@@ -85,7 +85,7 @@ public:
   void load(const StateReader &reader);
 
 private:
-  /// Sum of the tangential forces of nodes, and what they lack since springs are soft, (L7) of doc/theory.md.
+  /// Sum of the tangential forces of nodes, and what they lack since springs are soft, (L4) of doc/theory.md.
   struct Friction {
     double force = 0., lost = 0.;
   };

@@ -12,7 +12,7 @@
 
 namespace billet {
 
-/// Compares the elements of each body with ones that bend right, (L4) of doc/theory.md, and warns where they
+/// Compares the elements of each body with ones that bend right, (L1) of doc/theory.md, and warns where they
 /// are too stiff or too soft: at the end of the run, of the state of the largest energy of deformation or of
 /// the last one where it is still loaded. In statics a note tells it at the first loaded step already; a
 /// sheet that bends first and is stretched then may be wrong there and right in the end.
@@ -42,7 +42,7 @@ private:
   void compare(const SolutionState &state);
   /// Bodies that bend and yield with too few one-point elements through the thickness.
   DiagnosticList judge_bending() const;
-  /// (L4), on the safe side for bodies that yield.
+  /// (L1), on the safe side for bodies that yield.
   double factor_of(std::size_t body) const;
   /// Whether its element is too stiff or too soft for what it does.
   bool is_doubtful(std::size_t body) const;

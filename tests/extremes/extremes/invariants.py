@@ -287,7 +287,7 @@ def yields(r):
     body = r.fields["body"][first]
     j = volume_ratio(r)
     limit = numpy.array([yield_stress(k, float(a), k.young * (k.modulus_ratio if b == 1 else 1.0)) for a, b in zip(plastic, body)])
-    loose = 3e-2 if k.element == "full" or k.hardening != "linear" else 3e-3
+    loose = 3e-2 if k.hardening != "linear" else 3e-3
     gentle = (k.penalty < 10 or abs(k.strain) < 0.05 or k.press < 0.02 or k.slide < 0.2 or k.speed < 0.01 or k.step is not None or k.force or k.moment
               or k.modulus_ratio != 1 or k.turns < 0.1 or k.radius != 1
               or any("Loads" in of_body for of_body in r.setup.sections["Bodies"].values()))

@@ -40,7 +40,7 @@ STATICS = IMPLICIT_TOOLS + BODIES
 CONTACT = STATICS + EXPLICIT + DYNAMIC
 ALL = ("upset", "pull") + STATICS[1:] + EXPLICIT + DYNAMIC
 FRICTIONAL = ("upset", "slide", "ball", "twist", "place", "drag", "clip", "drop.explicit", "skid.explicit", "drop.implicit", "skid.implicit")
-ELEMENTS = ("mean dilatation", "full", "one point")
+ELEMENTS = ("assumed strain", "mean dilatation", "one point")
 LAWS = ("Hencky", "neo-Hookean", "hypoelastic")
 FRICTION_LAWS = ("Coulomb", "shear limited", "static-kinetic", "pressure dependent")
 NU = [-0.9, -0.5, 0.0, 0.3, 0.45, 0.49, 0.499, 0.4999]
@@ -68,11 +68,6 @@ def product(names, bases, firsts, seconds, along=None):
 def strain_of(law, more=()):
     """A row of the table for each law, elastic or not: they end at different strains."""
     return "strain" + (f", {law}" if law != "Hencky" else "") + (", yields" if more else "")
-
-
-def works(base, element, law):
-    """What billet has: `full` is for implicit scenes."""
-    return not (element == "full" and base.endswith("explicit"))
 
 
 def cases():
@@ -122,7 +117,7 @@ def everything():  # noqa: C901
     # material
     yield from single("nu", ALL, NU[::2] + NU[-1:])
     yield from product(("nu", "element"), ("upset", "pull", "stack"), NU, ELEMENTS)
-    yield from product(("nu", "element"), ("drop.explicit", "bar.explicit"), NU[::2], ("mean dilatation", "one point"))
+    yield from product(("nu", "element"), ("drop.explicit", "bar.explicit"), NU[::2], ELEMENTS)
     yield from product(("nu", "step"), ("upset",), NU, STEPS, along={"strain": -0.5})
     yield from product(("nu", "step"), ("pull",), NU, STEPS[::2], along={"strain": 0.5, **PLASTIC})
     hardenings = [-0.1, -1e-3, 0.0, 1e-6, 1e-3, 0.1, 1.0, 10.0]
@@ -141,10 +136,9 @@ def everything():  # noqa: C901
     for base in ALL:
         for element in ELEMENTS:
             for law in LAWS:
-                if works(base, element, law):
-                    for more in ({}, PLASTIC) if base not in ("clip", "twist", "fold.implicit", "skid.implicit") else (PLASTIC,):
-                        yield Case(base, {"element": element, "kinematics": law, **more}, ("element", "law"),
-                                   (element, law + (", plastic" if more else "")))
+                for more in ({}, PLASTIC) if base not in ("clip", "twist", "fold.implicit", "skid.implicit") else (PLASTIC,):
+                    yield Case(base, {"element": element, "kinematics": law, **more}, ("element", "law"),
+                               (element, law + (", plastic" if more else "")))
     yield from single("hourglass", ("upset", "slide", "stack", "drop.explicit", "bars.implicit"), decades(-4, 2), along={"element": "one point"})
     # shape and loading
     for law in LAWS:
@@ -235,7 +229,7 @@ def everything():  # noqa: C901
     yield from single("number type", EXPLICIT, ("double", "float"))
     yield from product(("number type", "length"), EXPLICIT, ("float",), decades(-9, 6)[::5])
     for base in EXPLICIT:
-        for element in ("mean dilatation", "one point"):
+        for element in ELEMENTS:
             for law in LAWS:
                 for more in ({}, PLASTIC):
                     yield Case(base, {"number type": "float", "element": element, "kinematics": law, **more}, ("number type", "element", "law"),
@@ -277,9 +271,8 @@ def everything():  # noqa: C901
     for base in ("upset", "slide", "stack", "drop.explicit"):
         for law in LAWS:
             for element in ELEMENTS:
-                if works(base, element, law):
-                    more = {"kinematics": law, "element": element, **PLASTIC}
-                    yield Case(base, {**more, "turned": 50.0}, ("turned",), (50.0,), like=more, count="", loose=1e-3)
+                more = {"kinematics": law, "element": element, **PLASTIC}
+                yield Case(base, {**more, "turned": 50.0}, ("turned",), (50.0,), like=more, count="", loose=1e-3)
 
 
     # light loads on stiff penalties: round-off is nearest
@@ -336,7 +329,7 @@ def everything():  # noqa: C901
     yield from single(strain_of("Hencky", PLASTIC), presses, STRAINS[:4], "strain", {**PLASTIC, "strained": True, "element": "one point"})
     yield from single("aspect", presses, aspects, along={"strained": True})
     yield from product(("aspect", "strain"), presses, aspects[::2], STRAINS[:4], along={"strained": True, **PLASTIC})
-    for element in ("mean dilatation", "one point"):
+    for element in ELEMENTS:
         yield from single("grading", presses, decades(0, 4, 2), along={"element": element, "bricks": 4})
         yield from single("distortion", presses, [0.1, 0.3, 0.5, 0.7, 1.0, 3.0], along={"element": element})
     # loads above what a perfectly plastic body bears

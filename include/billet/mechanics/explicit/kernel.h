@@ -80,16 +80,17 @@ using Kernel = void (*)(const BasicElements<Number> &, const BasicMaterial<Numbe
 // hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the viscous pressure of
 // the last call, then each point's. Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹ in the
 // element's own coordinates) or dev τ (11, 22, 12, 13, 23); then, where there is plasticity, α and, where
-// hardening is not linear, σ_y(α). The one-point element: see one_point.h.
+// hardening is not linear, σ_y(α). Constants of the others: see assumed_strain.h and one_point.h.
 //
 // In float, where differences have to be taken before they are rounded: the modes of the reference positions
 // (21 numbers) are constants, too. History: J̄ − 1 in the place of v, and of each point b_e − 1 in space up to
 // a factor (6 numbers) or dev τ; then α in two parts, and σ_y(α).
 
-/// Index by element (mean_dilatation, one_point), kinematics, and whether there is plasticity.
+/// Index by element (assumed_strain, mean_dilatation, one_point), kinematics, and whether there is
+/// plasticity.
 template <class Number> struct KernelTable {
   unsigned int n_lanes;
-  Kernel<Number> kernels[2][3][2];
+  Kernel<Number> kernels[3][3][2];
 };
 
 extern const KernelTable<double> scalar_kernels, sse2_kernels, avx2_kernels, avx512_kernels;

@@ -2,7 +2,7 @@
 #ifndef BILLET_MECHANICS_EXPLICIT_ONE_POINT_H
 #define BILLET_MECHANICS_EXPLICIT_ONE_POINT_H
 
-#include "billet/mechanics/explicit/brick.h"
+#include "billet/mechanics/explicit/mean_gradient.h"
 
 // The one-point brick: stored energy V ψ(F̄) of the mean deformation gradient F̄ = (1/V) ∫ F dV, plus that of
 // the deformation which F̄ does not see, ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄ (a_1, a_2, a_3)_0: zero
@@ -13,8 +13,8 @@ namespace {
 
 /// Places of an element's numbers.
 namespace one_point {
-constexpr unsigned int volume = 0, inverse_det = 1, mean_bound = 2, hourglass_bound = 3;
-constexpr unsigned int beta = 4;    ///< J̄_k = Σ_m m β_mk over the modes a and b: 3 m + k
+using namespace mean_gradient;
+constexpr unsigned int hourglass_bound = mean_gradient::n;
 constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
 constexpr unsigned int modes = 28;  ///< of the reference positions, in float
 // History: that of the last call, ĥ_0 (in float ĥ itself), then the point's.
@@ -69,52 +69,11 @@ struct HourglassModuli {
   }
 };
 
-/// Columns of J̄.
-BILLET_INLINE void compute_mean(const Modes &modes, const Number *constants, Real columns[3][3]) {
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int i = 0; i < 3; ++i) {
-      Real sum{};
-      for (unsigned int m = 0; m < 6; ++m)
-        sum += modes.m[m][i] * load(constants + (one_point::beta + 3 * m + k) * n_lanes);
-      columns[k][i] = sum;
-    }
-}
-
 /// Of a step's end before plastic flow: ĉ = J̄⁻¹ (b_1, b_2, b_3, c), ĥ, and what they store.
 struct HourglassTrial {
   Real c[4][3], h[4][3], s[4][3], ratio[6];
   Real density; ///< energy per reference volume, the scene's factor counted
 };
-
-/// Maps of the mean deformation.
-struct MeanMotion {
-  Map now, before; ///< `before` the step, in float
-  Real d[3][3];    ///< columns of J̄ less those before the step, where they are asked
-  Real J;          ///< but for small changes
-};
-
-template <bool with_step>
-BILLET_INLINE void compute_mean_motion(const Motion &motion, const Number *constants, MeanMotion &mean) {
-  compute_mean(motion.x, constants, mean.now.j);
-  mean.now.complete();
-  mean.J = mean.now.det * load(constants + one_point::inverse_det * n_lanes);
-  if constexpr (with_step || is_single)
-    compute_mean(motion.delta, constants, mean.d);
-  if constexpr (is_single) {
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-        mean.before.j[k][i] = mean.now.j[k][i] - mean.d[k][i];
-    mean.before.complete();
-  }
-}
-
-/// det J̄ less that before the step, as small as the step.
-BILLET_INLINE Real compute_change(const MeanMotion &mean) {
-  Real middle[3];
-  cross(mean.d[1], mean.now.j[2], middle);
-  return dot(mean.d[0], mean.now.cofactor[0]) +
-         (dot(mean.before.j[0], middle) + dot(mean.d[2], mean.before.cofactor[2]));
-}
 
 /// In float from the step: ĉ ← ĉ + J̄⁻¹ {Δ(b_1, b_2, b_3, c) − ΔJ̄ ĉ}, and so ĥ, which the history has.
 BILLET_INLINE void compute_hourglass(const Material &material, const HourglassModuli &moduli,
@@ -248,7 +207,7 @@ BILLET_INLINE void advance_one_point_batch(const Elements &elements, const Mater
   for (Real &component : metric)
     component *= map.inverse_det * map.inverse_det;
   const Real eigenvalue = bound_eigenvalue(metric);
-  const Real omega = reference_volume * eigenvalue * load(constants + one_point::mean_bound * n_lanes);
+  const Real omega = reference_volume * eigenvalue * load(constants + one_point::bound * n_lanes);
 
   const Real mean_tau = material.bulk * volume.logarithm_of_J;
   const Damping damping = compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));

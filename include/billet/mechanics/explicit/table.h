@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // No guard: the one file of each instruction set and type of number includes it once, after BILLET_LANES,
 // BILLET_SINGLE and BILLET_KERNEL_TABLE (the name of its table in kernel.h) are defined.
+#include "billet/mechanics/explicit/assumed_strain.h"
 #include "billet/mechanics/explicit/eight_point.h"
 #include "billet/mechanics/explicit/one_point.h"
 
@@ -8,7 +9,10 @@ namespace billet::explicit_kernels {
 
 const KernelTable<Number> BILLET_KERNEL_TABLE = {
     n_lanes,
-    {{{advance_eight_point<Hencky, false>, advance_eight_point<Hencky, true>},
+    {{{advance_assumed_strain<Hencky, false>, advance_assumed_strain<Hencky, true>},
+      {advance_assumed_strain<NeoHookean, false>, advance_assumed_strain<NeoHookean, true>},
+      {advance_assumed_strain<Hypoelastic, false>, advance_assumed_strain<Hypoelastic, true>}},
+     {{advance_eight_point<Hencky, false>, advance_eight_point<Hencky, true>},
       {advance_eight_point<NeoHookean, false>, advance_eight_point<NeoHookean, true>},
       {advance_eight_point<Hypoelastic, false>, advance_eight_point<Hypoelastic, true>}},
      {{advance_one_point<Hencky, false>, advance_one_point<Hencky, true>},

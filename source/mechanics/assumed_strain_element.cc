@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/assumed_strain_element.h"
+
+#include "billet/mechanics/dual_number.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+using strain_modes::Forces;
+using strain_modes::Frame;
+using strain_modes::Strains;
+
+namespace {
+
+using Element = AssumedStrainElement;
+
+constexpr unsigned int n_directions = 9;                    ///< components of the columns a_k
+constexpr unsigned int n_unknowns = 3 * Element::n_vectors; ///< and of the hourglass vectors
+// Rows are longer than that, for the sake of processors: a multiple of the lanes.
+constexpr unsigned int width = 24, direction_width = 10;
+constexpr unsigned int n_tensors = 6; ///< strains: three linear, three bilinear
+using Direction = Dual<double, direction_width>;
+/// A number for each unknown.
+using Row = std::array<double, width>;
+template <std::size_t n> using Rows = std::array<Row, n>;
+
+constexpr unsigned int symmetric[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+constexpr unsigned int pair_of[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+
+double reciprocal(const double x) { return 1. / x; }
+double root(const double x) { return std::sqrt(x); }
+
+/// How much of each strain a point has.
+std::array<std::array<double, n_tensors>, n_element_points> compute_shares() {
+  std::array<std::array<double, n_tensors>, n_element_points> shares{};
+  const double place = 1. / std::sqrt(3.);
+  for (unsigned int q = 0; q < n_element_points; ++q)
+    for (unsigned int k = 0; k < 3; ++k) {
+      shares[q][k] = place * corner(q, k);
+      shares[q][3 + k] = place * place * corner(q, (k + 1) % 3) * corner(q, (k + 2) % 3);
+    }
+  return shares;
+}
+const auto shares = compute_shares();
+
+double *tensor(Strains<double> &strains, const unsigned int t) {
+  return t < 3 ? strains.linear[t] : strains.bilinear[t - 3];
+}
+
+/// Sums over the points: V/8 (p 1 + Y dev τ Y⁻¹), which the mean gradient works on, and V/8 sym(dev τ Y⁻¹) of
+/// each strain.
+struct StressSums {
+  Tensor<2, 3> mean;
+  Strains<double> of_strains{};
+};
+
+StressSums sum_stresses(const Element::Reference &reference, const Element::Kinematics &kinematics,
+                        const PointStresses &tau) {
+  StressSums sums;
+  const double weight = reference.volume / n_element_points;
+  for (unsigned int q = 0; q < n_element_points; ++q) {
+    const Tensor<2, 3> dev = dealii::deviator(tau[q]);
+    const Tensor<2, 3> by_inverse = dev * Tensor<2, 3>(kinematics.inverse_Y[q]);
+    sums.mean += weight * (Tensor<2, 3>(kinematics.Y[q]) * by_inverse);
+    for (unsigned int i = 0; i < 3; ++i)
+      sums.mean[i][i] += weight * dealii::trace(tau[q]) / 3.;
+    for (unsigned int r = 0; r < 6; ++r) {
+      const unsigned int i = pair_of[r][0], j = pair_of[r][1];
+      const double T = 0.5 * weight * (by_inverse[i][j] + by_inverse[j][i]);
+      for (unsigned int t = 0; t < n_tensors; ++t)
+        tensor(sums.of_strains, t)[r] += shares[q][t] * T;
+    }
+  }
+  return sums;
+}
+
+/// Forces of the seven vectors.
+template <class Real>
+std::array<std::array<Real, 3>, Element::n_vectors>
+compute_vector_forces(const Element::Reference &reference, const Frame<Real> &frame,
+                      const Real (*hourglass)[3], const StressSums &sums) {
+  Forces<Real> forces;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      forces.mean[i][j] = sums.mean[i][j];
+  for (auto &vector : forces.hourglass)
+    for (Real &component : vector)
+      component = 0.;
+  strain_modes::add_forces<double>(reference.constants, frame, hourglass, sums.of_strains, forces);
+  std::array<std::array<Real, 3>, Element::n_vectors> result;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      result[k][i] = strain_modes::dot(forces.mean[i], frame.duals[k]);
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int i = 0; i < 3; ++i)
+      result[3 + m][i] = forces.hourglass[m][i];
+  return result;
+}
+
+/// The frame with its derivatives by the columns' components, 3 k + i.
+Frame<Direction> differentiate(const Frame<double> &frame) {
+  Frame<Direction> result;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i) {
+      result.columns[k][i] = frame.columns[k][i];
+      result.columns[k][i].rate[3 * k + i] = 1.;
+    }
+  strain_modes::complete(
+      result, [](const Direction &x) { return billet::invert(x); },
+      [](const Direction &x) { return square_root(x, root); });
+  return result;
+}
+
+/// Derivatives of the strains by the unknowns.
+std::array<Rows<6>, n_tensors> compute_strain_rates(const Element::Reference &reference,
+                                                    const Frame<double> &frame,
+                                                    const Frame<Direction> &directions,
+                                                    const Direction (*hourglass)[3]) {
+  std::array<Rows<6>, n_tensors> rates{};
+  Strains<Direction> by_columns;
+  strain_modes::compute_strains<double>(reference.constants, directions, hourglass, by_columns);
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int r = 0; r < 6; ++r)
+      for (unsigned int d = 0; d < n_directions; ++d) {
+        rates[k][r][d] = by_columns.linear[k][r].rate[d];
+        rates[3 + k][r][d] = by_columns.bilinear[k][r].rate[d];
+      }
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int i = 0; i < 3; ++i) {
+      double unit[4][3] = {};
+      unit[m][i] = 1.;
+      Strains<double> by_vector;
+      strain_modes::compute_strains<double>(reference.constants, frame, unit, by_vector);
+      for (unsigned int t = 0; t < n_tensors; ++t)
+        for (unsigned int r = 0; r < 6; ++r)
+          rates[t][r][n_directions + 3 * m + i] = tensor(by_vector, t)[r];
+    }
+  return rates;
+}
+
+/// A symmetric or other tensor as plain numbers.
+struct Numbers {
+  double a[3][3];
+
+  explicit Numbers(const Tensor<2, 3> &tensor) {
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        a[i][j] = tensor[i][j];
+  }
+  const double *operator[](const unsigned int i) const { return a[i]; }
+};
+
+/// Rates of the Kirchhoff stress by the unknowns, from those of the gradient, L = δF F⁻¹ (3 i + j).
+void compute_stress_rates(const Numbers &tau, const SpatialModuli &c, const Rows<9> &L, Rows<6> &rates) {
+  Rows<6> d;
+  for (unsigned int r = 0; r < 6; ++r) {
+    const Row &first = L[3 * pair_of[r][0] + pair_of[r][1]], &second = L[3 * pair_of[r][1] + pair_of[r][0]];
+    const double factor = r < 3 ? 0.5 : 1.;
+    for (unsigned int u = 0; u < width; ++u)
+      d[r][u] = factor * (first[u] + second[u]);
+  }
+  for (unsigned int r = 0; r < 6; ++r) {
+    const unsigned int i = pair_of[r][0], j = pair_of[r][1];
+    const double c0 = c[r][0], c1 = c[r][1], c2 = c[r][2], c3 = c[r][3], c4 = c[r][4], c5 = c[r][5];
+    for (unsigned int u = 0; u < width; ++u)
+      rates[r][u] = c0 * d[0][u] + c1 * d[1][u] + c2 * d[2][u] + c3 * d[3][u] + c4 * d[4][u] + c5 * d[5][u];
+    const double j0 = tau[0][j], j1 = tau[1][j], j2 = tau[2][j], i0 = tau[0][i], i1 = tau[1][i],
+                 i2 = tau[2][i];
+    for (unsigned int u = 0; u < width; ++u)
+      rates[r][u] += L[3 * i][u] * j0 + L[3 * i + 1][u] * j1 + L[3 * i + 2][u] * j2 + L[3 * j][u] * i0 +
+                     L[3 * j + 1][u] * i1 + L[3 * j + 2][u] * i2;
+  }
+}
+
+/// The same of a law in rate form, of which the deviator alone follows L.
+void compute_stress_rates(const Numbers &, const GradientModuli &A, const Rows<9> &L, Rows<6> &rates) {
+  for (unsigned int r = 0; r < 6; ++r) {
+    rates[r].fill(0.);
+    for (unsigned int c = 0; c < 9; ++c) {
+      const double modulus = A[r][c];
+      for (unsigned int u = 0; u < width; ++u)
+        rates[r][u] += modulus * L[c][u];
+    }
+  }
+}
+
+template <class Moduli> constexpr bool is_rate_form = false;
+template <> constexpr bool is_rate_form<GradientModuli> = true;
+
+/// row = a x + b y + c z.
+inline void combine(const double a, const Row &x, const double b, const Row &y, const double c, const Row &z,
+                    Row &row) {
+  for (unsigned int u = 0; u < width; ++u)
+    row[u] = a * x[u] + b * y[u] + c * z[u];
+}
+
+/// What the points add to the rates of StressSums by the unknowns; of the mean only for the first `n_mean`.
+template <unsigned int n_mean, class Moduli>
+void add_point_rates(const Element::Reference &reference, const Element::Kinematics &kinematics,
+                     const std::array<Rows<6>, n_tensors> &strain_rates, const PointStresses &tau,
+                     const PointModuli<Moduli> &moduli, const double bulk, Rows<9> &mean,
+                     std::array<Rows<6>, n_tensors> &of_strains) {
+  const double weight = reference.volume / n_element_points;
+  for (unsigned int q = 0; q < n_element_points; ++q) {
+    const Numbers M(dealii::deviator(tau[q])), Y(kinematics.Y[q]), Z(kinematics.inverse_Y[q]);
+    const double s0 = shares[q][0], s1 = shares[q][1], s2 = shares[q][2], s3 = shares[q][3],
+                 s4 = shares[q][4], s5 = shares[q][5];
+    Rows<6> dY;
+    for (unsigned int r = 0; r < 6; ++r)
+      for (unsigned int u = 0; u < width; ++u)
+        dY[r][u] = s0 * strain_rates[0][r][u] + s1 * strain_rates[1][r][u] + s2 * strain_rates[2][r][u] +
+                   s3 * strain_rates[3][r][u] + s4 * strain_rates[4][r][u] + s5 * strain_rates[5][r][u];
+    Rows<9> A, L; // δY Y⁻¹, and L of the point
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        combine(Z[0][j], dY[symmetric[i][0]], Z[1][j], dY[symmetric[i][1]], Z[2][j], dY[symmetric[i][2]],
+                A[3 * i + j]);
+    L = A;
+    if constexpr (!is_rate_form<Moduli>)
+      for (unsigned int u = 0; u < width; ++u) {
+        const double third = (A[0][u] + A[4][u] + A[8][u]) * (1. / 3.);
+        L[0][u] -= third;
+        L[4][u] -= third;
+        L[8][u] -= third;
+      }
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int j = 0; j < 3; ++j) {
+        const double pulled = Z[j][0] * kinematics.frame.duals[k][0] +
+                              Z[j][1] * kinematics.frame.duals[k][1] + Z[j][2] * kinematics.frame.duals[k][2];
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int c = 0; c < 3; ++c)
+            L[3 * i + j][3 * k + c] += Y[i][c] * pulled;
+      }
+    Rows<6> dM;
+    compute_stress_rates(Numbers(tau[q]), moduli[q], L, dM);
+    Row dp;
+    for (unsigned int u = 0; u < width; ++u) {
+      dp[u] = (dM[0][u] + dM[1][u] + dM[2][u]) * (1. / 3.);
+      for (unsigned int r = 0; r < 3; ++r)
+        dM[r][u] -= dp[u];
+    }
+    if constexpr (is_rate_form<Moduli>)
+      for (unsigned int u = 0; u < width; ++u)
+        dp[u] = u < n_directions ? bulk * kinematics.frame.duals[u / 3][u % 3] : 0.;
+
+    // sym{(δM − M Aᵀ) Y⁻¹}
+    Rows<9> X;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j) {
+        combine(-M[i][0], A[3 * j], -M[i][1], A[3 * j + 1], -M[i][2], A[3 * j + 2], X[3 * i + j]);
+        for (unsigned int u = 0; u < width; ++u)
+          X[3 * i + j][u] += dM[symmetric[i][j]][u];
+      }
+    for (unsigned int r = 0; r < 6; ++r) {
+      const unsigned int i = pair_of[r][0], j = pair_of[r][1];
+      const double half = 0.5 * weight;
+      Row T, transposed;
+      combine(half * Z[0][j], X[3 * i], half * Z[1][j], X[3 * i + 1], half * Z[2][j], X[3 * i + 2], T);
+      combine(half * Z[0][i], X[3 * j], half * Z[1][i], X[3 * j + 1], half * Z[2][i], X[3 * j + 2],
+              transposed);
+      for (unsigned int u = 0; u < width; ++u)
+        T[u] += transposed[u];
+      for (unsigned int t = 0; t < n_tensors; ++t) {
+        const double share = shares[q][t];
+        for (unsigned int u = 0; u < width; ++u)
+          of_strains[t][r][u] += share * T[u];
+      }
+    }
+
+    // δp 1 + {δY M + Y δM − Y M Y⁻¹ δY} Y⁻¹
+    const Numbers N(Tensor<2, 3>(kinematics.Y[q]) * Tensor<2, 3>(dealii::deviator(tau[q])) *
+                    Tensor<2, 3>(kinematics.inverse_Y[q]));
+    Rows<9> W;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j) {
+        Row &row = W[3 * i + j];
+        row.fill(0.);
+        for (unsigned int k = 0; k < 3; ++k) {
+          const double m = M[k][j], y = Y[i][k], n = N[i][k];
+          const Row &dY_ik = dY[symmetric[i][k]], &dM_kj = dM[symmetric[k][j]], &dY_kj = dY[symmetric[k][j]];
+          for (unsigned int u = 0; u < n_mean; ++u)
+            row[u] += dY_ik[u] * m + y * dM_kj[u] - n * dY_kj[u];
+        }
+      }
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j) {
+        const double z0 = weight * Z[0][j], z1 = weight * Z[1][j], z2 = weight * Z[2][j],
+                     own = i == j ? weight : 0.;
+        for (unsigned int u = 0; u < n_mean; ++u)
+          mean[3 * i + j][u] += W[3 * i][u] * z0 + W[3 * i + 1][u] * z1 + W[3 * i + 2][u] * z2 + own * dp[u];
+      }
+  }
+}
+
+/// K of the unknowns to that of the nodes.
+void scatter(const Element::Reference &reference, const Rows<n_unknowns> &K, ElementMatrix &matrix) {
+  std::array<std::array<double, n_element_dofs>, n_unknowns> half;
+  for (unsigned int r = 0; r < n_unknowns; ++r) {
+    std::array<double, n_element_nodes> sums[3]{};
+    for (unsigned int v = 0; v < Element::n_vectors; ++v)
+      for (unsigned int j = 0; j < 3; ++j) {
+        const double entry = K[r][3 * v + j];
+        for (unsigned int b = 0; b < n_element_nodes; ++b)
+          sums[j][b] += entry * reference.of_nodes[v][b];
+      }
+    for (unsigned int b = 0; b < n_element_nodes; ++b)
+      for (unsigned int j = 0; j < 3; ++j)
+        half[r][3 * b + j] = sums[j][b];
+  }
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    for (unsigned int i = 0; i < 3; ++i) {
+      double *row = matrix.data() + (std::size_t{3} * a + i) * n_element_dofs;
+      std::fill(row, row + n_element_dofs, 0.);
+      for (unsigned int v = 0; v < Element::n_vectors; ++v) {
+        const double value = reference.of_nodes[v][a];
+        for (unsigned int c = 0; c < n_element_dofs; ++c)
+          row[c] += value * half[3 * v + i][c];
+      }
+    }
+}
+
+/// The exact tangent, (B6): what the rates of the stresses do, and, at frozen stresses, what the directions
+/// do, from the forces' own code with derivatives by the columns. `is_symmetric`: as the moduli.
+template <bool is_symmetric, class Moduli>
+void compute_element_tangent(const Element::Reference &reference, const Element::Kinematics &kinematics,
+                             const PointStresses &tau, const PointModuli<Moduli> &moduli, const double bulk,
+                             ElementMatrix &matrix) {
+  constexpr unsigned int n_mean = is_symmetric ? direction_width : width;
+  const Frame<Direction> directions = differentiate(kinematics.frame);
+  Direction hourglass[4][3];
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int i = 0; i < 3; ++i)
+      hourglass[m][i] = kinematics.hourglass[m][i];
+  const auto strain_rates = compute_strain_rates(reference, kinematics.frame, directions, hourglass);
+  Rows<9> mean{};
+  std::array<Rows<6>, n_tensors> of_strains{};
+  add_point_rates<n_mean>(reference, kinematics, strain_rates, tau, moduli, bulk, mean, of_strains);
+
+  Rows<n_unknowns> K{};
+  for (unsigned int v = 0; v < Element::n_vectors; ++v) {
+    // b̂_m makes no strain that varies as ξ_m, ĉ none that is linear.
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int t = v < 6 ? 0 : 3; t < (v < 3 || v == 6 ? n_tensors : 3); ++t) {
+        if (v >= 3 && v < 6 && t == v - 3)
+          continue;
+        for (unsigned int r = 0; r < 6; ++r) {
+          const double rate = (r < 3 ? 1. : 2.) * strain_rates[t][r][3 * v + i];
+          for (unsigned int u = 0; u < width; ++u)
+            K[3 * v + i][u] += rate * of_strains[t][r][u];
+        }
+      }
+  }
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i) {
+      const double *a = kinematics.frame.duals[k];
+      Row &row = K[3 * k + i];
+      const double a0 = a[0], a1 = a[1], a2 = a[2];
+      for (unsigned int u = 0; u < n_mean; ++u)
+        row[u] += mean[3 * i][u] * a0 + mean[3 * i + 1][u] * a1 + mean[3 * i + 2][u] * a2;
+    }
+  if constexpr (is_symmetric)
+    for (unsigned int r = 0; r < n_directions; ++r)
+      for (unsigned int u = n_directions; u < n_unknowns; ++u)
+        K[r][u] = K[u][r];
+
+  const auto forces =
+      compute_vector_forces(reference, directions, hourglass, sum_stresses(reference, kinematics, tau));
+  for (unsigned int v = 0; v < Element::n_vectors; ++v)
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int d = 0; d < n_directions; ++d) {
+        K[3 * v + i][d] += forces[v][i].rate[d];
+        if (v >= 3)
+          K[d][3 * v + i] += forces[v][i].rate[d];
+      }
+  scatter(reference, K, matrix);
+}
+
+} // namespace
+
+strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &elastic,
+                                                         const std::array<double, 3> &lengths) {
+  const double theta = strain_modes::kept_shear;
+  const double nu = (3. * elastic.bulk - 2. * elastic.shear) / (6. * elastic.bulk + 2. * elastic.shear);
+  strain_modes::Constants<double> constants{};
+  for (unsigned int j = 0; j < 3; ++j)
+    for (unsigned int k = 0; k < 3; ++k)
+      if (j != k) {
+        const double kept = std::min(theta, lengths[j] / lengths[k]);
+        constants.share[j][k] = 1. / std::sqrt(1. + 0.5 * kept * kept);
+        constants.shear[j][k] = kept * constants.share[j][k];
+      }
+  for (unsigned int k = 0; k < 3; ++k) {
+    const double both = constants.share[(k + 1) % 3][k] * constants.share[(k + 2) % 3][k];
+    // Of ν towards −1 no thinning is so far below zero.
+    constants.thinning[k] = 0.5 * (std::sqrt(std::max(0., 3. + 6. * nu / ((1. - nu) * both))) - 1.);
+  }
+  constants.fourth = std::sqrt(2. * (1. + nu) / (3. * (1. + 2. / 3. * theta * theta)));
+  return constants;
+}
+
+bool AssumedStrainElement::initialize(const ElementVectors &positions, Reference &reference) const {
+  ReferenceElement points; // a mesh that eight points refuse is refused
+  if (!compute_reference_element(positions, points))
+    return false;
+  const ModalGeometry geometry(positions);
+  std::array<double, 3> lengths{};
+  for (unsigned int k = 0; k < 3; ++k) {
+    lengths[k] = geometry.modes[k].norm();
+    for (unsigned int i = 0; i < 3; ++i)
+      reference.jacobian[i][k] = geometry.modes[k][i];
+  }
+  if (!(dealii::determinant(reference.jacobian) > 0.))
+    return false;
+  reference.inverse_jacobian = dealii::invert(reference.jacobian);
+  reference.volume = geometry.volume;
+  reference.constants = compute_strain_constants(elastic_, lengths);
+  for (unsigned int a = 0; a < n_element_nodes; ++a) {
+    for (unsigned int k = 0; k < 3; ++k) {
+      reference.of_nodes[k][a] = 0.;
+      for (unsigned int m = 0; m < n_linear_modes; ++m)
+        reference.of_nodes[k][a] += 0.125 * geometry.beta[m][k] * mode_values[m][a];
+    }
+    for (unsigned int m = 0; m < 4; ++m) {
+      const Tensor<1, 3> own = reference.inverse_jacobian * geometry.modes[3 + m];
+      reference.of_nodes[3 + m][a] = 0.125 * mode_values[3 + m][a];
+      for (unsigned int k = 0; k < 3; ++k)
+        reference.of_nodes[3 + m][a] -= own[k] * reference.of_nodes[k][a];
+    }
+  }
+  return true;
+}
+
+bool AssumedStrainElement::compute(const Reference &reference, const ElementVectors &displacements,
+                                   Kinematics &kinematics) {
+  std::array<Tensor<1, 3>, n_vectors> moved;
+  for (unsigned int v = 0; v < n_vectors; ++v)
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        moved[v][i] += reference.of_nodes[v][a] * displacements[3 * a + i];
+  Tensor<2, 3> change;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i) {
+      change[i][k] = moved[k][i];
+      kinematics.frame.columns[k][i] = reference.jacobian[i][k] + moved[k][i];
+    }
+  Tensor<2, 3> F = change * reference.inverse_jacobian;
+  for (unsigned int i = 0; i < 3; ++i)
+    F[i][i] += 1.;
+  kinematics.J = dealii::determinant(F);
+  if (!(kinematics.J > 0.) || !std::isfinite(kinematics.J))
+    return false;
+  kinematics.volume = kinematics.J * reference.volume;
+  strain_modes::complete(kinematics.frame, reciprocal, root);
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int i = 0; i < 3; ++i)
+      kinematics.hourglass[m][i] = moved[3 + m][i];
+  Strains<double> strains;
+  strain_modes::compute_strains<double>(reference.constants, kinematics.frame, kinematics.hourglass, strains);
+  for (unsigned int q = 0; q < n_points; ++q) {
+    SymmetricTensor<2, 3> &Y = kinematics.Y[q];
+    Y = dealii::unit_symmetric_tensor<3>();
+    for (unsigned int t = 0; t < n_tensors; ++t)
+      for (unsigned int r = 0; r < 6; ++r)
+        Y[pair_of[r][0]][pair_of[r][1]] += shares[q][t] * tensor(strains, t)[r];
+    const double determinant = dealii::determinant(Y);
+    // Positive definite: no fibre turned inside out, nor two.
+    if (!(determinant > 0.) || !(dealii::trace(Y) > 0.) || !(dealii::second_invariant(Y) > 0.) ||
+        !std::isfinite(determinant))
+      return false;
+    kinematics.inverse_Y[q] = dealii::invert(Y);
+    kinematics.F_of_rates[q] = Tensor<2, 3>(Y) * F;
+    kinematics.F[q] = kinematics.F_of_rates[q] / std::cbrt(determinant);
+  }
+  return true;
+}
+
+template <bool>
+void AssumedStrainElement::add_force(const Reference &reference, const Kinematics &kinematics,
+                                     const PointStresses &tau, ElementVectors &force) {
+  const auto forces = compute_vector_forces(reference, kinematics.frame, kinematics.hourglass,
+                                            sum_stresses(reference, kinematics, tau));
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    for (unsigned int v = 0; v < n_vectors; ++v)
+      for (unsigned int i = 0; i < 3; ++i)
+        force[3 * a + i] += reference.of_nodes[v][a] * forces[v][i];
+}
+
+template void AssumedStrainElement::add_force<false>(const Reference &, const Kinematics &,
+                                                     const PointStresses &, ElementVectors &);
+template void AssumedStrainElement::add_force<true>(const Reference &, const Kinematics &,
+                                                    const PointStresses &, ElementVectors &);
+
+void AssumedStrainElement::compute_symmetric_tangent(const Reference &reference, const Kinematics &kinematics,
+                                                     const PointStresses &tau,
+                                                     const PointModuli<SpatialModuli> &moduli,
+                                                     ElementMatrix &matrix) {
+  compute_element_tangent<true>(reference, kinematics, tau, moduli, 0., matrix);
+}
+
+void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &reference,
+                                                       const Kinematics &kinematics, const PointStresses &tau,
+                                                       const PointModuli<SpatialModuli> &moduli,
+                                                       ElementMatrix &matrix) const {
+  compute_element_tangent<false>(reference, kinematics, tau, moduli, bulk_, matrix);
+}
+
+void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &reference,
+                                                       const Kinematics &kinematics, const PointStresses &tau,
+                                                       const PointModuli<GradientModuli> &moduli,
+                                                       ElementMatrix &matrix) const {
+  compute_element_tangent<false>(reference, kinematics, tau, moduli, bulk_, matrix);
+}
+
+} // namespace billet
