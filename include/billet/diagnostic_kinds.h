@@ -179,6 +179,16 @@ inline const DiagnosticKind numerical_dissipation(
     "Reduce 'Error tolerance' or 'Largest step', if the motion matters that is damped; 'Method = Newmark' "
     "dissipates nothing");
 
+inline const DiagnosticKind lumped_inertia(
+    "lumped-inertia", Severity::warning,
+    "Masses at the nodes have 1.6 times the kinetic energy of the bricks between them, or more, in the "
+    "motion "
+    "of a body relative to its mean: a bar of one brick across that twists, or waves of three bricks' "
+    "length. "
+    "Periods are 15 % too long, or more.",
+    "Use two or more bricks across what twists or spins, and finer ones along waves; in implicit dynamics "
+    "'Mass = consistent'");
+
 inline const DiagnosticKind nodes_behind_tool(
     "nodes-behind-tool", Severity::warning,
     "Nodes have moved around the edge of a tool. Its surface has no back: what is behind it is free.",

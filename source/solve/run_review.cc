@@ -14,7 +14,8 @@ namespace billet {
 
 RunReview::RunReview(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), elements_(scene, discretization),
-      contacts_(scene, discretization), missing_pairs_(scene, discretization) {}
+      inertia_(scene, discretization), contacts_(scene, discretization),
+      missing_pairs_(scene, discretization) {}
 
 DiagnosticList RunReview::start() const {
   return check_plausibility(scene_, discretization_.dof_handler().get_triangulation(),
@@ -23,6 +24,7 @@ DiagnosticList RunReview::start() const {
 
 DiagnosticList RunReview::after_step(const Solution &solution, const bool is_last) {
   contacts_.add(solution);
+  inertia_.add(solution.state());
   const EnergyLedger &energies = solution.state().energies;
   largest_kinetic_ = std::max(largest_kinetic_, energies.kinetic);
   largest_internal_ = std::max(largest_internal_, energies.of_elements());
@@ -52,6 +54,7 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
 
 DiagnosticList RunReview::finish() const {
   DiagnosticList diagnostics = contacts_.finish();
+  append(diagnostics, inertia_.judge(largest_energy_));
   constexpr double much = 0.1;
   if (const double size = std::abs(numerical_); size > much * largest_energy_) {
     std::ostringstream text;
@@ -67,6 +70,7 @@ DiagnosticList RunReview::finish() const {
 void RunReview::save(StateWriter &writer) const {
   writer.in("review", [&] {
     elements_.save(writer);
+    inertia_.save(writer);
     contacts_.save(writer);
     missing_pairs_.save(writer);
     writer.write("energies", {largest_kinetic_, largest_internal_, largest_energy_});
@@ -77,6 +81,7 @@ void RunReview::load(StateReader &reader) {
   if (reader.has("review"))
     reader.in("review", [&] {
       elements_.load(reader);
+      inertia_.load(reader);
       contacts_.load(reader);
       missing_pairs_.load(reader);
       const std::vector<double> largest = reader.read("energies");

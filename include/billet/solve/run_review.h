@@ -4,6 +4,7 @@
 
 #include "billet/solve/contact_review.h"
 #include "billet/solve/element_watch.h"
+#include "billet/solve/inertia_watch.h"
 #include "billet/solve/missing_pairs.h"
 
 namespace billet {
@@ -40,6 +41,7 @@ private:
   const Scene &scene_;
   const Discretization &discretization_;
   ElementWatch elements_;
+  InertiaWatch inertia_;
   ContactReview contacts_;
   MissingPairs missing_pairs_;
   double largest_kinetic_ = 0., largest_internal_ = 0.,
