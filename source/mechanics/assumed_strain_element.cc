@@ -501,18 +501,21 @@ void AssumedStrainElement::compute_symmetric_tangent(const Reference &reference,
   compute_element_tangent<true>(reference, kinematics, tau, moduli, 0., matrix);
 }
 
+template <class Moduli>
 void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &reference,
                                                        const Kinematics &kinematics, const PointStresses &tau,
-                                                       const PointModuli<SpatialModuli> &moduli,
+                                                       const PointModuli<Moduli> &moduli,
                                                        ElementMatrix &matrix) const {
-  compute_element_tangent<false>(reference, kinematics, tau, moduli, bulk_, matrix);
+  compute_element_tangent<false>(reference, kinematics, tau, moduli, elastic_.bulk, matrix);
 }
 
-void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &reference,
-                                                       const Kinematics &kinematics, const PointStresses &tau,
-                                                       const PointModuli<GradientModuli> &moduli,
-                                                       ElementMatrix &matrix) const {
-  compute_element_tangent<false>(reference, kinematics, tau, moduli, bulk_, matrix);
-}
+template void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &, const Kinematics &,
+                                                                const PointStresses &,
+                                                                const PointModuli<SpatialModuli> &,
+                                                                ElementMatrix &) const;
+template void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &, const Kinematics &,
+                                                                const PointStresses &,
+                                                                const PointModuli<GradientModuli> &,
+                                                                ElementMatrix &) const;
 
 } // namespace billet

@@ -12,28 +12,14 @@ namespace billet {
 using dealii::Tensor;
 using Element = ExplicitFormulation::Element;
 using Kinematics = ExplicitFormulation::Kinematics;
+namespace last = explicit_kernels::last;
+namespace mean_gradient = explicit_kernels::mean_gradient;
+namespace one_point = explicit_kernels::one_point;
+namespace assumed_strain = explicit_kernels::assumed_strain;
 
 namespace {
 
-/// What history keeps of the last call, see kernel.h.
-namespace last {
-constexpr std::size_t volume = 0, omega = 1, viscous_pressure = 2, n = 3;
-} // namespace last
-
 constexpr std::size_t n_mode_numbers = 21, eight_point_modes = 2;
-
-/// Places of the constants of elements with the mean gradient, see mean_gradient.h, one_point.h and
-/// assumed_strain.h.
-namespace mean_gradient {
-constexpr std::size_t volume = 0, inverse_det = 1, bound = 2, beta = 3, n = 21;
-} // namespace mean_gradient
-namespace one_point {
-constexpr std::size_t bound = mean_gradient::n, ratios = bound + 1, modes = ratios + 6;
-} // namespace one_point
-namespace assumed_strain {
-constexpr std::size_t own = mean_gradient::n, share = own + 12, shear = share + 6, thinning = shear + 6,
-                      modes = thinning + 3;
-} // namespace assumed_strain
 
 double next_power_of_two(const double x) { return std::exp2(std::round(std::log2(x))); }
 
@@ -279,7 +265,7 @@ bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element
     for (unsigned int k = 0; k < 3; ++k)
       set_constant(element, mean_gradient::beta + 3 * m + k, geometry.beta[m][k]);
   if (is_one_point) {
-    set_constant(element, one_point::bound,
+    set_constant(element, one_point::hourglass_bound,
                  bound_squares(rows_of_all(geometry, inverse, 0.)) / smallest_mass * mass_unit);
     initialize_one_point(element, geometry, inverse);
   } else
@@ -404,7 +390,7 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
     const auto divide = [&](const std::size_t k) { set_constant(e, k, constant(e, k) / factor); };
     divide(formulation_.element == Element::mean_dilatation ? 1 : mean_gradient::bound);
     if (formulation_.element == Element::one_point)
-      divide(one_point::bound);
+      divide(one_point::hourglass_bound);
     set_history(e, last::omega, history(e, last::omega) / factor);
   }
   return volume * (factor - 1.);

@@ -36,8 +36,7 @@ public:
     double J, volume; ///< det F̄, and the volume that it makes
   };
 
-  AssumedStrainElement(const ElasticModuli &elastic, const ElementFormulation &)
-      : elastic_(elastic), bulk_(elastic.bulk) {}
+  AssumedStrainElement(const ElasticModuli &elastic, const ElementFormulation &) : elastic_(elastic) {}
 
   bool initialize(const ElementVectors &positions, Reference &reference) const;
   static bool compute(const Reference &reference, const ElementVectors &displacements,
@@ -74,15 +73,12 @@ public:
                                         ElementMatrix &matrix);
 
 private:
+  template <class Moduli>
   void compute_unsymmetric_tangent(const Reference &reference, const Kinematics &kinematics,
-                                   const PointStresses &tau, const PointModuli<SpatialModuli> &moduli,
-                                   ElementMatrix &matrix) const;
-  void compute_unsymmetric_tangent(const Reference &reference, const Kinematics &kinematics,
-                                   const PointStresses &tau, const PointModuli<GradientModuli> &moduli,
+                                   const PointStresses &tau, const PointModuli<Moduli> &moduli,
                                    ElementMatrix &matrix) const;
 
   ElasticModuli elastic_;
-  double bulk_;
 };
 
 } // namespace billet

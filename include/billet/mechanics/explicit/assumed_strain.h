@@ -12,16 +12,6 @@
 namespace billet::explicit_kernels {
 namespace {
 
-/// Places of an element's constants.
-namespace assumed_strain {
-using namespace mean_gradient;
-constexpr unsigned int own = mean_gradient::n; ///< J_0⁻¹ (b_1, b_2, b_3, c)_0: 3 m + k
-constexpr unsigned int share = own + 12;       ///< s_jk (j, k: 12, 13, 21, 23, 31, 32)
-constexpr unsigned int shear = share + 6;      ///< s θ_jk
-constexpr unsigned int thinning = shear + 6;
-constexpr unsigned int modes = thinning + 3; ///< of the reference positions, in float
-} // namespace assumed_strain
-
 using StrainConstants = strain_modes::Constants<Real>;
 
 BILLET_INLINE void load_constants(const Number *constants, const Number fourth, StrainConstants &result) {

@@ -186,12 +186,6 @@ BILLET_INLINE void collect_columns(const Columns &forces, Modes &f) {
     }
 }
 
-/// Places of what every element keeps of its last call; its kind's own numbers follow. In float J̄ − 1 stands
-/// for the volume.
-namespace last {
-constexpr unsigned int volume = 0, omega = 1, viscous_pressure = 2, n = 3;
-} // namespace last
-
 /// Places of an eight-point element's constants. In float its reference modes follow.
 namespace eight_point {
 constexpr unsigned int volume = 0, inverse_mass = 1, modes = 2, point_volumes = is_single ? 23 : 2;

@@ -80,11 +80,44 @@ using Kernel = void (*)(const BasicElements<Number> &, const BasicMaterial<Numbe
 // hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the viscous pressure of
 // the last call, then each point's. Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹ in the
 // element's own coordinates) or dev τ (11, 22, 12, 13, 23); then, where there is plasticity, α and, where
-// hardening is not linear, σ_y(α). Constants of the others: see assumed_strain.h and one_point.h.
+// hardening is not linear, σ_y(α). Constants of the others: below.
 //
 // In float, where differences have to be taken before they are rounded: the modes of the reference positions
 // (21 numbers) are constants, too. History: J̄ − 1 in the place of v, and of each point b_e − 1 in space up to
 // a factor (6 numbers) or dev τ; then α in two parts, and σ_y(α).
+
+/// Places of what every element keeps of its last call; its kind's own numbers follow. In float J̄ − 1 stands
+/// for the volume.
+namespace last {
+constexpr unsigned int volume = 0, omega = 1, viscous_pressure = 2, n = 3;
+} // namespace last
+
+/// Places of the constants of elements with the mean gradient.
+namespace mean_gradient {
+constexpr unsigned int volume = 0, inverse_det = 1, bound = 2;
+constexpr unsigned int beta = 3; ///< J̄_k = Σ_m m β_mk over the modes a and b: 3 m + k
+constexpr unsigned int n = 21;
+} // namespace mean_gradient
+
+/// Those of the one-point element.
+namespace one_point {
+using namespace mean_gradient;
+constexpr unsigned int hourglass_bound = mean_gradient::n;
+constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
+constexpr unsigned int modes = 28;  ///< of the reference positions, in float
+// History: that of the last call, ĥ_0 (in float ĥ itself), then the point's.
+constexpr unsigned int hourglass = last::n, point = hourglass + 12;
+} // namespace one_point
+
+/// Those of the element with assumed strains.
+namespace assumed_strain {
+using namespace mean_gradient;
+constexpr unsigned int own = mean_gradient::n; ///< J_0⁻¹ (b_1, b_2, b_3, c)_0: 3 m + k
+constexpr unsigned int share = own + 12;       ///< s_jk (j, k: 12, 13, 21, 23, 31, 32)
+constexpr unsigned int shear = share + 6;      ///< s θ_jk
+constexpr unsigned int thinning = shear + 6;
+constexpr unsigned int modes = thinning + 3; ///< of the reference positions, in float
+} // namespace assumed_strain
 
 /// Index by element (assumed_strain, mean_dilatation, one_point), kinematics, and whether there is
 /// plasticity.

@@ -10,13 +10,6 @@
 namespace billet::explicit_kernels {
 namespace {
 
-/// Places of the constants of elements that have it.
-namespace mean_gradient {
-constexpr unsigned int volume = 0, inverse_det = 1, bound = 2;
-constexpr unsigned int beta = 3; ///< J̄_k = Σ_m m β_mk over the modes a and b: 3 m + k
-constexpr unsigned int n = 21;
-} // namespace mean_gradient
-
 /// Columns of J̄.
 BILLET_INLINE void compute_mean(const Modes &modes, const Number *constants, Real columns[3][3]) {
   for (unsigned int k = 0; k < 3; ++k)

@@ -11,16 +11,6 @@
 namespace billet::explicit_kernels {
 namespace {
 
-/// Places of an element's numbers.
-namespace one_point {
-using namespace mean_gradient;
-constexpr unsigned int hourglass_bound = mean_gradient::n;
-constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
-constexpr unsigned int modes = 28;  ///< of the reference positions, in float
-// History: that of the last call, ĥ_0 (in float ĥ itself), then the point's.
-constexpr unsigned int hourglass = last::n, point = hourglass + 12;
-} // namespace one_point
-
 /// Stress-like numbers of the hourglass strains `h` (of b_1, b_2, b_3, c, in the element's own directions),
 /// per volume, and the energy per volume.
 struct HourglassModuli {
