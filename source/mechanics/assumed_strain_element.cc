@@ -12,6 +12,7 @@ using dealii::SymmetricTensor;
 using dealii::Tensor;
 using strain_modes::Forces;
 using strain_modes::Frame;
+using strain_modes::Products;
 using strain_modes::Strains;
 
 namespace {
@@ -47,8 +48,43 @@ std::array<std::array<double, n_tensors>, n_element_points> compute_shares() {
 }
 const auto shares = compute_shares();
 
-double *tensor(Strains<double> &strains, const unsigned int t) {
+template <class Real> Real *tensor(Strains<Real> &strains, const unsigned int t) {
   return t < 3 ? strains.linear[t] : strains.bilinear[t - 3];
+}
+template <class Real> const Real *tensor(const Strains<Real> &strains, const unsigned int t) {
+  return t < 3 ? strains.linear[t] : strains.bilinear[t - 3];
+}
+
+/// S v.
+template <class Fixed, class Real> void multiply(const Fixed *s, const Real *v, Real *result) {
+  for (unsigned int i = 0; i < 3; ++i)
+    result[i] = s[symmetric[i][0]] * v[0] + s[symmetric[i][1]] * v[1] + s[symmetric[i][2]] * v[2];
+}
+
+/// The strains in space, Σ h_ab a^a ⊗ a^b.
+template <class Real>
+void compute_spatial_strains(const strain_modes::Constants<double> &constants, const Frame<Real> &frame,
+                             const Real (*hourglass)[3], Strains<Real> &strains) {
+  Products<Real> products;
+  strain_modes::multiply(frame, hourglass, products);
+  Strains<Real> by_columns;
+  strain_modes::compute_strains<double>(constants, frame, products, by_columns);
+  for (unsigned int t = 0; t < n_tensors; ++t) {
+    const Real *h = tensor(by_columns, t);
+    Real half[3][3]; // [a][i]: Σ_b h_ab a^b
+    for (unsigned int i = 0; i < 3; ++i) {
+      const Real component[3] = {frame.duals[0][i], frame.duals[1][i], frame.duals[2][i]};
+      Real of_all[3];
+      multiply(h, component, of_all);
+      for (unsigned int a = 0; a < 3; ++a)
+        half[a][i] = of_all[a];
+    }
+    for (unsigned int r = 0; r < 6; ++r) {
+      const unsigned int i = pair_of[r][0], j = pair_of[r][1];
+      tensor(strains, t)[r] =
+          frame.duals[0][i] * half[0][j] + frame.duals[1][i] * half[1][j] + frame.duals[2][i] * half[2][j];
+    }
+  }
 }
 
 /// Sums over the points: V/8 (p 1 + Y dev τ Y⁻¹), which the mean gradient works on, and V/8 sym(dev τ Y⁻¹) of
@@ -83,21 +119,44 @@ template <class Real>
 std::array<std::array<Real, 3>, Element::n_vectors>
 compute_vector_forces(const Element::Reference &reference, const Frame<Real> &frame,
                       const Real (*hourglass)[3], const StressSums &sums) {
-  Forces<Real> forces;
-  for (unsigned int i = 0; i < 3; ++i)
-    for (unsigned int j = 0; j < 3; ++j)
-      forces.mean[i][j] = sums.mean[i][j];
-  for (auto &vector : forces.hourglass)
-    for (Real &component : vector)
-      component = 0.;
-  strain_modes::add_forces<double>(reference.constants, frame, hourglass, sums.of_strains, forces);
-  std::array<std::array<Real, 3>, Element::n_vectors> result;
+  Forces<Real> forces{};
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
-      result[k][i] = strain_modes::dot(forces.mean[i], frame.duals[k]);
-  for (unsigned int m = 0; m < 4; ++m)
+      for (unsigned int j = 0; j < 3; ++j)
+        forces.columns[k][i] += sums.mean[i][j] * frame.duals[k][j];
+  Products<Real> products;
+  strain_modes::multiply(frame, hourglass, products);
+  Strains<Real> strains, stresses;
+  strain_modes::compute_strains<double>(reference.constants, frame, products, strains);
+  // In T : (δh_ab a^a ⊗ a^b) the duals follow the columns: δa^a = −Σ_k (a^a·δa_k) a^k.
+  Real of_duals[3][3] = {}; // [a][k]
+  for (unsigned int t = 0; t < n_tensors; ++t) {
+    const double *T = tensor(sums.of_strains, t);
+    const Real *h = tensor(strains, t);
+    Real by_duals[3][3], products_of_T[6];
+    for (unsigned int a = 0; a < 3; ++a)
+      multiply(T, frame.duals[a], by_duals[a]);
+    for (unsigned int r = 0; r < 6; ++r) {
+      products_of_T[r] = strain_modes::dot(frame.duals[pair_of[r][0]], by_duals[pair_of[r][1]]);
+      tensor(stresses, t)[r] = (r < 3 ? 1. : 2.) * products_of_T[r];
+    }
+    for (unsigned int a = 0; a < 3; ++a)
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int b = 0; b < 3; ++b)
+          of_duals[a][k] += h[symmetric[a][b]] * products_of_T[symmetric[b][k]];
+  }
+  for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int a = 0; a < 3; ++a)
+        forces.columns[k][i] -= 2. * (of_duals[a][k] * frame.duals[a][i]);
+  strain_modes::add_forces<double>(reference.constants, frame, hourglass, products, stresses, forces);
+  std::array<std::array<Real, 3>, Element::n_vectors> result;
+  for (unsigned int i = 0; i < 3; ++i) {
+    for (unsigned int k = 0; k < 3; ++k)
+      result[k][i] = forces.columns[k][i];
+    for (unsigned int m = 0; m < 4; ++m)
       result[3 + m][i] = forces.hourglass[m][i];
+  }
   return result;
 }
 
@@ -122,7 +181,7 @@ std::array<Rows<6>, n_tensors> compute_strain_rates(const Element::Reference &re
                                                     const Direction (*hourglass)[3]) {
   std::array<Rows<6>, n_tensors> rates{};
   Strains<Direction> by_columns;
-  strain_modes::compute_strains<double>(reference.constants, directions, hourglass, by_columns);
+  compute_spatial_strains(reference.constants, directions, hourglass, by_columns);
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int r = 0; r < 6; ++r)
       for (unsigned int d = 0; d < n_directions; ++d) {
@@ -134,7 +193,7 @@ std::array<Rows<6>, n_tensors> compute_strain_rates(const Element::Reference &re
       double unit[4][3] = {};
       unit[m][i] = 1.;
       Strains<double> by_vector;
-      strain_modes::compute_strains<double>(reference.constants, frame, unit, by_vector);
+      compute_spatial_strains(reference.constants, frame, unit, by_vector);
       for (unsigned int t = 0; t < n_tensors; ++t)
         for (unsigned int r = 0; r < 6; ++r)
           rates[t][r][n_directions + 3 * m + i] = tensor(by_vector, t)[r];
@@ -459,7 +518,7 @@ bool AssumedStrainElement::compute(const Reference &reference, const ElementVect
     for (unsigned int i = 0; i < 3; ++i)
       kinematics.hourglass[m][i] = moved[3 + m][i];
   Strains<double> strains;
-  strain_modes::compute_strains<double>(reference.constants, kinematics.frame, kinematics.hourglass, strains);
+  compute_spatial_strains(reference.constants, kinematics.frame, kinematics.hourglass, strains);
   for (unsigned int q = 0; q < n_points; ++q) {
     SymmetricTensor<2, 3> &Y = kinematics.Y[q];
     Y = dealii::unit_symmetric_tensor<3>();

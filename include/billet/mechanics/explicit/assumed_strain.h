@@ -50,104 +50,143 @@ BILLET_INLINE void compute_hourglass(const Modes &modes, const Real columns[3][3
   }
 }
 
-/// Y − 1 of the points.
+/// What the modes say of a brick, and the strains that follow, by (B8).
+template <class T> struct Brick {
+  strain_modes::Frame<T> frame;
+  T hourglass[4][3];
+  strain_modes::Products<T> products;
+  strain_modes::Strains<T> strains;
+};
+
+/// The frame's columns and the hourglass vectors are set.
+template <class T, class Invert, class Root>
+BILLET_INLINE void complete(const StrainConstants &constants, const Invert &invert, const Root &root,
+                            Brick<T> &brick) {
+  strain_modes::complete(brick.frame, invert, root);
+  strain_modes::multiply(brick.frame, brick.hourglass, brick.products);
+  strain_modes::compute_strains<Number>(constants, brick.frame, brick.products, brick.strains);
+}
+
+BILLET_INLINE void complete(const StrainConstants &constants, Brick<Real> &brick) {
+  complete(
+      constants, [](const Real x) { return 1._r / x; }, [](const Real x) { return square_root(x); }, brick);
+}
+
+/// What a step changes, as small as the step.
+struct BrickChange {
+  Real columns[3][3], duals[3][3]; ///< duals[k] of the beginning become those now
+  Real beginning[3][3];            ///< duals
+  strain_modes::Strains<Real> strains;
+  Real determinant; ///< float: its change
+  Mask inadmissible = {};
+};
+
+/// All numbers of a structure of them.
+template <class Step> BILLET_INLINE void get_after(const Step &step, Real &after) { after = step.after(); }
+template <class Step, class T, std::size_t n>
+BILLET_INLINE void get_after(const Step (&step)[n], T (&after)[n]) {
+  for (std::size_t k = 0; k < n; ++k)
+    get_after(step[k], after[k]);
+}
+
+/// `now` and `change` from the columns and hourglass vectors of `now` and their changes.
+BILLET_INLINE void complete(const StrainConstants &constants, const Real delta[4][3], Brick<Real> &now,
+                            BrickChange &change) {
+  if constexpr (is_single) {
+    // The difference of what is rounded would be lost.
+    using Both = Stepped<Real>;
+    Brick<Both> both;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i) {
+        both.frame.columns[k][i] = now.frame.columns[k][i] - change.columns[k][i];
+        both.frame.columns[k][i].change = change.columns[k][i];
+      }
+    for (unsigned int m = 0; m < 4; ++m)
+      for (unsigned int i = 0; i < 3; ++i) {
+        both.hourglass[m][i] = now.hourglass[m][i] - delta[m][i];
+        both.hourglass[m][i].change = delta[m][i];
+      }
+    complete(
+        constants, [](const Both &x) { return invert(x); },
+        [](const Both &x) { return billet::square_root(x, [](const Real y) { return square_root(y); }); },
+        both);
+    get_after(both.frame.duals, now.frame.duals);
+    get_after(both.frame.determinant, now.frame.determinant);
+    get_after(both.frame.metric, now.frame.metric);
+    get_after(both.frame.inverse_metric, now.frame.inverse_metric);
+    get_after(both.frame.inverse_squares, now.frame.inverse_squares);
+    get_after(both.frame.inverse_lengths, now.frame.inverse_lengths);
+    get_after(both.frame.square_heights, now.frame.square_heights);
+    get_after(both.frame.heights, now.frame.heights);
+    get_after(both.frame.inverse_areas, now.frame.inverse_areas);
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int j = 0; j < 3; ++j)
+        if (j != k)
+          get_after(both.frame.slopes[k][j], now.frame.slopes[k][j]);
+    get_after(both.products.of, now.products.of);
+    get_after(both.strains.linear, now.strains.linear);
+    get_after(both.strains.bilinear, now.strains.bilinear);
+    for (unsigned int k = 0; k < 3; ++k) {
+      for (unsigned int r = 0; r < 6; ++r) {
+        change.strains.linear[k][r] = both.strains.linear[k][r].change;
+        change.strains.bilinear[k][r] = both.strains.bilinear[k][r].change;
+      }
+      for (unsigned int i = 0; i < 3; ++i) {
+        change.duals[k][i] = both.frame.duals[k][i].change;
+        change.beginning[k][i] = both.frame.duals[k][i].value;
+      }
+    }
+    change.determinant = both.frame.determinant.change;
+    change.inadmissible = !(both.frame.determinant.value > 0._r);
+  } else {
+    complete(constants, now);
+    Brick<Real> before;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+        before.frame.columns[k][i] = now.frame.columns[k][i] - change.columns[k][i];
+    for (unsigned int m = 0; m < 4; ++m)
+      for (unsigned int i = 0; i < 3; ++i)
+        before.hourglass[m][i] = now.hourglass[m][i] - delta[m][i];
+    complete(constants, before);
+    for (unsigned int k = 0; k < 3; ++k) {
+      for (unsigned int r = 0; r < 6; ++r) {
+        change.strains.linear[k][r] = now.strains.linear[k][r] - before.strains.linear[k][r];
+        change.strains.bilinear[k][r] = now.strains.bilinear[k][r] - before.strains.bilinear[k][r];
+      }
+      for (unsigned int i = 0; i < 3; ++i) {
+        change.duals[k][i] = now.frame.duals[k][i] - before.frame.duals[k][i];
+        change.beginning[k][i] = before.frame.duals[k][i];
+      }
+    }
+    change.inadmissible = !(before.frame.determinant > 0._r);
+  }
+}
+
+/// Of the points, a_a·(Y − 1) a_b.
 struct PointStrains {
-  Real y[8][6];
+  Real h[8][6];
 };
 
 constexpr unsigned int place_of_linear[3] = {1, 2, 4}, place_of_bilinear[3] = {6, 5, 3};
 
 BILLET_INLINE void spread(const strain_modes::Strains<Real> &strains, PointStrains &points) {
   for (unsigned int r = 0; r < 6; ++r) {
-    Real values[8];
-    values[0] = values[7] = Real{};
+    // values[0] and values[7] are zero
+    Real l[3], b[3];
     for (unsigned int k = 0; k < 3; ++k) {
-      values[place_of_linear[k]] = gauss * strains.linear[k][r];
-      values[place_of_bilinear[k]] = (gauss * gauss) * strains.bilinear[k][r];
+      l[k] = gauss * strains.linear[k][r];
+      b[k] = (gauss * gauss) * strains.bilinear[k][r];
     }
-    for (unsigned int bit = 1; bit < 8; bit *= 2)
-      for (unsigned int q = 0; q < 8; ++q)
-        if ((q & bit) == 0) {
-          const Real mean = values[q], slope = values[q + bit];
-          values[q] = mean - slope;
-          values[q + bit] = mean + slope;
-        }
-    for (unsigned int q = 0; q < 8; ++q)
-      points.y[q][r] = values[q];
-  }
-}
-
-BILLET_INLINE Real reciprocal(const Real x) { return 1._r / x; }
-
-BILLET_INLINE void complete_frame(const Real columns[3][3], strain_modes::Frame<Real> &frame) {
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int i = 0; i < 3; ++i)
-      frame.columns[k][i] = columns[k][i];
-  strain_modes::complete(
-      frame, [](const Real x) { return reciprocal(x); }, [](const Real x) { return square_root(x); });
-}
-
-BILLET_INLINE void compute_point_strains(const StrainConstants &constants, const Real columns[3][3],
-                                         const Real hourglass[4][3], PointStrains &points) {
-  strain_modes::Frame<Real> frame;
-  complete_frame(columns, frame);
-  strain_modes::Strains<Real> strains;
-  strain_modes::compute_strains<Number>(constants, frame, hourglass, strains);
-  spread(strains, points);
-}
-
-/// Of a step: the strains in its middle and what they change by, as small as the step.
-BILLET_INLINE void compute_strain_steps(const StrainConstants &constants, const MeanMotion &mean,
-                                        const Real hourglass[4][3], const Real delta[4][3],
-                                        const PointStrains &now, PointStrains &middle, PointStrains &change) {
-  if constexpr (is_single) {
-    // The difference of what is rounded would be lost.
-    using Both = Stepped<Real>;
-    strain_modes::Frame<Both> frame;
-    Both vectors[4][3];
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i) {
-        frame.columns[k][i] = mean.before.j[k][i];
-        frame.columns[k][i].change = mean.d[k][i];
-      }
-    for (unsigned int m = 0; m < 4; ++m)
-      for (unsigned int i = 0; i < 3; ++i) {
-        vectors[m][i] = hourglass[m][i] - delta[m][i];
-        vectors[m][i].change = delta[m][i];
-      }
-    strain_modes::complete(
-        frame, [](const Both &x) { return invert(x); },
-        [](const Both &x) { return billet::square_root(x, [](const Real y) { return square_root(y); }); });
-    strain_modes::Strains<Both> strains;
-    strain_modes::compute_strains<Number>(constants, frame, vectors, strains);
-    strain_modes::Strains<Real> part;
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int r = 0; r < 6; ++r) {
-        part.linear[k][r] = strains.linear[k][r].value + 0.5_r * strains.linear[k][r].change;
-        part.bilinear[k][r] = strains.bilinear[k][r].value + 0.5_r * strains.bilinear[k][r].change;
-      }
-    spread(part, middle);
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int r = 0; r < 6; ++r) {
-        part.linear[k][r] = strains.linear[k][r].change;
-        part.bilinear[k][r] = strains.bilinear[k][r].change;
-      }
-    spread(part, change);
-  } else {
-    Real columns[3][3], vectors[4][3];
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-        columns[k][i] = mean.now.j[k][i] - mean.d[k][i];
-    for (unsigned int m = 0; m < 4; ++m)
-      for (unsigned int i = 0; i < 3; ++i)
-        vectors[m][i] = hourglass[m][i] - delta[m][i];
-    PointStrains before;
-    compute_point_strains(constants, columns, vectors, before);
-    for (unsigned int q = 0; q < 8; ++q)
-      for (unsigned int r = 0; r < 6; ++r) {
-        change.y[q][r] = now.y[q][r] - before.y[q][r];
-        middle.y[q][r] = 0.5_r * (now.y[q][r] + before.y[q][r]);
-      }
+    // Along ξ, of the modes 1 and η, ζ, ηζ; then along the two others.
+    for (unsigned int x = 0; x < 2; ++x) {
+      const Real mean = x == 0 ? -l[0] : l[0];
+      const Real eta = x == 0 ? l[1] - b[2] : l[1] + b[2], zeta = x == 0 ? l[2] - b[1] : l[2] + b[1];
+      const Real low = mean - eta, high = mean + eta, slope_low = zeta - b[0], slope_high = zeta + b[0];
+      points.h[x][r] = low - slope_low;
+      points.h[x + 2][r] = high - slope_high;
+      points.h[x + 4][r] = low + slope_low;
+      points.h[x + 6][r] = high + slope_high;
+    }
   }
 }
 
@@ -157,36 +196,39 @@ struct AssumedSums {
   Real lambda[8];                          ///< λ_max of j⁻¹ j⁻ᵀ of the points
   Mask inadmissible = {};                  ///< a point's j inside out, or not finite
   Real distortion = {}, plastic_work = {}; ///< energies per volume, summed
-  Real mean[3][3] = {};                    ///< Σ Y dev τ Y⁻¹, [row][column]
 };
 
-/// (1 + Y) v.
-BILLET_INLINE void stretch(const Real y[6], const Real v[3], Real result[3]) {
-  multiply(y, v, result);
-  for (unsigned int i = 0; i < 3; ++i)
-    result[i] += v[i];
+/// result += Σ_a v_a h_ab, for all b.
+BILLET_INLINE void add_stretched(const Real v[3][3], const Real h[6], Real result[3][3]) {
+  for (unsigned int b = 0; b < 3; ++b)
+    for (unsigned int i = 0; i < 3; ++i)
+      result[b][i] += v[0][i] * h[symmetric_index[0][b]] + v[1][i] * h[symmetric_index[1][b]] +
+                      v[2][i] * h[symmetric_index[2][b]];
+}
+
+/// Columns of j = Y J̄ at a point.
+BILLET_INLINE void compute_columns(const strain_modes::Frame<Real> &frame, const Real h[6], Map &map) {
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      map.j[k][i] = frame.columns[k][i];
+  add_stretched(frame.duals, h, map.j);
+  map.complete();
 }
 
 /// `tau` becomes dev τ of a point, `map` its j.
 template <class Law, bool is_plastic>
 BILLET_INLINE void update_assumed_point(const Material &material, const LaneFunctions &functions,
-                                        const MeanMotion &mean, const Number *constants, const Real y[6],
-                                        const Real middle[6], const Real change[6], Number *history, Map &map,
-                                        Real dev_tau[6], AssumedSums &sums) {
-  for (unsigned int k = 0; k < 3; ++k)
-    stretch(y, mean.now.j[k], map.j[k]);
-  map.complete();
+                                        const strain_modes::Frame<Real> &frame, const BrickChange &change,
+                                        const Number *constants, const Real h[6], const Real h_change[6],
+                                        Number *history, Map &map, Real dev_tau[6], AssumedSums &sums) {
+  compute_columns(frame, h, map);
   if constexpr (is_rate_form<Law> || is_single) {
     Real d[3][3];
-    for (unsigned int k = 0; k < 3; ++k) {
-      Real column[3], of_change[3], of_mean[3];
+    for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
-        column[i] = mean.now.j[k][i] - 0.5_r * mean.d[k][i];
-      multiply(change, column, of_change);
-      stretch(middle, mean.d[k], of_mean);
-      for (unsigned int i = 0; i < 3; ++i)
-        d[k][i] = of_change[i] + of_mean[i];
-    }
+        d[k][i] = change.columns[k][i];
+    add_stretched(change.duals, h, d);
+    add_stretched(change.beginning, h_change, d);
     Map other; // in the middle of the step, or before it
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
@@ -206,42 +248,26 @@ BILLET_INLINE void update_assumed_point(const Material &material, const LaneFunc
                                      history, dev_tau, sums.watch);
 }
 
-/// Adds what dev τ of a point does: to the sums, and `stress` = sym(dev τ Y⁻¹).
+/// Adds what dev τ of a point does: to the sums, and `forces` = dev τ j⁻ᵀ, those of its columns.
 template <bool is_plastic>
-BILLET_INLINE void add_assumed_point(const unsigned int q, const Real h[6], const Map &map,
-                                     const Real dev_tau[6], AssumedSums &sums, Real stress[6]) {
-  Real y[6], cofactor[6];
-  for (unsigned int r = 0; r < 6; ++r)
-    y[r] = h[r] + (r < 3 ? 1._r : 0._r);
-  cofactor[0] = y[1] * y[2] - y[5] * y[5];
-  cofactor[1] = y[0] * y[2] - y[4] * y[4];
-  cofactor[2] = y[0] * y[1] - y[3] * y[3];
-  cofactor[3] = y[4] * y[5] - y[3] * y[2];
-  cofactor[4] = y[3] * y[5] - y[1] * y[4];
-  cofactor[5] = y[3] * y[4] - y[0] * y[5];
-  const Real determinant = y[0] * cofactor[0] + y[3] * cofactor[3] + y[4] * cofactor[4];
+BILLET_INLINE void add_assumed_point(const unsigned int q, const Real metric[6], const Real h[6],
+                                     const Map &map, const Real dev_tau[6], AssumedSums &sums,
+                                     Real forces[3][3]) {
+  // Y is positive definite: minors of a_a·Y a_b, of which the largest is det j det J̄.
+  const Real c_11 = metric[0] + h[0], c_22 = metric[1] + h[1], c_12 = metric[3] + h[3];
   sums.inadmissible |=
-      !(y[0] > 0._r && cofactor[2] > 0._r && determinant > 0._r && map.det > 0._r && map.det < finite_bound);
-  const Real inverse = 1._r / determinant;
-  Real product[3][3]; // dev τ Y⁻¹, its columns
-  for (unsigned int k = 0; k < 3; ++k) {
-    const Real column[3] = {inverse * cofactor[symmetric_index[0][k]],
-                            inverse * cofactor[symmetric_index[1][k]],
-                            inverse * cofactor[symmetric_index[2][k]]};
-    multiply(dev_tau, column, product[k]);
-    Real stretched[3];
-    multiply(y, product[k], stretched);
-    for (unsigned int i = 0; i < 3; ++i)
-      sums.mean[i][k] += stretched[i];
-  }
+      !(c_11 > 0._r && c_11 * c_22 > c_12 * c_12 && map.det > 0._r && map.det < finite_bound);
+  Real scaled[6];
   for (unsigned int r = 0; r < 6; ++r)
-    stress[r] = 0.5_r * (product[row_of[r]][column_of[r]] + product[column_of[r]][row_of[r]]);
+    scaled[r] = map.inverse_det * dev_tau[r];
+  for (unsigned int k = 0; k < 3; ++k)
+    multiply(scaled, map.cofactor[k], forces[k]);
   sums.distortion += sums.watch.distortion;
   if constexpr (is_plastic)
     sums.plastic_work += sums.watch.plastic_work;
-  Real metric[6];
-  map.compute_metric(metric);
-  sums.lambda[q] = bound_eigenvalue(metric) * (map.inverse_det * map.inverse_det);
+  Real bound[6];
+  map.compute_metric(bound);
+  sums.lambda[q] = bound_eigenvalue(bound) * (map.inverse_det * map.inverse_det);
 }
 
 /// Bound of ⅛ Σ_q λ_q |∂v/∂ξ|²_q over the modes' squares, (B7), by the rows of its matrix.
@@ -265,43 +291,77 @@ BILLET_INLINE Real bound_points(const Real lambda[8]) {
   return 0.125_r * largest;
 }
 
-/// Forces of the modes, from those of the strains and of the mean gradient.
-BILLET_INLINE void compute_forces(const StrainConstants &strain_constants,
-                                  const strain_modes::Frame<Real> &frame, const Real hourglass[4][3],
-                                  const Real stress[8][6], const AssumedSums &sums, const Real weight,
-                                  const Real pressure, const Number *constants, Modes &modal) {
-  strain_modes::Strains<Real> stresses;
-  for (unsigned int r = 0; r < 6; ++r) {
-    Real values[8];
-    for (unsigned int q = 0; q < 8; ++q)
-      values[q] = stress[q][r];
-    hadamard(values);
-    for (unsigned int k = 0; k < 3; ++k) {
-      stresses.linear[k][r] = (gauss * weight) * values[place_of_linear[k]];
-      stresses.bilinear[k][r] = (gauss * gauss * weight) * values[place_of_bilinear[k]];
+/// Sums over the points of the forces of their columns, per mode of the strains, and of their mean.
+struct ColumnForces {
+  Real mean[3][3], linear[3][3][3], bilinear[3][3][3];
+};
+
+BILLET_INLINE void sum_points(const Real points[8][3][3], const Real weight, ColumnForces &sums) {
+  const Real first = gauss * weight, second = (gauss * gauss) * weight;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i) {
+      Real values[8];
+      for (unsigned int q = 0; q < 8; ++q)
+        values[q] = points[q][k][i];
+      hadamard(values);
+      sums.mean[k][i] = weight * values[0];
+      for (unsigned int m = 0; m < 3; ++m) {
+        sums.linear[m][k][i] = first * values[place_of_linear[m]];
+        sums.bilinear[m][k][i] = second * values[place_of_bilinear[m]];
+      }
     }
+}
+
+/// Of j = a_b + Σ_a a^a h_ab per strain: `stress`, which works on h_ab, from the forces f_b of the columns,
+/// and what those do to the duals, a^k·(Σ_b h_ab f_b) to be added at [a][k].
+BILLET_INLINE void add_strain_forces(const Real duals[3][3], const Real f[3][3], const Real h[6],
+                                     Real stress[6], Real of_duals[3][3]) {
+  Real t[3][3]; // a^k·f_b
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int b = 0; b < 3; ++b)
+      t[k][b] = dot(duals[k], f[b]);
+  for (unsigned int r = 0; r < 6; ++r)
+    stress[r] = r < 3 ? t[r][r] : t[row_of[r]][column_of[r]] + t[column_of[r]][row_of[r]];
+  for (unsigned int a = 0; a < 3; ++a)
+    for (unsigned int k = 0; k < 3; ++k)
+      of_duals[a][k] += h[symmetric_index[a][0]] * t[k][0] + h[symmetric_index[a][1]] * t[k][1] +
+                        h[symmetric_index[a][2]] * t[k][2];
+}
+
+/// Forces of the modes, from those of the points' columns.
+BILLET_INLINE void compute_forces(const StrainConstants &strain_constants, const Brick<Real> &brick,
+                                  const Real points[8][3][3], const Real weight, const Real pressure,
+                                  const Number *constants, Modes &modal) {
+  const strain_modes::Frame<Real> &frame = brick.frame;
+  ColumnForces sums;
+  sum_points(points, weight, sums);
+  strain_modes::Strains<Real> stresses;
+  Real of_duals[3][3] = {};
+  for (unsigned int m = 0; m < 3; ++m) {
+    add_strain_forces(frame.duals, sums.linear[m], brick.strains.linear[m], stresses.linear[m], of_duals);
+    add_strain_forces(frame.duals, sums.bilinear[m], brick.strains.bilinear[m], stresses.bilinear[m],
+                      of_duals);
   }
   strain_modes::Forces<Real> forces{};
-  for (unsigned int i = 0; i < 3; ++i)
-    for (unsigned int j = 0; j < 3; ++j)
-      forces.mean[i][j] = weight * sums.mean[i][j] + (i == j ? pressure : Real{});
-  strain_modes::add_forces<Number>(strain_constants, frame, hourglass, stresses, forces);
-  Real columns[3][3];
   for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int i = 0; i < 3; ++i)
-      columns[k][i] = dot(forces.mean[i], frame.duals[k]);
+    for (unsigned int i = 0; i < 3; ++i) // δa^a = −Σ_k (a^a·δa_k) a^k
+      forces.columns[k][i] = sums.mean[k][i] + pressure * frame.duals[k][i] -
+                             (of_duals[0][k] * frame.duals[0][i] + of_duals[1][k] * frame.duals[1][i] +
+                              of_duals[2][k] * frame.duals[2][i]);
+  strain_modes::add_forces<Number>(strain_constants, frame, brick.hourglass, brick.products, stresses,
+                                   forces);
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int k = 0; k < 3; ++k) {
       const Real own = load(constants + (assumed_strain::own + 3 * m + k) * n_lanes);
       for (unsigned int i = 0; i < 3; ++i)
-        columns[k][i] -= own * forces.hourglass[m][i];
+        forces.columns[k][i] -= own * forces.hourglass[m][i];
     }
   for (unsigned int m = 0; m < 7; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
       Real sum = m < 3 ? Real{} : forces.hourglass[m < 3 ? 0 : m - 3][i];
       if (m < 6)
         for (unsigned int k = 0; k < 3; ++k)
-          sum += columns[k][i] * load(constants + (mean_gradient::beta + 3 * m + k) * n_lanes);
+          sum += forces.columns[k][i] * load(constants + (mean_gradient::beta + 3 * m + k) * n_lanes);
       modal.m[m][i] = sum;
     }
 }
@@ -320,56 +380,54 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
   Motion motion;
   gather_motion<is_rate_form<Law>>(elements, step, nodes, constants + assumed_strain::modes * n_lanes,
                                    motion);
-  MeanMotion mean;
-  compute_mean_motion<is_rate_form<Law>>(motion, constants, mean);
   StrainConstants strain_constants;
   load_constants(constants, fourth, strain_constants);
-  Real hourglass[4][3];
-  compute_hourglass(motion.x, mean.now.j, constants, hourglass);
-  strain_modes::Frame<Real> frame;
-  complete_frame(mean.now.j, frame);
-  strain_modes::Strains<Real> strains;
-  strain_modes::compute_strains<Number>(strain_constants, frame, hourglass, strains);
-  PointStrains now, middle, change;
-  spread(strains, now);
+  Brick<Real> brick;
+  const strain_modes::Frame<Real> &frame = brick.frame;
+  BrickChange change;
+  compute_mean(motion.x, constants, brick.frame.columns);
+  compute_hourglass(motion.x, frame.columns, constants, brick.hourglass);
+  PointStrains now, of_step;
   if constexpr (with_step) {
+    compute_mean(motion.delta, constants, change.columns);
     Real delta[4][3];
-    compute_hourglass(motion.delta, mean.d, constants, delta);
-    compute_strain_steps(strain_constants, mean, hourglass, delta, now, middle, change);
-  }
+    compute_hourglass(motion.delta, change.columns, constants, delta);
+    complete(strain_constants, delta, brick, change);
+    spread(change.strains, of_step);
+  } else
+    complete(strain_constants, brick);
+  spread(brick.strains, now);
 
   const Real reference_volume = load(constants + mean_gradient::volume * n_lanes);
+  const Real inverse_det = load(constants + mean_gradient::inverse_det * n_lanes);
+  const Real J = frame.determinant * inverse_det; // but for small changes
   AssumedSums sums;
   VolumeChange volume;
-  if constexpr (is_single) {
-    sums.inadmissible |= !(mean.before.det > 0._r);
-    const Real scale = reference_volume * load(constants + mean_gradient::inverse_det * n_lanes);
-    volume = add_volume(scale * compute_change(mean), reference_volume, history);
-  } else
-    volume = compare_volume(reference_volume * mean.J, mean.J, history);
+  if constexpr (is_single)
+    volume = add_volume((reference_volume * inverse_det) * change.determinant, reference_volume, history);
+  else
+    volume = compare_volume(reference_volume * J, J, history);
 
-  Real stress[8][6];
+  Real points[8][3][3];
   for (unsigned int q = 0; q < 8; ++q) {
     Map map;
     Real dev_tau[6];
     update_assumed_point<Law, is_plastic>(
-        material, functions, mean, constants, now.y[q], middle.y[q], change.y[q],
+        material, functions, frame, change, constants, now.h[q], of_step.h[q],
         history + (last::n + q * layout.n_point_history) * n_lanes, map, dev_tau, sums);
-    add_assumed_point<is_plastic>(q, now.y[q], map, dev_tau, sums, stress[q]);
+    add_assumed_point<is_plastic>(q, frame.metric, now.h[q], map, dev_tau, sums, points[q]);
   }
 
   const Real per_mass = reference_volume * load(constants + mean_gradient::bound * n_lanes);
   const Real omega = per_mass * bound_points(sums.lambda);
-  Real of_volume{}; // tr J̄⁻¹ J̄⁻ᵀ
-  for (unsigned int k = 0; k < 3; ++k)
-    of_volume += dot(frame.duals[k], frame.duals[k]);
-  of_volume *= per_mass;
+  const Real of_volume =
+      per_mass * (frame.inverse_metric[0] + frame.inverse_metric[1] + frame.inverse_metric[2]); // tr J̄⁻¹ J̄⁻ᵀ
   const Real mean_tau = material.bulk * volume.logarithm_of_J;
   const Damping damping = compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));
   store(history + last::omega * n_lanes, omega);
   Modes modal;
-  compute_forces(strain_constants, frame, hourglass, stress, sums, 0.125_r * reference_volume,
-                 reference_volume * (mean_tau + mean.J * damping.pressure), constants, modal);
+  compute_forces(strain_constants, brick, points, 0.125_r * reference_volume,
+                 reference_volume * (mean_tau + J * damping.pressure), constants, modal);
   const std::size_t first = batch * n_lanes;
   const std::size_t n = count_elements(elements, first);
   scatter_modes(modal, nodes, n, step);
@@ -382,9 +440,11 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
       reference_volume * (0.125_r * sums.distortion + compute_dilatation_energy(material, mean_tau));
   energies.plastic = 0.125_r * reference_volume * sums.plastic_work;
   energies.viscous = damping.work;
-  totals.add(n, bound_rate(rate_squared, (1._r / 3._r) * damping.rate * mean.J * of_volume), energies);
-  const Mask bad =
-      sums.inadmissible | sums.watch.failed | !(mean.now.det > 0._r && mean.now.det < finite_bound);
+  totals.add(n, bound_rate(rate_squared, (1._r / 3._r) * damping.rate * J * of_volume), energies);
+  Mask bad =
+      sums.inadmissible | sums.watch.failed | !(frame.determinant > 0._r && frame.determinant < finite_bound);
+  if constexpr (with_step)
+    bad |= change.inadmissible;
   if (__builtin_expect(any(bad), 0))
     note_failure(bad, first, result);
 }
