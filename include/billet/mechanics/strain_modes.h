@@ -108,10 +108,10 @@ template <class Real> struct Bending {
   Real sum;                ///< what the thinning follows
 };
 
-template <class Number, class Fixed, class Real>
+template <class Number, unsigned int k, class Fixed, class Real>
 BILLET_STRAIN Bending<Real> bend(const Constants<Fixed> &constants, const Frame<Real> &frame,
-                                 const Products<Real> &products, const unsigned int k) {
-  const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
+                                 const Products<Real> &products) {
+  constexpr unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
   const Fixed s_i = constants.share[i][k], s_j = constants.share[j][k];
   const Real &g_ij = frame.metric[pair[i][j]], &p_i = frame.slopes[k][i], &p_j = frame.slopes[k][j];
   Bending<Real> h;
@@ -132,192 +132,220 @@ BILLET_STRAIN Bending<Real> bend(const Constants<Fixed> &constants, const Frame<
 }
 
 /// h += factor sym(a_j ⊗ a^k), l the third direction.
-template <class Number, class Real>
-BILLET_STRAIN void add_shear(const Frame<Real> &frame, const Real &factor, const unsigned int j,
-                             const unsigned int k, Real *h) {
-  const unsigned int l = 3 - j - k;
+template <class Number, unsigned int j, unsigned int k, class Real>
+BILLET_STRAIN void add_shear(const Frame<Real> &frame, const Real &factor, Real *h) {
+  constexpr unsigned int l = 3 - j - k;
   const Real half = Number(0.5) * factor;
   h[k] += factor * frame.metric[pair[j][k]];
   h[pair[j][k]] += half * frame.metric[j];
   h[pair[k][l]] += half * frame.metric[pair[j][l]];
 }
 
+/// h_k of (B3), without shear; e: [j][k].
+template <class Number, unsigned int k, class Fixed, class Real>
+BILLET_STRAIN void set_bending(const Constants<Fixed> &constants, const Frame<Real> &frame,
+                               const Products<Real> &products, Real (*e)[3], Real *h) {
+  constexpr unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
+  const Bending<Real> bending = bend<Number, k>(constants, frame, products);
+  e[i][k] = bending.e_i;
+  e[j][k] = bending.e_j;
+  h[i] = bending.ii;
+  h[j] = bending.jj;
+  h[pair[i][j]] = bending.ij;
+  h[pair[i][k]] = bending.ik;
+  h[pair[j][k]] = bending.jk;
+  h[k] = frame.slopes[k][i] * bending.ik + frame.slopes[k][j] * bending.jk -
+         constants.thinning[k] * (frame.square_heights[k] * bending.sum);
+}
+
+/// Of the fourth mode, without shear; returns θ e_j.
+template <class Number, unsigned int j, class Fixed, class Real>
+BILLET_STRAIN Real set_fourth(const Constants<Fixed> &constants, const Frame<Real> &frame,
+                              const Products<Real> &products, Real *h) {
+  constexpr unsigned int k = (j + 1) % 3, l = (j + 2) % 3;
+  const Real e = constants.fourth * (frame.inverse_squares[j] * products.of[3][j]);
+  const Real half = Number(0.5) * e, more = (Number(1.5) * e) * frame.inverse_squares[j];
+  const Real &g_jk = frame.metric[pair[j][k]], &g_jl = frame.metric[pair[j][l]];
+  const Real more_k = more * g_jk;
+  h[j] = e * frame.metric[j];
+  h[pair[j][k]] = e * g_jk;
+  h[pair[j][l]] = e * g_jl;
+  h[k] = more_k * g_jk - half * frame.metric[k];
+  h[l] = more * (g_jl * g_jl) - half * frame.metric[l];
+  h[pair[k][l]] = more_k * g_jl - half * frame.metric[pair[k][l]];
+  return Number(kept_shear) * e;
+}
+
+/// What of fibre j is sheared where k is the other direction: (B4), and of the fourth mode.
+template <class Number, unsigned int j, unsigned int k, class Fixed, class Real>
+BILLET_STRAIN void add_shears(const Constants<Fixed> &constants, const Frame<Real> &frame, const Real &e,
+                              const Real &fourth, Strains<Real> &strains) {
+  const Real slender = frame.inverse_lengths[j] * frame.heights[k]; // t_j ⊗ n_k = a_j ⊗ a^k times it
+  add_shear<Number, j, k>(frame, constants.shear[j][k] * (e * slender), strains.linear[j]);
+  add_shear<Number, j, k>(frame, fourth * slender, strains.bilinear[k]);
+}
+
 /// (B3) to (B5).
 template <class Number, class Fixed, class Real>
 BILLET_STRAIN void compute_strains(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                    const Products<Real> &products, Strains<Real> &strains) {
-  Real e[3][3]; // [j][k]
-  for (unsigned int k = 0; k < 3; ++k) {
-    const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
-    const Bending<Real> bending = bend<Number>(constants, frame, products, k);
-    e[i][k] = bending.e_i;
-    e[j][k] = bending.e_j;
-    Real *h = strains.linear[k];
-    h[i] = bending.ii;
-    h[j] = bending.jj;
-    h[pair[i][j]] = bending.ij;
-    h[pair[i][k]] = bending.ik;
-    h[pair[j][k]] = bending.jk;
-    h[k] = frame.slopes[k][i] * bending.ik + frame.slopes[k][j] * bending.jk -
-           constants.thinning[k] * (frame.square_heights[k] * bending.sum);
-  }
-  for (unsigned int j = 0; j < 3; ++j) {
-    const unsigned int k = (j + 1) % 3, l = (j + 2) % 3;
-    const Real fourth = constants.fourth * (frame.inverse_squares[j] * products.of[3][j]);
-    const Real half = Number(0.5) * fourth, more = (Number(1.5) * fourth) * frame.inverse_squares[j];
-    const Real &g_jk = frame.metric[pair[j][k]], &g_jl = frame.metric[pair[j][l]];
-    const Real more_k = more * g_jk;
-    Real *h = strains.bilinear[j];
-    h[j] = fourth * frame.metric[j];
-    h[pair[j][k]] = fourth * g_jk;
-    h[pair[j][l]] = fourth * g_jl;
-    h[k] = more_k * g_jk - half * frame.metric[k];
-    h[l] = more * (g_jl * g_jl) - half * frame.metric[l];
-    h[pair[k][l]] = more_k * g_jl - half * frame.metric[pair[k][l]];
-    e[j][j] = Number(kept_shear) * fourth;
-  }
-  for (unsigned int j = 0; j < 3; ++j)
-    for (unsigned int k = 0; k < 3; ++k)
-      if (j != k) {
-        const Real slender = frame.inverse_lengths[j] * frame.heights[k]; // t_j ⊗ n_k = a_j ⊗ a^k times it
-        add_shear<Number>(frame, constants.shear[j][k] * (e[j][k] * slender), j, k, strains.linear[j]);
-        add_shear<Number>(frame, e[j][j] * slender, j, k, strains.bilinear[k]);
-      }
+  Real e[3][3];
+  set_bending<Number, 0>(constants, frame, products, e, strains.linear[0]);
+  set_bending<Number, 1>(constants, frame, products, e, strains.linear[1]);
+  set_bending<Number, 2>(constants, frame, products, e, strains.linear[2]);
+  const Real fourth[3] = {set_fourth<Number, 0>(constants, frame, products, strains.bilinear[0]),
+                          set_fourth<Number, 1>(constants, frame, products, strains.bilinear[1]),
+                          set_fourth<Number, 2>(constants, frame, products, strains.bilinear[2])};
+  add_shears<Number, 0, 1>(constants, frame, e[0][1], fourth[0], strains);
+  add_shears<Number, 0, 2>(constants, frame, e[0][2], fourth[0], strains);
+  add_shears<Number, 1, 0>(constants, frame, e[1][0], fourth[1], strains);
+  add_shears<Number, 1, 2>(constants, frame, e[1][2], fourth[1], strains);
+  add_shears<Number, 2, 0>(constants, frame, e[2][0], fourth[2], strains);
+  add_shears<Number, 2, 1>(constants, frame, e[2][1], fourth[2], strains);
 }
 
-/// Of a strain `factor` sym(a_j ⊗ a^k) and its stress T: T times it per factor, and what it does to the
-/// metric.
-template <class Number, class Real>
-BILLET_STRAIN Real work_of_shear(const Frame<Real> &frame, const Real *T, const unsigned int j,
-                                 const unsigned int k) {
-  const unsigned int l = 3 - j - k;
-  return T[k] * frame.metric[pair[j][k]] +
-         Number(0.5) * (T[pair[j][k]] * frame.metric[j] + T[pair[k][l]] * frame.metric[pair[j][l]]);
+/// Derivatives of a power by the metric, by ln l_j, by ln(height_k), and by the products.
+template <class Real> struct Derivatives { Real metric[6], length[3], height[3], products[4][3]; };
+
+/// Of a strain `factor` e sym(a_j ⊗ a^k) and its stress T, l the third direction: by e, and added to
+/// `derivatives`. `factor` goes with height_k/l_j.
+template <class Number, unsigned int j, unsigned int k, class Real>
+BILLET_STRAIN Real differentiate_shear(const Frame<Real> &frame, const Real &factor, const Real &e,
+                                       const Real *T, Derivatives<Real> &derivatives) {
+  constexpr unsigned int l = 3 - j - k;
+  const Real by_e =
+      factor * (T[k] * frame.metric[pair[j][k]] +
+                Number(0.5) * (T[pair[j][k]] * frame.metric[j] + T[pair[k][l]] * frame.metric[pair[j][l]]));
+  const Real both = factor * e, half = Number(0.5) * both, power = e * by_e;
+  derivatives.metric[pair[j][k]] += both * T[k];
+  derivatives.metric[j] += half * T[pair[j][k]];
+  derivatives.metric[pair[j][l]] += half * T[pair[k][l]];
+  derivatives.height[k] += power;
+  derivatives.length[j] -= power;
+  return by_e;
 }
-template <class Number, class Real>
-BILLET_STRAIN void add_forces_of_shear(const Real &factor, const Real *T, const unsigned int j,
-                                       const unsigned int k, Real *of_metric) {
-  const unsigned int l = 3 - j - k;
-  const Real half = Number(0.5) * factor;
-  of_metric[pair[j][k]] += factor * T[k];
-  of_metric[j] += half * T[pair[j][k]];
-  of_metric[pair[j][l]] += half * T[pair[k][l]];
+
+/// Of the fourth mode's part that follows fibre j.
+template <class Number, unsigned int j, class Fixed, class Real>
+BILLET_STRAIN void differentiate_fourth(const Constants<Fixed> &constants, const Frame<Real> &frame,
+                                        const Products<Real> &products, const Strains<Real> &stresses,
+                                        Derivatives<Real> &derivatives) {
+  constexpr unsigned int k = (j + 1) % 3, l = (j + 2) % 3;
+  const Real *T = stresses.bilinear[j];
+  const Real &r_j = frame.inverse_squares[j];
+  const Real &g_jk = frame.metric[pair[j][k]], &g_jl = frame.metric[pair[j][l]];
+  const Real share = constants.fourth * r_j;
+  const Real e = share * products.of[3][j], half = Number(0.5) * e;
+  const Real more = Number(1.5) * r_j, T_kl = Number(0.5) * T[pair[k][l]];
+  const Real u_k = more * (T[k] * g_jk + T_kl * g_jl), u_l = more * (T[l] * g_jl + T_kl * g_jk);
+  const Real both = u_k * g_jk + u_l * g_jl;
+  Real by_e = T[j] * frame.metric[j] + T[pair[j][k]] * g_jk + T[pair[j][l]] * g_jl + both -
+              Number(0.5) * (T[k] * frame.metric[k] + T[l] * frame.metric[l] +
+                             T[pair[k][l]] * frame.metric[pair[k][l]]);
+  derivatives.metric[j] += e * T[j];
+  derivatives.metric[pair[j][k]] += e * (T[pair[j][k]] + (u_k + u_k));
+  derivatives.metric[pair[j][l]] += e * (T[pair[j][l]] + (u_l + u_l));
+  derivatives.metric[k] -= half * T[k];
+  derivatives.metric[l] -= half * T[l];
+  derivatives.metric[pair[k][l]] -= half * T[pair[k][l]];
+  const Real kept = Number(kept_shear) * frame.inverse_lengths[j];
+  by_e +=
+      differentiate_shear<Number, j, k>(frame, kept * frame.heights[k], e, stresses.bilinear[k],
+                                        derivatives) +
+      differentiate_shear<Number, j, l>(frame, kept * frame.heights[l], e, stresses.bilinear[l], derivatives);
+  derivatives.length[j] -= Number(2) * (e * (both + by_e));
+  derivatives.products[3][j] = share * by_e;
+}
+
+/// Of what bends along k. To be called last, when derivatives.height[k] is complete.
+template <class Number, unsigned int k, class Fixed, class Real>
+BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, const Frame<Real> &frame,
+                                         const Products<Real> &products, const Strains<Real> &stresses,
+                                         Derivatives<Real> &derivatives) {
+  constexpr unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
+  const Bending<Real> h = bend<Number, k>(constants, frame, products);
+  const Real *T = stresses.linear[k];
+  const Fixed s_i = constants.share[i][k], s_j = constants.share[j][k];
+  const Real &p_i = frame.slopes[k][i], &p_j = frame.slopes[k][j];
+  const Real &g_ij = frame.metric[pair[i][j]];
+
+  // The thinning, then from a_k to its part in the plane
+  const Real by_sum = constants.thinning[k] * (frame.square_heights[k] * T[k]); // with its sign
+  derivatives.height[k] -= Number(2) * (by_sum * h.sum);
+  const Real T_ik = T[pair[i][k]] + p_i * T[k], T_jk = T[pair[j][k]] + p_j * T[k];
+  const Real by_p_i = T[k] * h.ik + T_ik * h.ii + T_jk * h.ij,
+             by_p_j = T[k] * h.jk + T_ik * h.ij + T_jk * h.jj;
+  const Real T_ij = T[pair[i][j]] + p_j * T_ik + p_i * T_jk;
+  const Real by_area = frame.inverse_areas[k] * by_sum;
+  const Real both = (s_i + s_j) * by_area;
+  const Real by_eta_ij = Number(0.5) * (T_ij + both * g_ij);
+  const Real half = Number(0.5) * T_ij;
+  const Real by_less = half * g_ij;
+  derivatives.metric[pair[i][j]] += half * h.less + both * h.eta_ij - Number(2) * (by_area * (h.sum * g_ij));
+  derivatives.metric[i] += by_area * (h.sum * frame.metric[j] - h.jj);
+  derivatives.metric[j] += by_area * (h.sum * frame.metric[i] - h.ii);
+
+  // The shear that goes with each fibre's bending
+  const Real by_e_i = (s_i - Number(1)) * by_less +
+                      differentiate_shear<Number, i, k>(
+                          frame, constants.shear[i][k] * (frame.inverse_lengths[i] * frame.heights[k]), h.e_i,
+                          stresses.linear[i], derivatives);
+  const Real by_e_j = (s_j - Number(1)) * by_less +
+                      differentiate_shear<Number, j, k>(
+                          frame, constants.shear[j][k] * (frame.inverse_lengths[j] * frame.heights[k]), h.e_j,
+                          stresses.linear[j], derivatives);
+  derivatives.length[i] -= Number(2) * (h.e_i * by_e_i);
+  derivatives.length[j] -= Number(2) * (h.e_j * by_e_j);
+  derivatives.products[j][i] =
+      s_i * (T[i] + p_i * T_ik - by_area * frame.metric[j]) + frame.inverse_squares[i] * by_e_i;
+  derivatives.products[i][j] =
+      s_j * (T[j] + p_j * T_jk - by_area * frame.metric[i]) + frame.inverse_squares[j] * by_e_j;
+  derivatives.products[i][i] += by_eta_ij;
+  derivatives.products[j][j] += by_eta_ij;
+
+  // Slopes: (a_i, a_j)ᵀ (a_i, a_j) p = (a_i, a_j)ᵀ a_k; heights: 1/height² of a_k is a^k·a^k.
+  const Real by_kk = Number(0.5) * (frame.inverse_metric[k] * derivatives.height[k]);
+  const Real turned_i = by_kk * p_i, turned_j = by_kk * p_j;
+  const Real pi_i = frame.inverse_areas[k] * (frame.metric[j] * by_p_i - g_ij * by_p_j) - turned_i,
+             pi_j = frame.inverse_areas[k] * (frame.metric[i] * by_p_j - g_ij * by_p_i) - turned_j;
+  derivatives.metric[k] += by_kk;
+  derivatives.metric[pair[i][k]] += pi_i - turned_i;
+  derivatives.metric[pair[j][k]] += pi_j - turned_j;
+  derivatives.metric[i] -= pi_i * p_i;
+  derivatives.metric[j] -= pi_j * p_j;
+  derivatives.metric[pair[i][j]] -= pi_i * p_j + pi_j * p_i;
 }
 
 /// Of the power Σ T_ab h_ab˙ of stresses, a ≤ b: the shear stresses count twice. Added to `forces`. The
-/// derivatives of the code above, backwards: by the metric, by ln l_j, by ln(height_k), and by the products.
+/// derivatives of compute_strains().
 template <class Number, class Fixed, class Real>
 BILLET_STRAIN void add_forces(const Constants<Fixed> &constants, const Frame<Real> &frame,
                               const Real (*hourglass)[3], const Products<Real> &products,
                               const Strains<Real> &stresses, Forces<Real> &forces) {
-  Real of_metric[6], of_length[3], of_height[3], of_products[4][3];
-  for (unsigned int j = 0; j < 3; ++j) {
-    of_metric[j] = of_metric[3 + j] = of_height[j] = Real{};
-    of_products[j][j] = Real{};
-  }
-  for (unsigned int j = 0; j < 3; ++j) {
-    const unsigned int k = (j + 1) % 3, l = (j + 2) % 3;
-    const Real *T = stresses.bilinear[j];
-    const Real &r_j = frame.inverse_squares[j];
-    const Real &g_jk = frame.metric[pair[j][k]], &g_jl = frame.metric[pair[j][l]];
-    const Real e = constants.fourth * (r_j * products.of[3][j]), half = Number(0.5) * e;
-    const Real more = Number(1.5) * r_j, T_kl = Number(0.5) * T[pair[k][l]];
-    const Real u_k = more * (T[k] * g_jk + T_kl * g_jl), u_l = more * (T[l] * g_jl + T_kl * g_jk);
-    const Real both = u_k * g_jk + u_l * g_jl;
-    Real of_e = T[j] * frame.metric[j] + T[pair[j][k]] * g_jk + T[pair[j][l]] * g_jl + both -
-                Number(0.5) * (T[k] * frame.metric[k] + T[l] * frame.metric[l] +
-                               T[pair[k][l]] * frame.metric[pair[k][l]]);
-    of_metric[j] += e * T[j];
-    of_metric[pair[j][k]] += e * (T[pair[j][k]] + (u_k + u_k));
-    of_metric[pair[j][l]] += e * (T[pair[j][l]] + (u_l + u_l));
-    of_metric[k] -= half * T[k];
-    of_metric[l] -= half * T[l];
-    of_metric[pair[k][l]] -= half * T[pair[k][l]];
-    Real sheared = Real{};
-    for (unsigned int other = 0; other < 2; ++other) {
-      const unsigned int m = other == 0 ? k : l;
-      const Real work = work_of_shear<Number>(frame, stresses.bilinear[m], j, m);
-      const Real factor = Number(kept_shear) * (frame.inverse_lengths[j] * frame.heights[m]);
-      const Real force = factor * e, ratio = force * work;
-      of_e += factor * work;
-      of_height[m] += ratio;
-      sheared += ratio;
-      add_forces_of_shear<Number>(force, stresses.bilinear[m], j, m, of_metric);
-    }
-    of_length[j] = Real{} - sheared - Number(2) * (e * (both + of_e));
-    of_products[3][j] = constants.fourth * (r_j * of_e);
-  }
+  Derivatives<Real> by;
+  for (unsigned int j = 0; j < 3; ++j)
+    by.metric[j] = by.metric[3 + j] = by.length[j] = by.height[j] = by.products[j][j] = Real{};
+  differentiate_fourth<Number, 0>(constants, frame, products, stresses, by);
+  differentiate_fourth<Number, 1>(constants, frame, products, stresses, by);
+  differentiate_fourth<Number, 2>(constants, frame, products, stresses, by);
+  differentiate_bending<Number, 0>(constants, frame, products, stresses, by);
+  differentiate_bending<Number, 1>(constants, frame, products, stresses, by);
+  differentiate_bending<Number, 2>(constants, frame, products, stresses, by);
   for (unsigned int k = 0; k < 3; ++k) {
     const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
-    const Bending<Real> h = bend<Number>(constants, frame, products, k);
-    const Real *T = stresses.linear[k];
-    const Fixed s_i = constants.share[i][k], s_j = constants.share[j][k];
-    const Real &p_i = frame.slopes[k][i], &p_j = frame.slopes[k][j];
-    const Real &g_ij = frame.metric[pair[i][j]];
-
-    // The thinning, then from a_k to its part in the plane
-    const Real of_sum = Real{} - constants.thinning[k] * (frame.square_heights[k] * T[k]);
-    of_height[k] += Number(2) * (of_sum * h.sum);
-    const Real T_ik = T[pair[i][k]] + p_i * T[k], T_jk = T[pair[j][k]] + p_j * T[k];
-    const Real of_p_i = T[k] * h.ik + T_ik * h.ii + T_jk * h.ij,
-               of_p_j = T[k] * h.jk + T_ik * h.ij + T_jk * h.jj;
-    const Real T_ij = T[pair[i][j]] + p_j * T_ik + p_i * T_jk;
-    const Real by_area = frame.inverse_areas[k] * of_sum;
-    const Real of_eta_ij = T_ij - (s_i + s_j) * (by_area * g_ij);
-    const Real half = Number(0.5) * T_ij;
-    const Real of_less = half * g_ij;
-    of_metric[pair[i][j]] += half * h.less - by_area * ((s_i + s_j) * h.eta_ij - Number(2) * (h.sum * g_ij));
-    of_metric[i] += by_area * (h.jj - h.sum * frame.metric[j]);
-    of_metric[j] += by_area * (h.ii - h.sum * frame.metric[i]);
-
-    // The shear that goes with each fibre's bending
-    Real of_e[2];
-    for (unsigned int m = 0; m < 2; ++m) {
-      const unsigned int f = m == 0 ? i : j;
-      const Real &e = m == 0 ? h.e_i : h.e_j;
-      const Real work = work_of_shear<Number>(frame, stresses.linear[f], f, k);
-      const Real factor = constants.shear[f][k] * (frame.inverse_lengths[f] * frame.heights[k]);
-      const Real force = factor * e, ratio = force * work;
-      of_e[m] = (constants.share[f][k] - Number(1)) * of_less + factor * work;
-      of_height[k] += ratio;
-      of_length[f] -= ratio + Number(2) * (e * of_e[m]);
-      add_forces_of_shear<Number>(force, stresses.linear[f], f, k, of_metric);
-    }
-    of_products[j][i] =
-        s_i * (T[i] + p_i * T_ik + by_area * frame.metric[j]) + frame.inverse_squares[i] * of_e[0];
-    of_products[i][j] =
-        s_j * (T[j] + p_j * T_jk + by_area * frame.metric[i]) + frame.inverse_squares[j] * of_e[1];
-    of_products[i][i] += Number(0.5) * of_eta_ij;
-    of_products[j][j] += Number(0.5) * of_eta_ij;
-
-    // Slopes: (a_i, a_j)ᵀ (a_i, a_j) p = (a_i, a_j)ᵀ a_k; heights: 1/height² of a_k is a^k·a^k.
-    const Real of_kk = Number(0.5) * (frame.inverse_metric[k] * of_height[k]);
-    const Real turned_i = of_kk * p_i, turned_j = of_kk * p_j;
-    const Real pi_i = frame.inverse_areas[k] * (frame.metric[j] * of_p_i - g_ij * of_p_j) - turned_i,
-               pi_j = frame.inverse_areas[k] * (frame.metric[i] * of_p_j - g_ij * of_p_i) - turned_j;
-    of_metric[k] += of_kk;
-    of_metric[pair[i][k]] += pi_i - turned_i;
-    of_metric[pair[j][k]] += pi_j - turned_j;
-    of_metric[i] -= pi_i * p_i;
-    of_metric[j] -= pi_j * p_j;
-    of_metric[pair[i][j]] -= pi_i * p_j + pi_j * p_i;
-  }
-
-  for (unsigned int k = 0; k < 3; ++k) {
-    const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
-    const Real own = (of_metric[k] + of_metric[k]) + frame.inverse_squares[k] * of_length[k];
+    const Real own = (by.metric[k] + by.metric[k]) + frame.inverse_squares[k] * by.length[k];
     for (unsigned int c = 0; c < 3; ++c) {
-      forces.columns[k][c] += own * frame.columns[k][c] + of_metric[pair[k][i]] * frame.columns[i][c] +
-                              of_metric[pair[k][j]] * frame.columns[j][c];
+      forces.columns[k][c] += own * frame.columns[k][c] + by.metric[pair[k][i]] * frame.columns[i][c] +
+                              by.metric[pair[k][j]] * frame.columns[j][c];
       for (unsigned int m = 0; m < 4; ++m)
-        forces.columns[k][c] += of_products[m][k] * hourglass[m][c];
+        forces.columns[k][c] += by.products[m][k] * hourglass[m][c];
     }
   }
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int c = 0; c < 3; ++c)
-      forces.hourglass[m][c] += of_products[m][0] * frame.columns[0][c] +
-                                of_products[m][1] * frame.columns[1][c] +
-                                of_products[m][2] * frame.columns[2][c];
+      forces.hourglass[m][c] += by.products[m][0] * frame.columns[0][c] +
+                                by.products[m][1] * frame.columns[1][c] +
+                                by.products[m][2] * frame.columns[2][c];
 }
 
 } // namespace billet::strain_modes
