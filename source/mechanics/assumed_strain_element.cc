@@ -149,7 +149,7 @@ compute_vector_forces(const Element::Reference &reference, const Frame<Real> &fr
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int a = 0; a < 3; ++a)
         forces.columns[k][i] -= 2. * (of_duals[a][k] * frame.duals[a][i]);
-  strain_modes::add_forces<double>(reference.constants, frame, hourglass, products, stresses, forces);
+  strain_modes::compute_forces<double>(reference.constants, frame, hourglass, products, stresses, forces);
   std::array<std::array<Real, 3>, Element::n_vectors> result;
   for (unsigned int i = 0; i < 3; ++i) {
     for (unsigned int k = 0; k < 3; ++k)

@@ -65,15 +65,15 @@ BILLET_DUAL Dual<Value, n> square_root(const Dual<Value, n> &x, const Root &root
   return result;
 }
 
-/// A number before a step and what the step adds to it: the change of all that is computed with it is as
-/// small as the step, to its last digits. `Value`: the lanes of an explicit kernel.
+/// A number after a step and what the step has added to it: the change of all that is computed with it is as
+/// small as the step, to its last digits. `Value`: the lanes of an explicit kernel. `Stepped()` sets nothing.
 template <class Value> struct Stepped {
-  Value value = {}; ///< before
-  Value change = {};
+  Value value; ///< now
+  Value change;
 
   BILLET_DUAL Stepped() = default;
-  BILLET_DUAL Stepped(const Value &constant) : value(constant) {} // NOLINT(google-explicit-constructor)
-  BILLET_DUAL Value after() const { return value + change; }
+  BILLET_DUAL Stepped(const Value &now, const Value &by_step) : value(now), change(by_step) {}
+  BILLET_DUAL Value before() const { return value - change; }
   BILLET_DUAL Stepped &operator+=(const Stepped &b) {
     value += b.value;
     change += b.change;
@@ -87,36 +87,25 @@ template <class Value> struct Stepped {
   friend BILLET_DUAL Stepped operator+(Stepped a, const Stepped &b) { return a += b; }
   friend BILLET_DUAL Stepped operator-(Stepped a, const Stepped &b) { return a -= b; }
   friend BILLET_DUAL Stepped operator*(const Stepped &a, const Stepped &b) {
-    Stepped result;
-    result.value = a.value * b.value;
-    result.change = a.change * b.value + a.after() * b.change;
-    return result;
+    return {a.value * b.value, a.change * b.value + a.before() * b.change};
   }
   /// By a constant.
   template <class Constant> friend BILLET_DUAL Stepped operator*(const Constant &a, const Stepped &b) {
-    Stepped result;
-    result.value = a * b.value;
-    result.change = a * b.change;
-    return result;
+    return {a * b.value, a * b.change};
   }
 };
 
 /// 1/x.
 template <class Value> BILLET_DUAL Stepped<Value> invert(const Stepped<Value> &x) {
-  Stepped<Value> result;
-  const Value one = Value{} + 1;
-  result.value = one / x.value;
-  result.change = Value{} - result.value * x.change / x.after();
-  return result;
+  const Value one = Value{} + 1, value = one / x.value;
+  return {value, Value{} - value * x.change / x.before()};
 }
 
 /// √x, `root` that of a Value.
 template <class Value, class Root>
 BILLET_DUAL Stepped<Value> square_root(const Stepped<Value> &x, const Root &root) {
-  Stepped<Value> result;
-  result.value = root(x.value);
-  result.change = x.change / (result.value + root(x.after()));
-  return result;
+  const Value value = root(x.value);
+  return {value, x.change / (value + root(x.before()))};
 }
 #undef BILLET_DUAL
 

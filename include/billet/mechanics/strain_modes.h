@@ -316,12 +316,12 @@ BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, cons
   derivatives.metric[pair[i][j]] -= pi_i * p_j + pi_j * p_i;
 }
 
-/// Of the power Σ T_ab h_ab˙ of stresses, a ≤ b: the shear stresses count twice. Added to `forces`. The
-/// derivatives of compute_strains().
+/// Of the power Σ T_ab h_ab˙ of stresses, a ≤ b: the shear stresses count twice. The derivatives of
+/// compute_strains(). Those of the columns are added.
 template <class Number, class Fixed, class Real>
-BILLET_STRAIN void add_forces(const Constants<Fixed> &constants, const Frame<Real> &frame,
-                              const Real (*hourglass)[3], const Products<Real> &products,
-                              const Strains<Real> &stresses, Forces<Real> &forces) {
+BILLET_STRAIN void compute_forces(const Constants<Fixed> &constants, const Frame<Real> &frame,
+                                  const Real (*hourglass)[3], const Products<Real> &products,
+                                  const Strains<Real> &stresses, Forces<Real> &forces) {
   Derivatives<Real> by;
   for (unsigned int j = 0; j < 3; ++j)
     by.metric[j] = by.metric[3 + j] = by.length[j] = by.height[j] = by.products[j][j] = Real{};
@@ -343,9 +343,9 @@ BILLET_STRAIN void add_forces(const Constants<Fixed> &constants, const Frame<Rea
   }
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int c = 0; c < 3; ++c)
-      forces.hourglass[m][c] += by.products[m][0] * frame.columns[0][c] +
-                                by.products[m][1] * frame.columns[1][c] +
-                                by.products[m][2] * frame.columns[2][c];
+      forces.hourglass[m][c] = by.products[m][0] * frame.columns[0][c] +
+                               by.products[m][1] * frame.columns[1][c] +
+                               by.products[m][2] * frame.columns[2][c];
 }
 
 } // namespace billet::strain_modes

@@ -81,12 +81,12 @@ struct BrickChange {
   Mask inadmissible = {};
 };
 
-/// All numbers of a structure of them.
-template <class Step> BILLET_INLINE void get_after(const Step &step, Real &after) { after = step.after(); }
+/// Of all numbers of an array.
+BILLET_INLINE void get_values(const Stepped<Real> &step, Real &value) { value = step.value; }
 template <class Step, class T, std::size_t n>
-BILLET_INLINE void get_after(const Step (&step)[n], T (&after)[n]) {
+BILLET_INLINE void get_values(const Step (&step)[n], T (&value)[n]) {
   for (std::size_t k = 0; k < n; ++k)
-    get_after(step[k], after[k]);
+    get_values(step[k], value[k]);
 }
 
 /// `now` and `change` from the columns and hourglass vectors of `now` and their changes.
@@ -97,35 +97,31 @@ BILLET_INLINE void complete(const StrainConstants &constants, const Real delta[4
     using Both = Stepped<Real>;
     Brick<Both> both;
     for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i < 3; ++i) {
-        both.frame.columns[k][i] = now.frame.columns[k][i] - change.columns[k][i];
-        both.frame.columns[k][i].change = change.columns[k][i];
-      }
+      for (unsigned int i = 0; i < 3; ++i)
+        both.frame.columns[k][i] = {now.frame.columns[k][i], change.columns[k][i]};
     for (unsigned int m = 0; m < 4; ++m)
-      for (unsigned int i = 0; i < 3; ++i) {
-        both.hourglass[m][i] = now.hourglass[m][i] - delta[m][i];
-        both.hourglass[m][i].change = delta[m][i];
-      }
+      for (unsigned int i = 0; i < 3; ++i)
+        both.hourglass[m][i] = {now.hourglass[m][i], delta[m][i]};
     complete(
         constants, [](const Both &x) { return invert(x); },
         [](const Both &x) { return billet::square_root(x, [](const Real y) { return square_root(y); }); },
         both);
-    get_after(both.frame.duals, now.frame.duals);
-    get_after(both.frame.determinant, now.frame.determinant);
-    get_after(both.frame.metric, now.frame.metric);
-    get_after(both.frame.inverse_metric, now.frame.inverse_metric);
-    get_after(both.frame.inverse_squares, now.frame.inverse_squares);
-    get_after(both.frame.inverse_lengths, now.frame.inverse_lengths);
-    get_after(both.frame.square_heights, now.frame.square_heights);
-    get_after(both.frame.heights, now.frame.heights);
-    get_after(both.frame.inverse_areas, now.frame.inverse_areas);
+    get_values(both.frame.duals, now.frame.duals);
+    get_values(both.frame.determinant, now.frame.determinant);
+    get_values(both.frame.metric, now.frame.metric);
+    get_values(both.frame.inverse_metric, now.frame.inverse_metric);
+    get_values(both.frame.inverse_squares, now.frame.inverse_squares);
+    get_values(both.frame.inverse_lengths, now.frame.inverse_lengths);
+    get_values(both.frame.square_heights, now.frame.square_heights);
+    get_values(both.frame.heights, now.frame.heights);
+    get_values(both.frame.inverse_areas, now.frame.inverse_areas);
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int j = 0; j < 3; ++j)
         if (j != k)
-          get_after(both.frame.slopes[k][j], now.frame.slopes[k][j]);
-    get_after(both.products.of, now.products.of);
-    get_after(both.strains.linear, now.strains.linear);
-    get_after(both.strains.bilinear, now.strains.bilinear);
+          get_values(both.frame.slopes[k][j], now.frame.slopes[k][j]);
+    get_values(both.products.of, now.products.of);
+    get_values(both.strains.linear, now.strains.linear);
+    get_values(both.strains.bilinear, now.strains.bilinear);
     for (unsigned int k = 0; k < 3; ++k) {
       for (unsigned int r = 0; r < 6; ++r) {
         change.strains.linear[k][r] = both.strains.linear[k][r].change;
@@ -133,11 +129,11 @@ BILLET_INLINE void complete(const StrainConstants &constants, const Real delta[4
       }
       for (unsigned int i = 0; i < 3; ++i) {
         change.duals[k][i] = both.frame.duals[k][i].change;
-        change.beginning[k][i] = both.frame.duals[k][i].value;
+        change.beginning[k][i] = both.frame.duals[k][i].before();
       }
     }
     change.determinant = both.frame.determinant.change;
-    change.inadmissible = !(both.frame.determinant.value > 0._r);
+    change.inadmissible = !(both.frame.determinant.before() > 0._r);
   } else {
     complete(constants, now);
     Brick<Real> before;
@@ -248,18 +244,19 @@ BILLET_INLINE void update_assumed_point(const Material &material, const LaneFunc
                                      history, dev_tau, sums.watch);
 }
 
-/// Adds what dev τ of a point does: to the sums, and `forces` = dev τ j⁻ᵀ, those of its columns.
+/// Adds what dev τ of a point does: to the sums, and `forces` = weight dev τ j⁻ᵀ, those of its columns.
 template <bool is_plastic>
-BILLET_INLINE void add_assumed_point(const unsigned int q, const Real metric[6], const Real h[6],
-                                     const Map &map, const Real dev_tau[6], AssumedSums &sums,
-                                     Real forces[3][3]) {
+BILLET_INLINE void add_assumed_point(const unsigned int q, const Real weight, const Real metric[6],
+                                     const Real h[6], const Map &map, const Real dev_tau[6],
+                                     AssumedSums &sums, Real forces[3][3]) {
   // Y is positive definite: minors of a_a·Y a_b, of which the largest is det j det J̄.
   const Real c_11 = metric[0] + h[0], c_22 = metric[1] + h[1], c_12 = metric[3] + h[3];
   sums.inadmissible |=
       !(c_11 > 0._r && c_11 * c_22 > c_12 * c_12 && map.det > 0._r && map.det < finite_bound);
+  const Real per_det = weight * map.inverse_det;
   Real scaled[6];
   for (unsigned int r = 0; r < 6; ++r)
-    scaled[r] = map.inverse_det * dev_tau[r];
+    scaled[r] = per_det * dev_tau[r];
   for (unsigned int k = 0; k < 3; ++k)
     multiply(scaled, map.cofactor[k], forces[k]);
   sums.distortion += sums.watch.distortion;
@@ -296,18 +293,17 @@ struct ColumnForces {
   Real mean[3][3], linear[3][3][3], bilinear[3][3][3];
 };
 
-BILLET_INLINE void sum_points(const Real points[8][3][3], const Real weight, ColumnForces &sums) {
-  const Real first = gauss * weight, second = (gauss * gauss) * weight;
+BILLET_INLINE void sum_points(const Real points[8][3][3], ColumnForces &sums) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i) {
       Real values[8];
       for (unsigned int q = 0; q < 8; ++q)
         values[q] = points[q][k][i];
       hadamard(values);
-      sums.mean[k][i] = weight * values[0];
+      sums.mean[k][i] = values[0];
       for (unsigned int m = 0; m < 3; ++m) {
-        sums.linear[m][k][i] = first * values[place_of_linear[m]];
-        sums.bilinear[m][k][i] = second * values[place_of_bilinear[m]];
+        sums.linear[m][k][i] = gauss * values[place_of_linear[m]];
+        sums.bilinear[m][k][i] = (gauss * gauss) * values[place_of_bilinear[m]];
       }
     }
 }
@@ -330,11 +326,11 @@ BILLET_INLINE void add_strain_forces(const Real duals[3][3], const Real f[3][3],
 
 /// Forces of the modes, from those of the points' columns.
 BILLET_INLINE void compute_forces(const StrainConstants &strain_constants, const Brick<Real> &brick,
-                                  const Real points[8][3][3], const Real weight, const Real pressure,
-                                  const Number *constants, Modes &modal) {
+                                  const Real points[8][3][3], const Real pressure, const Number *constants,
+                                  Modes &modal) {
   const strain_modes::Frame<Real> &frame = brick.frame;
   ColumnForces sums;
-  sum_points(points, weight, sums);
+  sum_points(points, sums);
   strain_modes::Strains<Real> stresses;
   Real of_duals[3][3] = {};
   for (unsigned int m = 0; m < 3; ++m) {
@@ -342,28 +338,30 @@ BILLET_INLINE void compute_forces(const StrainConstants &strain_constants, const
     add_strain_forces(frame.duals, sums.bilinear[m], brick.strains.bilinear[m], stresses.bilinear[m],
                       of_duals);
   }
-  strain_modes::Forces<Real> forces{};
+  strain_modes::Forces<Real> forces;
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i) // δa^a = −Σ_k (a^a·δa_k) a^k
       forces.columns[k][i] = sums.mean[k][i] + pressure * frame.duals[k][i] -
                              (of_duals[0][k] * frame.duals[0][i] + of_duals[1][k] * frame.duals[1][i] +
                               of_duals[2][k] * frame.duals[2][i]);
-  strain_modes::add_forces<Number>(strain_constants, frame, brick.hourglass, brick.products, stresses,
-                                   forces);
+  strain_modes::compute_forces<Number>(strain_constants, frame, brick.hourglass, brick.products, stresses,
+                                       forces);
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int k = 0; k < 3; ++k) {
       const Real own = load(constants + (assumed_strain::own + 3 * m + k) * n_lanes);
       for (unsigned int i = 0; i < 3; ++i)
         forces.columns[k][i] -= own * forces.hourglass[m][i];
     }
-  for (unsigned int m = 0; m < 7; ++m)
-    for (unsigned int i = 0; i < 3; ++i) {
-      Real sum = m < 3 ? Real{} : forces.hourglass[m < 3 ? 0 : m - 3][i];
-      if (m < 6)
-        for (unsigned int k = 0; k < 3; ++k)
-          sum += forces.columns[k][i] * load(constants + (mean_gradient::beta + 3 * m + k) * n_lanes);
-      modal.m[m][i] = sum;
+  for (unsigned int i = 0; i < 3; ++i) {
+    for (unsigned int m = 0; m < 6; ++m) {
+      const Number *beta = constants + (mean_gradient::beta + 3 * m) * n_lanes;
+      modal.m[m][i] = forces.columns[0][i] * load(beta) + forces.columns[1][i] * load(beta + n_lanes) +
+                      forces.columns[2][i] * load(beta + 2 * n_lanes);
+      if (m >= 3)
+        modal.m[m][i] += forces.hourglass[m < 3 ? 0 : m - 3][i];
     }
+    modal.m[6][i] = forces.hourglass[3][i];
+  }
 }
 
 template <class Law, bool is_plastic>
@@ -408,6 +406,7 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
   else
     volume = compare_volume(reference_volume * J, J, history);
 
+  const Real weight = 0.125_r * reference_volume;
   Real points[8][3][3];
   for (unsigned int q = 0; q < 8; ++q) {
     Map map;
@@ -415,7 +414,7 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
     update_assumed_point<Law, is_plastic>(
         material, functions, frame, change, constants, now.h[q], of_step.h[q],
         history + (last::n + q * layout.n_point_history) * n_lanes, map, dev_tau, sums);
-    add_assumed_point<is_plastic>(q, frame.metric, now.h[q], map, dev_tau, sums, points[q]);
+    add_assumed_point<is_plastic>(q, weight, frame.metric, now.h[q], map, dev_tau, sums, points[q]);
   }
 
   const Real per_mass = reference_volume * load(constants + mean_gradient::bound * n_lanes);
@@ -426,8 +425,8 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
   const Damping damping = compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));
   store(history + last::omega * n_lanes, omega);
   Modes modal;
-  compute_forces(strain_constants, brick, points, 0.125_r * reference_volume,
-                 reference_volume * (mean_tau + J * damping.pressure), constants, modal);
+  compute_forces(strain_constants, brick, points, reference_volume * (mean_tau + J * damping.pressure),
+                 constants, modal);
   const std::size_t first = batch * n_lanes;
   const std::size_t n = count_elements(elements, first);
   scatter_modes(modal, nodes, n, step);
