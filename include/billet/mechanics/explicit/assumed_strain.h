@@ -6,7 +6,7 @@
 #include "billet/mechanics/explicit/mean_gradient.h"
 #include "billet/mechanics/strain_modes.h"
 
-// Eight points under assumed strains, (B1) to (B7) of doc/theory.md: j_q = Y_q J̄ in the place of ∂x/∂ξ. The
+// Eight points under assumed strains, (B1) to (B8) of doc/theory.md: j_q = Y_q J̄ in the place of ∂x/∂ξ. The
 // law sees j_q up to a factor, and det J̄.
 
 namespace billet::explicit_kernels {
