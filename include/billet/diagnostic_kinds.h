@@ -228,10 +228,9 @@ inline const DiagnosticKind element_too_stiff(
 inline const DiagnosticKind element_too_soft(
     "element-too-soft", Severity::warning,
     "The elements of a body store less energy in these displacements than elements that bend right: as a "
-    "rule they are too soft in bending. So are one-point elements with a reduced 'Hourglass stiffness', and "
-    "a single "
-    "layer of bricks with mean dilatation that are as long as high.",
-    "Use 'Hourglass stiffness = 1', or 'Element = assumed strain'");
+    "rule they are too soft in bending. So is a single layer of bricks with mean dilatation that are as long "
+    "as high.",
+    "Use 'Element = assumed strain'");
 
 inline const DiagnosticKind plastic_bending_coarse(
     "plastic-bending-coarse", Severity::warning,

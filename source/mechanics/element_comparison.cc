@@ -66,10 +66,8 @@ ElementComparison::Strains ElementComparison::measure(const dealii::Tensor<2, 3>
 }
 
 bool ElementComparison::add_one_point(const ElementVectors &positions, const ElementVectors &displacements,
-                                      const double hourglass_stiffness, ElementEnergies &energies) const {
-  ElementFormulation formulation;
-  formulation.hourglass_stiffness = hourglass_stiffness;
-  const OnePointElement element(elastic_, formulation);
+                                      ElementEnergies &energies) const {
+  const OnePointElement element(elastic_, formulation_);
   OnePointElement::Reference reference;
   OnePointElement::Kinematics kinematics;
   if (!OnePointElement::initialize(positions, reference) ||
@@ -100,7 +98,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
              energy(measure(Element::template deformation<false>(reference, kinematics, q)));
     return true;
   };
-  if (!add_one_point(positions, displacements, 1., one_point) ||
+  if (!add_one_point(positions, displacements, one_point) ||
       !add_points(AssumedStrainElement(elastic_, formulation_), own.accurate))
     return false;
   own.one_point = one_point.used;
@@ -113,10 +111,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
       return false;
     break;
   case ElementFormulation::Element::one_point:
-    if (formulation_.hourglass_stiffness == 1.)
-      own += one_point;
-    else if (!add_one_point(positions, displacements, formulation_.hourglass_stiffness, own))
-      return false;
+    own += one_point;
     break;
   }
   if (!std::isfinite(own.used + own.one_point + own.accurate))

@@ -102,7 +102,6 @@ explicit_kernels::BasicMaterial<Number> convert(const Material &material, const 
   result.wave_speed = to_number(material.wave_speed * units.time / units.length);
   result.linear_viscosity = to_number(material.linear_viscosity);
   result.quadratic_viscosity = to_number(material.quadratic_viscosity);
-  result.hourglass_stiffness = to_number(material.hourglass_stiffness);
   return result;
 }
 
@@ -145,7 +144,6 @@ public:
     material_.wave_speed = std::sqrt((elastic.bulk + 4. / 3. * elastic.shear) / density);
     material_.linear_viscosity = formulation.linear_viscosity;
     material_.quadratic_viscosity = formulation.quadratic_viscosity;
-    material_.hourglass_stiffness = formulation.hourglass_stiffness;
     if constexpr (has_plasticity) {
       describe(hardening_, material_);
       material_.hardening = &hardening_;
@@ -373,8 +371,6 @@ std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, 
   require(density > 0., "the density must be positive");
   require(formulation.linear_viscosity >= 0. && formulation.quadratic_viscosity >= 0.,
           "bulk viscosity must not be negative");
-  require(formulation.element != Element::one_point || formulation.hourglass_stiffness > 0.,
-          "a one-point element without hourglass stiffness is a mechanism");
   return std::visit(
       [&](const auto &hardening) -> std::unique_ptr<ExplicitBlock> {
         using Hardening = std::decay_t<decltype(hardening)>;

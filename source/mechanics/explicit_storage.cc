@@ -2,6 +2,7 @@
 #include "billet/mechanics/explicit_storage.h"
 
 #include "billet/mechanics/assumed_strain_element.h"
+#include "billet/mechanics/hourglass_energy.h"
 #include "billet/mechanics/modal_geometry.h"
 
 #include <algorithm>
@@ -91,6 +92,39 @@ std::array<std::array<double, 7>, 7> rows_of_all(const ModalGeometry &geometry, 
           (l == 3 + m ? 1. : 0.) - (own[0] * mean[0][l] + own[1] * mean[1][l] + own[2] * mean[2][l]);
   }
   return rows;
+}
+
+/// Over the largest square.
+hourglass::Metric<double> measure_columns(const ModalGeometry &geometry) {
+  const auto &a = geometry.modes;
+  const double unit = std::max({a[0].norm_square(), a[1].norm_square(), a[2].norm_square()});
+  hourglass::Metric<double> metric;
+  for (unsigned int k = 0; k < 3; ++k) {
+    metric.square[k] = a[k].norm_square() / unit;
+    metric.product[k] = a[(k + 1) % 3] * a[(k + 2) % 3] / unit;
+  }
+  metric.complete([](const double x) { return 1. / x; });
+  return metric;
+}
+
+/// M_h of (X13): bound of the stiffness of hourglass strains over their weighted squares.
+double bound_hourglass(const ElasticModuli &elastic, const hourglass::Metric<double> &metric) {
+  const hourglass::Moduli<double> moduli(elastic.bulk, elastic.shear);
+  constexpr std::size_t n = 12;
+  std::array<double, n> weights;
+  weights.fill(1.);
+  for (unsigned int m = 0; m < 3; ++m)
+    weights[4 * m] = std::sqrt(metric.square[m] *
+                               (metric.inverse_square[(m + 1) % 3] + metric.inverse_square[(m + 2) % 3]));
+  std::array<std::array<double, n>, n> matrix;
+  for (std::size_t c = 0; c < n; ++c) {
+    double strain[4][3] = {}, stress[4][3];
+    strain[c / 3][c % 3] = 1. / weights[c];
+    hourglass::respond(moduli, metric, strain, stress);
+    for (std::size_t r = 0; r < n; ++r)
+      matrix[r][c] = stress[r / 3][r % 3] / weights[r];
+  }
+  return bound_by_rows(matrix);
 }
 
 /// Bound of the eigenvalues of J⁻¹ J⁻ᵀ.
@@ -265,7 +299,7 @@ bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element
     for (unsigned int k = 0; k < 3; ++k)
       set_constant(element, mean_gradient::beta + 3 * m + k, geometry.beta[m][k]);
   if (is_one_point) {
-    set_constant(element, one_point::hourglass_bound,
+    set_constant(element, one_point::bound_of_all,
                  bound_squares(rows_of_all(geometry, inverse, 0.)) / smallest_mass * mass_unit);
     initialize_one_point(element, geometry, inverse);
   } else
@@ -278,11 +312,12 @@ bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element
 template <class Number>
 void ExplicitStorage<Number>::initialize_one_point(const std::size_t element, const ModalGeometry &geometry,
                                                    const Tensor<2, 3> &inverse) {
-  std::size_t place = one_point::ratios;
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int l = 0; l < 3; ++l)
-      if (k != l)
-        set_constant(element, place++, geometry.modes[k].norm() / geometry.modes[l].norm());
+  const hourglass::Metric<double> metric = measure_columns(geometry);
+  set_constant(element, one_point::hourglass_modulus, bound_hourglass(elastic_, metric) / units_.stress);
+  for (std::size_t k = 0; k < 3; ++k) {
+    set_constant(element, one_point::metric + k, metric.square[k]);
+    set_constant(element, one_point::metric + 3 + k, metric.product[k]);
+  }
   if (is_single)
     set_modes(element, one_point::modes, geometry);
   else
@@ -390,7 +425,7 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
     const auto divide = [&](const std::size_t k) { set_constant(e, k, constant(e, k) / factor); };
     divide(formulation_.element == Element::mean_dilatation ? 1 : mean_gradient::bound);
     if (formulation_.element == Element::one_point)
-      divide(one_point::hourglass_bound);
+      divide(one_point::bound_of_all);
     set_history(e, last::omega, history(e, last::omega) / factor);
   }
   return volume * (factor - 1.);

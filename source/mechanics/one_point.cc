@@ -33,6 +33,20 @@ OnePointElement::HourglassVector pull_modes(const Tensor<2, 3> &inverse, const M
   return strain;
 }
 
+/// See hourglass::respond().
+double respond(const hourglass::Moduli<double> &moduli, const hourglass::Metric<double> &metric,
+               const OnePointElement::HourglassVector &strain, OnePointElement::HourglassVector &stress) {
+  double h[4][3], s[4][3];
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      h[m][k] = strain[m][k];
+  const double energy = hourglass::respond(moduli, metric, h, s);
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      stress[m][k] = s[m][k];
+  return energy;
+}
+
 /// Rows of modes to rows of nodes, x_m = Σ_a mode_values[m][a] x_a/8: each node's is the sum of the modes'
 /// with their signs, made by sums and differences over the three directions.
 template <std::size_t width>
@@ -99,16 +113,6 @@ OnePointElement::History OnePointElement::restore(const double *numbers) {
   return history;
 }
 
-OnePointElement::OnePointElement(const ElasticModuli &elastic, const ElementFormulation &formulation)
-    : bulk_(elastic.bulk), shear_(elastic.shear), torsion_(elastic.shear / 3.),
-      stiffness_(formulation.hourglass_stiffness) {
-  const double E = 9. * bulk_ * shear_ / (3. * bulk_ + shear_),
-               nu = (3. * bulk_ - 2. * shear_) / (6. * bulk_ + 2. * shear_);
-  plane_ = E / (1. - nu * nu) / 3.;
-  coupling_ = nu * plane_;
-  axial_ = E / 9.;
-}
-
 bool OnePointElement::initialize(const ElementVectors &positions, Reference &reference) {
   ReferenceElement points; // a mesh that eight points refuse is refused with one, too
   if (!compute_reference_element(positions, points))
@@ -123,11 +127,11 @@ bool OnePointElement::initialize(const ElementVectors &positions, Reference &ref
   reference.volume = geometry.volume;
   reference.inverse_jacobian = dealii::invert(reference.jacobian);
   reference.strain = pull_modes(reference.inverse_jacobian, geometry);
-  unsigned int place = 0;
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int l = 0; l < 3; ++l)
-      if (k != l)
-        reference.ratios[place++] = geometry.modes[k].norm() / geometry.modes[l].norm();
+  for (unsigned int k = 0; k < 3; ++k) {
+    reference.metric.square[k] = geometry.modes[k].norm_square();
+    reference.metric.product[k] = geometry.modes[(k + 1) % 3] * geometry.modes[(k + 2) % 3];
+  }
+  reference.metric.complete([](const double x) { return 1. / x; });
   return true;
 }
 
@@ -169,25 +173,6 @@ bool OnePointElement::compute(const Reference &reference, const ElementVectors &
   return true;
 }
 
-OnePointElement::HourglassVector OnePointElement::respond(const HourglassVector &h,
-                                                          const std::array<double, 6> &ratio) const {
-  // Bending stretches two edges linearly along the third direction; torsion shears linearly.
-  HourglassVector s;
-  for (unsigned int i = 0; i < 3; ++i) {
-    const unsigned int j = (i + 1) % 3, k = (i + 2) % 3; // linear along i: h_k has (i, j), h_j has (i, k)
-    s[k][j] = plane_ * h[k][j] + coupling_ * h[j][k];
-    s[j][k] = plane_ * h[j][k] + coupling_ * h[k][j];
-    s[3][i] = axial_ * h[3][i];
-  }
-  const double g12 = torsion_ * (h[0][0] * ratio[0] + h[1][1] * ratio[2]),
-               g13 = torsion_ * (h[0][0] * ratio[1] + h[2][2] * ratio[4]),
-               g23 = torsion_ * (h[1][1] * ratio[3] + h[2][2] * ratio[5]);
-  s[0][0] = g12 * ratio[0] + g13 * ratio[1];
-  s[1][1] = g12 * ratio[2] + g23 * ratio[3];
-  s[2][2] = g13 * ratio[4] + g23 * ratio[5];
-  return s;
-}
-
 OnePointElement::Stabilisation OnePointElement::stabilise(const Reference &reference,
                                                           const Kinematics &kinematics,
                                                           const History &history_n) const {
@@ -195,12 +180,10 @@ OnePointElement::Stabilisation OnePointElement::stabilise(const Reference &refer
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int k = 0; k < 3; ++k)
       result.strain[m][k] = kinematics.strain[m][k] - reference.strain[m][k] - history_n.shift[m][k];
-  result.stress = respond(result.strain, reference.ratios);
-  const double factor = stiffness_ * reference.volume;
-  result.energy = 0.5 * factor * contract(result.strain, result.stress);
+  result.energy = reference.volume * respond(moduli_, reference.metric, result.strain, result.stress);
   for (auto &row : result.stress)
     for (double &entry : row)
-      entry *= factor;
+      entry *= reference.volume;
   return result;
 }
 
@@ -267,7 +250,7 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
   for (unsigned int p = 0; p < 4; ++p)
     for (unsigned int i = 0; i < 3; ++i)
       t[p][i] = yield.share * (Z[0][i] * s[p][0] + Z[1][i] * s[p][1] + Z[2][i] * s[p][2]);
-  const double factor = yield.share * stiffness_ * reference.volume;
+  const double factor = yield.share * reference.volume;
   for (unsigned int m = 0; m < n_element_modes; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
       // A unit of component i of mode m: δJ̄ = e_i ⊗ β, δ(b_p) = e_i if p is m − 3; δc = Z (δb − δJ̄ c).
@@ -282,7 +265,8 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
         for (unsigned int k = 0; k < 3; ++k)
           dc[p][k] = share * Z[k][i];
       }
-      HourglassVector ds = respond(dc, reference.ratios);
+      HourglassVector ds;
+      respond(moduli_, reference.metric, dc, ds);
       const double energy_rate = contract(s, dc);
       const double share_rate = yield.rate[i][0] * gradient[0] + yield.rate[i][1] * gradient[1] +
                                 yield.rate[i][2] * gradient[2] + yield.slope * energy_rate / reference.volume;

@@ -340,9 +340,6 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
       "flow; "
       "mean dilatation: eight points with a common volumetric strain, for solid parts that do not bend; one "
       "point: with hourglass stabilisation, the cheapest.");
-  prm.declare_entry("Hourglass stiffness", "", Patterns::Anything(),
-                    "Of a one-point element, > 0: part of the stiffness that the material itself would give "
-                    "to the hourglass modes. Empty: 1, in explicit scenes that of 'Explicit dynamics'.");
   prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
                     "Of dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
@@ -432,17 +429,6 @@ void Body::parse(Reader &reader) {
   element = reader.located("Element", type == "one point"         ? ElementType::one_point
                                       : type == "mean dilatation" ? ElementType::mean_dilatation
                                                                   : ElementType::assumed_strain);
-  if (!reader.text("Hourglass stiffness").empty()) {
-    if (element.value != ElementType::one_point)
-      reader.reject("Hourglass stiffness", "no value: only elements with one point have hourglass modes");
-    try {
-      hourglass_stiffness = parse_number(reader.text("Hourglass stiffness"));
-    } catch (const std::invalid_argument &) {
-      reader.reject("Hourglass stiffness", "a number > 0");
-    }
-    if (!(*hourglass_stiffness > 0.))
-      reader.reject("Hourglass stiffness", "a number > 0");
-  }
   const auto velocity = reader.parts("Initial velocity");
   if (velocity.size() != 3)
     reader.reject("Initial velocity", "three expressions, separated by semicolons");

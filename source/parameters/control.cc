@@ -155,9 +155,6 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
   prm.declare_entry("Quadratic bulk viscosity", "1.2", Patterns::Double(),
                     "b2 >= 0: a pressure rho (b2 L)^2 times the square of the rate, in compression only, "
                     "spreads shocks over some elements.");
-  prm.declare_entry("Hourglass stiffness", "1", Patterns::Double(),
-                    "Of one-point elements, >= 0: part of the stiffness that the material itself would give "
-                    "to the hourglass modes.");
   prm.declare_entry("Mass scaling step", "0", Patterns::Double(),
                     "Elements whose stable step, safety included, is shorter at the start get mass until it "
                     "is not; the mass added is reported. 0: none. [time]");
@@ -180,7 +177,6 @@ void ExplicitDynamics::parse(Reader &reader) {
     reader.reject("Safety factor", "a number > 0 and <= 1");
   linear_viscosity = reader.not_negative("Linear bulk viscosity");
   quadratic_viscosity = reader.not_negative("Quadratic bulk viscosity");
-  hourglass_stiffness = reader.not_negative("Hourglass stiffness");
   scaled_step = reader.not_negative("Mass scaling step");
   largest_drift = reader.positive("Largest drift");
   const std::string chosen_set = reader.text("Instructions");

@@ -213,7 +213,6 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
   formulation.kinematics = kinematics == Kinematics::hencky        ? Formulation::Kinematics::hencky
                            : kinematics == Kinematics::neo_hookean ? Formulation::Kinematics::neo_hookean
                                                                    : Formulation::Kinematics::hypoelastic;
-  formulation.hourglass_stiffness = parameters.hourglass_stiffness.value_or(1.);
   return formulation;
 }
 

@@ -13,22 +13,11 @@ namespace {
 
 using ElementType = ElementFormulation::Element;
 
-ElementFormulation formulation_of(const Scene &scene, const std::size_t body) {
-  ElementFormulation formulation = scene.bodies()[body].formulation;
-  const parameters::Scene &parameters = scene.parameters();
-  if (parameters.is_explicit())
-    formulation.hourglass_stiffness = parameters.bodies[body].hourglass_stiffness.value_or(
-        parameters.explicit_dynamics.hourglass_stiffness);
-  return formulation;
-}
-
 /// What helps a body whose elements are too stiff: never an element that is as stiff.
-std::string advise_on_stiffness(const ElementEnergies &energies, const ElementFormulation &formulation) {
-  const bool one_point_helps = energies.one_point * ElementWatch::doubtful_factor < energies.used;
-  if (formulation.element == ElementType::one_point)
-    return one_point_helps ? "Use 'Hourglass stiffness = 1'"
-                           : "Use bricks with edges along the normal of the surface, or a finer mesh";
-  return "Use 'Element = assumed strain'";
+std::string advise_on_stiffness(const ElementFormulation &formulation) {
+  return formulation.element == ElementType::one_point
+             ? "Use bricks with edges along the normal of the surface, or a finer mesh"
+             : "Use 'Element = assumed strain'";
 }
 
 constexpr std::size_t n_energies = 5;
@@ -47,7 +36,7 @@ ElementEnergies energies_in(const std::vector<double> &values, const std::size_t
 ElementWatch::ElementWatch(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), energies_(scene.bodies().size()) {
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
-    comparisons_.emplace_back(scene.bodies()[b].material, formulation_of(scene, b));
+    comparisons_.emplace_back(scene.bodies()[b].material, scene.bodies()[b].formulation);
     double volume = 0.;
     for (const auto &element : discretization.elements(b))
       volume += element.cell->measure();
@@ -90,9 +79,7 @@ double ElementWatch::factor_of(const std::size_t body) const {
 
 bool ElementWatch::is_doubtful(const std::size_t body) const {
   // Accurate elements are never called soft.
-  const ElementFormulation formulation = formulation_of(scene_, body);
-  const bool may_be_soft =
-      formulation.element == ElementType::mean_dilatation || formulation.hourglass_stiffness < 1.;
+  const bool may_be_soft = scene_.bodies()[body].formulation.element == ElementType::mean_dilatation;
   const double factor = factor_of(body);
   return counts(body) && (factor > doubtful_factor || (may_be_soft && factor * doubtful_factor < 1.));
 }
@@ -102,7 +89,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const double factor = factor_of(b);
     const bool is_stiff = factor > doubtful_factor;
-    const ElementFormulation formulation = formulation_of(scene_, b);
+    const ElementFormulation &formulation = scene_.bodies()[b].formulation;
     if (!is_doubtful(b))
       continue;
     // Where hinges yield or inertia counts less of it is left.
@@ -123,10 +110,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
                                   : diagnostic::element_too_soft,
                        text.str());
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("factor", factor);
-    const std::string advice = is_stiff ? advise_on_stiffness(energies_[b], formulation)
-                               : formulation.element == ElementType::one_point
-                                   ? "Use 'Hourglass stiffness = 1'"
-                                   : "Use 'Element = assumed strain'";
+    const std::string advice = is_stiff ? advise_on_stiffness(formulation) : "Use 'Element = assumed strain'";
     message.advice(is_first ? "If that stays so until the end: " + advice : advice);
     diagnostics.push_back(message);
   }

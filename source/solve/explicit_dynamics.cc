@@ -25,7 +25,6 @@ ExplicitFormulation make_formulation(const parameters::Scene &scene, const param
   formulation.kinematics = of_body.kinematics;
   formulation.linear_viscosity = dynamics.linear_viscosity;
   formulation.quadratic_viscosity = dynamics.quadratic_viscosity;
-  formulation.hourglass_stiffness = body.hourglass_stiffness.value_or(dynamics.hourglass_stiffness);
   switch (dynamics.instructions) {
   case Instructions::automatic:
     formulation.instructions = InstructionSet::automatic;

@@ -76,16 +76,6 @@ for element, law in (("assumed strain", "neo-Hookean"), ("assumed strain", "hypo
             cells.append(str(result.iterations) if result.converged else result.failure)
     tangent_rows.append([element, law] + cells)
 
-hourglass_rows = []
-for stiffness in (0.05, 0.2, 0.5, 1.0):
-    cells = [stiffness]
-    for level in levels:
-        result = run("one point", "Hencky", {**mesh(level), **fixed_steps(STEPS), "Bodies/billet/Hourglass stiffness": stiffness})
-        last = result.rows[-1] if result.rows else {}
-        energy = float(last["hourglass_energy"]) / float(last["external_work"]) if last else float("nan")
-        cells += [force(result) if result.converged else result.failure, percent(energy)]
-    hourglass_rows.append(cells)
-
 forces, tangents = count_instructions("forces"), count_instructions("tangents")
 base = tangents["assumed strain", "Hencky"]
 cost_rows = [[element, law, number(forces[element, law] / 1e3, 3), number(tangents[element, law] / 1e3, 3),
@@ -109,7 +99,4 @@ publish(
     "## Symmetric part of the tangent",
     "Iterations with friction in 25 steps on 60 bricks, exact contact tangent, to the default tolerance and to 1e-11. Without friction, where the "
     "billet's deformation is uniform, the two are alike.",
-    table(["element", "kinematics", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"], tangent_rows),
-    "## Hourglass stiffness",
-    "One point, Hencky: force at the end in kN, and what the stabilisation holds and has lost as part of the external work.",
-    table(["stiffness"] + [f"{n_elements(level)} bricks: {what}" for level in levels for what in ("force", "hourglass")], hourglass_rows))
+    table(["element", "kinematics", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"], tangent_rows))

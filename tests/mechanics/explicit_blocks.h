@@ -123,7 +123,7 @@ private:
 inline Formulation make_formulation(const Formulation::Element element,
                                     const Formulation::Kinematics kinematics,
                                     const InstructionSet instructions = InstructionSet::automatic) {
-  return {element, kinematics, 0., 0., 1., instructions};
+  return {element, kinematics, 0., 0., instructions};
 }
 
 inline std::string name_of(const Formulation &formulation) {

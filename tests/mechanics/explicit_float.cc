@@ -25,7 +25,6 @@ Formulation in_float(Formulation formulation) {
 Formulation with_viscosity(Formulation formulation) {
   formulation.linear_viscosity = 0.06;
   formulation.quadratic_viscosity = 1.2;
-  formulation.hourglass_stiffness = 0.7;
   return formulation;
 }
 

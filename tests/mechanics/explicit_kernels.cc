@@ -53,7 +53,6 @@ Answer run(const Mesh &mesh, const MaterialLaw &material, const Formulation &for
 void test_instruction_sets(Formulation formulation, const std::string &law, const MaterialLaw &material) {
   formulation.linear_viscosity = 0.06;
   formulation.quadratic_viscosity = 1.2;
-  formulation.hourglass_stiffness = 0.7;
   WorstError error;
   for (const std::array<unsigned int, 3> size :
        {std::array<unsigned int, 3>{1, 1, 1}, {3, 3, 2}, {7, 1, 1}, {4, 2, 2}}) {
@@ -141,17 +140,14 @@ void test_refused() {
       return true;
     }
   };
-  Formulation good, bad_linear, bad_quadratic, no_hourglass;
+  Formulation good, bad_linear, bad_quadratic;
   bad_linear.linear_viscosity = -1.;
   bad_quadratic.quadratic_viscosity = -1.;
-  no_hourglass.element = Formulation::Element::one_point;
-  no_hourglass.hourglass_stiffness = 0.;
   check("good numbers are accepted", !is_refused(1., 1., good));
   check("density zero is refused", is_refused(1., 0., good));
   check("bulk modulus zero is refused", is_refused(0., 1., good));
   check("negative linear viscosity is refused", is_refused(1., 1., bad_linear));
   check("negative quadratic viscosity is refused", is_refused(1., 1., bad_quadratic));
-  check("one point without hourglass stiffness is refused", is_refused(1., 1., no_hourglass));
   check("scalar kernels are always there",
         is_available(InstructionSet::scalar) && is_available(best_instruction_set()));
 }

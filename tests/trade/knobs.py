@@ -90,7 +90,7 @@ class TestKnobs(unittest.TestCase):
         self.assertEqual(knobs.make_penalty(shipped("ironing"), "3"), {"Contact pairs/face/Normal penalty": "30"})  # of the default
 
     def test_only_what_a_scene_can_use(self):
-        cannot = {"billet_upsetting": ["facets", "safety factor", "hourglass stiffness", "mass", "error tolerance"],
+        cannot = {"billet_upsetting": ["facets", "safety factor", "mass", "error tolerance"],
                   "hertz_cylinders": ["instructions", "number type"], "taylor_bar": ["steps", "tangent", "solver", "facets", "augmentation"],
                   "wagoner_punch_mu_0": ["search margin"]}
         for name, those in cannot.items():

@@ -354,15 +354,6 @@ def make_kinematics(scene, argument):
     return {f"Bodies/{body}/Material/Kinematics": argument for body in scene.names("Bodies")}
 
 
-@knob("hourglass stiffness", "of one-point elements", 0.1, 0.5, 1, 2)
-def make_hourglass(scene, argument):
-    need(any(scene.get(f"Bodies/{body}/Element") == "one point" for body in scene.names("Bodies")), "of one-point elements")
-    if scene.is_explicit:
-        return {"Explicit dynamics/Hourglass stiffness": argument}
-    return {f"Bodies/{body}/Hourglass stiffness": argument for body in scene.names("Bodies")
-            if scene.get(f"Bodies/{body}/Element") == "one point"}
-
-
 def has_unsymmetric_tangent(scene, body):
     law = scene.get(f"{body}/Material/Kinematics")
     return law == "hypoelastic" or (scene.get(f"{body}/Material/Law") == "elastoplastic" and law == "neo-Hookean")

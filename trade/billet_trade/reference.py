@@ -206,7 +206,7 @@ class Reference:
         return [(row[0], row[1], row[6]) for row in self.rows if not math.isnan(row[6])]
 
 
-SPATIAL = ("Element", "Hourglass stiffness", "Facets", "Passes", "Smoothing")
+SPATIAL = ("Element", "Facets", "Passes", "Smoothing")
 
 
 def mesh_of(scene):

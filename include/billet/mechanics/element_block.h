@@ -35,7 +35,6 @@ struct ElementFormulation {
 
   Element element = Element::assumed_strain;
   Kinematics kinematics = Kinematics::hencky;
-  double hourglass_stiffness = 1.; ///< factor on the one-point element's physical stabilisation; > 0
   bool is_symmetrised = false; ///< the symmetric part of an unsymmetric tangent, see has_symmetric_tangent()
 };
 

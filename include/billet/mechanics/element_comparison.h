@@ -11,7 +11,7 @@ namespace billet {
 /// Energies of the same nodal displacements under different elements [energy].
 struct ElementEnergies {
   double used = 0.;      ///< the element of the body
-  double one_point = 0.; ///< the one-point element, without a factor on its stabilisation
+  double one_point = 0.; ///< the one-point element
   double accurate = 0.;  ///< AssumedStrainElement
   double hourglass = 0.; ///< of `used`: what a one-point element has by its stabilisation alone
   double plastic = 0.;   ///< of `used`, of one-point elements: what is dissipated
@@ -33,7 +33,7 @@ struct ElementEnergies {
 /// and, where the body yields, the deformation theory of plasticity. It knows no history.
 class ElementComparison {
 public:
-  /// `formulation`: of its hourglass_stiffness and element alone.
+  /// `formulation`: of its element alone.
   ElementComparison(const MaterialLaw &material, const ElementFormulation &formulation);
 
   /// False, and `energies` is left alone, if an element is inside out.
@@ -57,7 +57,7 @@ private:
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
   /// Adds to `used`, `hourglass` and `plastic`; false if the element is inside out.
   bool add_one_point(const ElementVectors &positions, const ElementVectors &displacements,
-                     double hourglass_stiffness, ElementEnergies &energies) const;
+                     ElementEnergies &energies) const;
 
   ElasticModuli elastic_;
   ElementFormulation formulation_;

@@ -33,7 +33,6 @@ struct ExplicitFormulation {
   Kinematics kinematics = Kinematics::hencky;
   double linear_viscosity = 0.06;   ///< c_1 of the bulk viscosity ρ L (c_1 c |d| + c_2² L d²); ≥ 0
   double quadratic_viscosity = 1.2; ///< c_2 of it, acts in compression only; ≥ 0
-  double hourglass_stiffness = 1.;  ///< factor on the one-point element's physical stabilisation; > 0
   InstructionSet instructions = InstructionSet::automatic;
   NumberType number_type = NumberType::double_precision; ///< in float twice as many elements at once
 };

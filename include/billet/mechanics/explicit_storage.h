@@ -52,9 +52,9 @@ public:
   void renew(const double *displacements, bool from_the_start);
 
   std::size_t size() const { return n_elements_; }
-  /// Numbers that a one-point element has for its stabilisation: ĥ, the edges' ratios, a bound, and in float
+  /// Numbers that a one-point element has for its stabilisation: ĥ, the metric, two bounds, and in float
   /// the modes b and c.
-  std::size_t stabilisation_size() const { return 12 + 6 + 1 + (is_single ? 12 : 0); }
+  std::size_t stabilisation_size() const { return 12 + 6 + 2 + (is_single ? 12 : 0); }
   const explicit_kernels::Layout &layout() const { return layout_; }
   explicit_kernels::BasicElements<Number> elements();
 

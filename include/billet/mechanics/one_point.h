@@ -4,6 +4,7 @@
 
 #include "billet/material/plastic.h"
 #include "billet/mechanics/element_block.h"
+#include "billet/mechanics/hourglass_energy.h"
 #include "billet/mechanics/modal_geometry.h"
 #include "billet/mechanics/point_tangent.h"
 
@@ -25,7 +26,7 @@ public:
     double volume;
     dealii::Tensor<2, 3> jacobian, inverse_jacobian; ///< (a_1 a_2 a_3)_0
     HourglassVector strain;                          ///< ĥ_0 of the undeformed element
-    std::array<double, 6> ratios; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
+    hourglass::Metric<double> metric;                ///< of the undeformed columns
   };
   struct Kinematics {
     dealii::Tensor<2, 3> F;                ///< F̄
@@ -41,7 +42,7 @@ public:
   };
   static constexpr unsigned int n_history = 12;
   static constexpr std::size_t stabilisation_size =
-      sizeof(HourglassVector) + 6 * sizeof(double); ///< of Reference [bytes]
+      sizeof(HourglassVector) + sizeof(hourglass::Metric<double>); ///< of Reference [bytes]
   static void store(const History &history, double *numbers);
   static History restore(const double *numbers);
 
@@ -52,7 +53,8 @@ public:
     SharedYield yield;              ///< what is left of both
   };
 
-  OnePointElement(const ElasticModuli &elastic, const ElementFormulation &formulation);
+  OnePointElement(const ElasticModuli &elastic, const ElementFormulation &)
+      : moduli_(elastic.bulk, elastic.shear), bulk_(elastic.bulk) {}
 
   static bool initialize(const ElementVectors &positions, Reference &reference);
   static bool compute(const Reference &reference, const ElementVectors &displacements,
@@ -89,12 +91,8 @@ public:
                        const Stabilisation &stabilisation, ElementMatrix &matrix) const;
 
 private:
-  HourglassVector respond(const HourglassVector &h, const std::array<double, 6> &ratios) const;
-
-  double bulk_, shear_;
-  double plane_, coupling_; ///< E/(1 − ν²)/3, and ν times that
-  double torsion_, axial_;  ///< G/3, E/9
-  double stiffness_;        ///< the scene's factor
+  hourglass::Moduli<double> moduli_;
+  double bulk_;
 };
 
 } // namespace billet

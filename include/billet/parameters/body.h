@@ -108,7 +108,6 @@ struct Body {
 
   Material material;
   Located<ElementType> element;
-  std::optional<double> hourglass_stiffness; ///< of one-point elements, where it is given
   std::vector<Support> supports;
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z

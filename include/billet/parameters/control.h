@@ -45,7 +45,6 @@ struct ExplicitDynamics {
   double safety_factor;
   double contact_resolution; ///< of the oscillation on penalties, >= 1
   double linear_viscosity, quadratic_viscosity;
-  double hourglass_stiffness;
   double scaled_step;   ///< elements get mass until their step is not shorter; 0: none
   double largest_drift; ///< part of the energy
   Instructions instructions;

@@ -139,7 +139,6 @@ def everything():  # noqa: C901
                 for more in ({}, PLASTIC) if base not in ("clip", "twist", "fold.implicit", "skid.implicit") else (PLASTIC,):
                     yield Case(base, {"element": element, "kinematics": law, **more}, ("element", "law"),
                                (element, law + (", plastic" if more else "")))
-    yield from single("hourglass", ("upset", "slide", "stack", "drop.explicit", "bars.implicit"), decades(-4, 2), along={"element": "one point"})
     # shape and loading
     for law in LAWS:
         for more in ({}, PLASTIC):

@@ -22,7 +22,7 @@ COLOURS = {"right": "#4c9f70", "told": "#7fbf94", "soft": "#b9dcc3", "doubtful":
 WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient",
          **{f"mu, {law}": f"friction coefficient, `{law}`" for law in FRICTION_LAWS[1:]}, "nu": "Poisson's ratio", "step": "fixed step, of the load",
          "aspect": "height over width of a brick", "yield": "yield stress, E",
-         "hardening modulus": "hardening modulus, E", "augmentation": "`Penetration tolerance`", "hourglass": "`Hourglass stiffness`",
+         "hardening modulus": "hardening modulus, E", "augmentation": "`Penetration tolerance`",
          "tangential penalty": "tangential penalty, E/h", "grading": "largest over smallest element", "distortion": "inner node moved, bricks",
          "length": "length of the scene", "radius": "radius of the tool, block sizes", "turns": "turns of a tool", "oscillations": "oscillations of a tool",
          "cycles": "cycles of friction", "tolerance": "`Force tolerance`", "modulus ratio": "ratio of moduli", "density ratio": "ratio of densities",

@@ -13,7 +13,7 @@ KNOBS = {
     "length": 1.0, "stress": 1.0, "time": 1.0, "turned": 0.0,
     # body
     "law": "elastic", "element": "assumed strain", "kinematics": "Hencky", "nu": 0.3, "young": 1000.0,
-    "hardening": "linear", "yield": 0.01, "hardening modulus": 0.1, "hourglass": None, "density": 1e-3,
+    "hardening": "linear", "yield": 0.01, "hardening modulus": 0.1, "density": 1e-3,
     "bricks": None, "aspect": 1.0, "grading": 1.0, "distortion": 0.0,
     "density ratio": 1.0, "modulus ratio": 1.0,
     # loading
@@ -132,8 +132,6 @@ def body(k, f, mesh, planes=None, young=None, density=None, **more):
     b = {"Mesh": f.mesh(**mesh), "Material": material(k, f, young, density)}
     if k.element != "assumed strain":
         b["Element"] = k.element
-    if k.hourglass is not None:
-        b["Hourglass stiffness"] = number(k.hourglass)
     if planes:
         b["Symmetry planes"] = f.planes(planes)
     b.update(more)

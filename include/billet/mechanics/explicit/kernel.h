@@ -35,7 +35,6 @@ template <class Number> struct BasicMaterial {
   Number density;
   Number wave_speed;
   Number linear_viscosity, quadratic_viscosity;
-  Number hourglass_stiffness;
 };
 
 /// One element takes these many numbers, in batches of as many elements as there are lanes: number k of batch
@@ -102,9 +101,10 @@ constexpr unsigned int n = 21;
 /// Those of the one-point element.
 namespace one_point {
 using namespace mean_gradient;
-constexpr unsigned int hourglass_bound = mean_gradient::n;
-constexpr unsigned int ratios = 22; ///< of the edges: l_1/l_2, l_1/l_3, l_2/l_1, l_2/l_3, l_3/l_1, l_3/l_2
-constexpr unsigned int modes = 28;  ///< of the reference positions, in float
+constexpr unsigned int bound_of_all = mean_gradient::n; ///< as `bound`, of the columns and the modes b, c
+constexpr unsigned int hourglass_modulus = 22;          ///< largest of the hourglass strains
+constexpr unsigned int metric = 23; ///< a_k·a_k, then a_2·a_3, a_3·a_1, a_1·a_2, over the largest square
+constexpr unsigned int modes = 29;  ///< of the reference positions, in float
 // History: that of the last call, ĥ_0 (in float ĥ itself), then the point's.
 constexpr unsigned int hourglass = last::n, point = hourglass + 12;
 } // namespace one_point
