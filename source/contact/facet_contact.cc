@@ -785,18 +785,36 @@ double FacetContact::closing_of_new_contacts() const {
   return largest;
 }
 
+double FacetContact::elastic_slip(const std::size_t s) const {
+  const SlaveState &state = states_[s];
+  if (!state.presses() || !(state.traction.pressure > 0.) || base_.empty() || !was_touching(s) ||
+      state.traction.status != ContactStatus::stick)
+    return 0.;
+  return std::hypot(history_[s].tangential[0] - base_[s].tangential[0],
+                    history_[s].tangential[1] - base_[s].tangential[1]) /
+         stiffness_[s].tangential;
+}
+
 double FacetContact::augmentation_error() const {
   double worst = penetration().of_facet;
+  for (std::size_t s = 0; s < slaves_.size(); ++s)
+    worst = std::max(worst, elastic_slip(s) / sizes_[s]);
+  return worst;
+}
+
+SpringWork FacetContact::spring_work() const {
+  SpringWork work;
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
-    if (!state.presses() || !(state.traction.pressure > 0.))
+    if (!state.presses())
       continue;
-    if (!base_.empty() && was_touching(s) && state.traction.status == ContactStatus::stick)
-      worst = std::max(worst, std::hypot(history_[s].tangential[0] - base_[s].tangential[0],
-                                         history_[s].tangential[1] - base_[s].tangential[1]) /
-                                  (stiffness_[s].tangential * sizes_[s]));
+    const auto &normal = state.contact.normal;
+    const auto &traction = state.traction.traction;
+    work.normal +=
+        0.5 * state.own_area * state.traction.pressure * std::abs(state.contact.gap + augmentation(s));
+    work.tangential += state.own_area * (traction - (traction * normal) * normal).norm() * elastic_slip(s);
   }
-  return worst;
+  return work;
 }
 
 std::vector<SlaveForce> FacetContact::slave_forces() const {

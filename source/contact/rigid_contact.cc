@@ -541,7 +541,7 @@ double RigidContact::stored_energy(const std::size_t i) const {
   // What augmented tractions hold is no stretch of a spring.
   const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
   return states_[i].share * nodes_[i].spring().energy(gap) +
-         (pair_.penetration_tolerance > 0. ? 0. : states_[i].tangential_energy);
+         (pair_.is_augmented() ? 0. : states_[i].tangential_energy);
 }
 
 RigidContact::Springs RigidContact::springs_of(const std::size_t i, const double energy) const {
@@ -993,22 +993,33 @@ bool RigidContact::has_touching_nodes() const {
                      [](const NodeState &state) { return state.status != ContactStatus::open; });
 }
 
+double RigidContact::elastic_slip(const std::size_t i) const {
+  if (!(states_[i].pressure > 0.) || states_[i].status != ContactStatus::stick || friction_.empty() ||
+      !friction_n_[i].is_active)
+    return 0.;
+  const auto &from = base_.empty() ? friction_n_[i].tangential : base_[i];
+  return std::hypot(friction_[i].tangential[0] - from[0], friction_[i].tangential[1] - from[1]) /
+         nodes_[i].stiffness.tangential;
+}
+
 double RigidContact::augmentation_error() const {
   if (pair_.penetration_tolerance == 0.)
     return 0.;
   double worst = penetration().of_facet;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node &node = nodes_[i];
-    if (!(states_[i].pressure > 0.))
-      continue;
-    if (states_[i].status != ContactStatus::stick || friction_.empty() || !friction_n_[i].is_active)
-      continue;
-    const auto &from = base_.empty() ? friction_n_[i].tangential : base_[i];
-    worst = std::max(worst,
-                     std::hypot(friction_[i].tangential[0] - from[0], friction_[i].tangential[1] - from[1]) /
-                         (node.stiffness.tangential * node.size));
-  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    worst = std::max(worst, elastic_slip(i) / nodes_[i].size);
   return worst / pair_.penetration_tolerance;
+}
+
+SpringWork RigidContact::spring_work() const {
+  SpringWork work;
+  for_each_counted_area([&](const unsigned int i, const double area) {
+    const NodeState &state = states_[i];
+    work.normal += 0.5 * area * state.pressure * std::abs(state.gap + nodes_[i].lift);
+    work.tangential +=
+        area * (state.traction - (state.traction * state.normal) * state.normal).norm() * elastic_slip(i);
+  });
+  return work;
 }
 
 double RigidContact::largest_area(const Facet &facet, const unsigned int corner, const double area) const {
@@ -1072,7 +1083,7 @@ ContactLoad RigidContact::local_load(const bool hands_over) const {
 
 FrictionRule RigidContact::friction_rule(const Node &node) const {
   // What augmented tractions hold is no stretch of a spring.
-  const bool stores = pair_.penetration_tolerance == 0.;
+  const bool stores = !pair_.is_augmented();
   return {node.stiffness.tangential, start_weight_, is_static_, stores, stores};
 }
 

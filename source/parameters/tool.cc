@@ -247,11 +247,14 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "k_n > 0: pressure = k_n times penetration. [1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
-  prm.declare_entry(
-      "Penetration tolerance", "0", Patterns::Double(),
-      ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
-      "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
-      "slipped elastically by more; where that takes long, or fails, penalties are adapted. [facet sizes]");
+  prm.declare_entry("Penetration tolerance", "0", Patterns::Anything(),
+                    ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
+                    "(Uzawa) until no "
+                    "node in contact is farther from its facet, and none that sticks has slipped elastically "
+                    "by more; where "
+                    "that takes long, or fails, penalties are adapted. automatic, in statics: until "
+                    "penetration takes no more "
+                    "than 0.2 % of the deformation. [facet sizes]");
   prm.declare_entry(
       "Allowed initial penetration", "1e-3", Patterns::Double(),
       "A body that starts deeper than this inside the tool, or another body, is refused. [facet "
@@ -283,6 +286,18 @@ void refuse_twice(const Reader &reader, const std::string &key, const std::vecto
 
 } // namespace
 
+void ContactPair::parse_penetration_tolerance(Reader &reader) {
+  const std::string key = "Penetration tolerance";
+  has_penetration_tolerance = reader.text(key) != "automatic";
+  penetration_tolerance = 0.;
+  if (!has_penetration_tolerance)
+    return;
+  const auto values = reader.numbers(key);
+  if (values.size() != 1 || !(values[0] >= 0.))
+    reader.reject(key, "a number >= 0, or automatic");
+  penetration_tolerance = values[0];
+}
+
 void ContactPair::parse(Reader &reader) {
   origin = reader.origin();
   body = reader.located("Body", reader.text("Body"));
@@ -306,7 +321,7 @@ void ContactPair::parse(Reader &reader) {
     tangential_penalty = values[0];
   }
   parse_initial_state(reader);
-  penetration_tolerance = reader.not_negative("Penetration tolerance");
+  parse_penetration_tolerance(reader);
   allowed_penetration =
       reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
 }

@@ -317,6 +317,9 @@ void Scene::allow_for_pressure() {
 }
 
 void Scene::make_pairs() {
+  const auto limits_softness = [](const parameters::ContactPair &pair) {
+    return !pair.has_penetration_tolerance;
+  };
   for (const auto &pair : parameters_.pairs) {
     const std::size_t body = parameters_.body_index(pair);
     const bool is_factor = pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
@@ -331,6 +334,7 @@ void Scene::make_pairs() {
                         pair.normal_penalty,
                         pair.tangential_penalty,
                         pair.penetration_tolerance,
+                        limits_softness(pair),
                         {pair.may_overlap, pair.ramp_time, pair.closed_gap}});
       continue;
     }
@@ -361,6 +365,7 @@ void Scene::make_pairs() {
          pair.smoothing,
          pair.search_margin,
          pair.penetration_tolerance,
+         limits_softness(pair),
          {pair.may_overlap, pair.ramp_time, pair.closed_gap},
          pair.correction});
     const auto &ids = body_pairs_.back().boundary_ids;
@@ -513,7 +518,7 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   const auto n_edges =
       std::count_if(body_pairs_.begin(), body_pairs_.end(), [](const BodyPair &pair) { return pair.edges; });
   add("Edges", n_edges > 0, part(n_edges, n_all_pairs, "pairs"));
-  const auto n_augmented = n_pairs([](const auto &pair) { return pair.penetration_tolerance > 0.; });
+  const auto n_augmented = n_pairs([](const auto &pair) { return pair.is_augmented(); });
   add("Augmentation", n_augmented > 0, part(n_augmented, n_all_pairs, "pairs"));
   add("Moving support", capabilities_.moving_supports, "");
   const auto n_driven = std::count_if(
@@ -599,6 +604,8 @@ void Scene::describe(std::ostream &stream) const {
          << (pair.penalty_is_factor ? " E/h" : " (absolute)");
     if (pair.penetration_tolerance > 0.)
       text << ", augmented to " << pair.penetration_tolerance << " facet sizes";
+    else if (pair.limits_softness)
+      text << ", augmented where penetration counts";
     if (pair.overlap.is_allowed)
       text << ", initial overlap "
            << (pair.overlap.ramp_time > 0. ? "resolved until time " + std::to_string(pair.overlap.ramp_time)
@@ -693,6 +700,7 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
     entry["tangential penalty"] = pair.tangential_penalty;
     entry["penalty unit"] = pair.penalty_is_factor ? "E/h" : "absolute";
     entry["penetration tolerance"] = pair.penetration_tolerance;
+    entry["limits softness"] = pair.limits_softness;
     scene["contact pairs"].push_back(entry);
   };
   for (const auto &pair : pairs_)

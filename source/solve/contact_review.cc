@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <type_traits>
 
@@ -28,30 +27,6 @@ std::string print_part(const double part) {
 }
 
 } // namespace
-
-std::vector<LoadPath> find_load_paths(const std::size_t n_bodies,
-                                      const std::vector<std::vector<std::size_t>> &bodies_of) {
-  std::vector<std::size_t> path(n_bodies);
-  std::iota(path.begin(), path.end(), std::size_t{0});
-  for (const auto &bodies : bodies_of)
-    for (const std::size_t body : bodies) {
-      const std::size_t from = path[body], to = path[bodies.front()];
-      std::replace(path.begin(), path.end(), from, to);
-    }
-  std::vector<LoadPath> result;
-  for (std::size_t p = 0; p < n_bodies; ++p) {
-    LoadPath load_path;
-    for (std::size_t body = 0; body < n_bodies; ++body)
-      if (path[body] == p)
-        load_path.bodies.push_back(body);
-    for (std::size_t pair = 0; pair < bodies_of.size(); ++pair)
-      if (path[bodies_of[pair].front()] == p)
-        load_path.pairs.push_back(pair);
-    if (!load_path.pairs.empty())
-      result.push_back(std::move(load_path));
-  }
-  return result;
-}
 
 void PathSoftness::add(const double time, const double penetration, const double deformation,
                        const double all_energy) {
@@ -100,17 +75,12 @@ bool ForceSpread::is_coarse_on_curves() const {
 
 ContactReview::ContactReview(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), tool_forces_(scene.tools().size()) {
-  std::vector<std::vector<std::size_t>> bodies_of;
-  for (const auto &pair : scene.pairs()) {
+  for (const auto &pair : scene.pairs())
     pairs_.push_back({pair.name, {pair.body}, pair.tool, false, false, 0., 0., {}, {}, 0.});
-    bodies_of.push_back(pairs_.back().bodies);
-  }
-  for (const auto &pair : scene.body_pairs()) {
+  for (const auto &pair : scene.body_pairs())
     pairs_.push_back(
         {pair.name, {pair.bodies[0], pair.bodies[1]}, none, pair.is_self_contact, false, 0., 0., {}, {}, 0.});
-    bodies_of.push_back(pairs_.back().bodies);
-  }
-  paths_ = find_load_paths(scene.bodies().size(), bodies_of);
+  paths_ = find_load_paths(scene);
   for (LoadPath &path : paths_)
     path.bears_given_loads =
         std::any_of(path.bodies.begin(), path.bodies.end(),

@@ -51,7 +51,8 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
       motions_(scene, supports_, discretization), internal_(scene, discretization),
       tangent_(scene.contact_tangent()),
       soft_penalties_(scene.parameters().is_dynamic() ? PenaltyWatch::Motion::sudden
-                                                      : PenaltyWatch::Motion::slow) {
+                                                      : PenaltyWatch::Motion::slow),
+      softness_(scene) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     contacts_.emplace_back(scene, p, discretization, tangent_);
   RigidContact::introduce(contacts_);

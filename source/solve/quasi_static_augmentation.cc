@@ -86,23 +86,28 @@ void QuasiStatic::stiffen(const std::size_t contact, const double factor) {
     body_contacts_[contact - contacts_.size()]->stiffen(factor);
 }
 
-void QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
-                                        const std::vector<double> &errors) {
+std::vector<double> QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
+                                                       const std::vector<double> &errors) {
   // An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's.
   constexpr double slow = 0.25, wanted = 0.1; // Bertsekas, Constrained Optimization, 1982, sec. 2.2.5
-  const std::vector<double> room = stiffening_left();
+  // Tools alone: stiff springs between facets that do not fit hold more than their mean gaps.
+  constexpr double more_of_soft_tools = 100.;
+  std::vector<double> room = stiffening_left(), factors(errors.size(), 1.);
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (scene_.pairs()[contacts_[i].pair()].limits_softness)
+      room[i] *= more_of_soft_tools;
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double left = errors[i] / before[i];
-    if (!(errors[i] > penetration_allowed_ && left > slow && room[i] > 1.))
+    if (!(errors[i] > 1. && left > slow && room[i] > 1.))
       continue;
-    const double factor =
-        left < 1. ? std::min(room[i], left / (1. - left) * (1. - wanted) / wanted) : room[i];
+    factors[i] = left < 1. ? std::min(room[i], left / (1. - left) * (1. - wanted) / wanted) : room[i];
     is_stiffer = true;
-    stiffen(i, factor);
+    stiffen(i, factors[i]);
   }
   if (is_stiffer)
     spring_round_off_ = find_spring_round_off();
+  return factors;
 }
 
 DiagnosticList QuasiStatic::soften_augmented_contacts() {
@@ -112,13 +117,13 @@ DiagnosticList QuasiStatic::soften_augmented_contacts() {
     if (!(room[i] < 1.))
       continue;
     const bool is_tool = i < contacts_.size();
-    if ((is_tool ? scene_.pairs()[contacts_[i].pair()].penetration_tolerance
-                 : scene_.body_pairs()[i - contacts_.size()].penetration_tolerance) == 0.)
+    if (!(is_tool ? scene_.pairs()[contacts_[i].pair()].is_augmented()
+                  : scene_.body_pairs()[i - contacts_.size()].is_augmented()))
       continue;
     stiffen(i, room[i]);
     std::ostringstream text;
     text << "The penalty was reduced to " << enough_penalty
-         << " E/h, since Newton's method failed; augmentation enforces the 'Penetration tolerance'";
+         << " E/h, since Newton's method failed; augmentation makes up for that";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
                            .pair(is_tool ? scene_.pairs()[contacts_[i].pair()].name
                                          : body_contacts_[i - contacts_.size()]->name())
@@ -136,25 +141,80 @@ void QuasiStatic::augment_contacts() {
     contact->augment();
 }
 
+QuasiStatic::AugmentationDemands QuasiStatic::augmentation_demands() const {
+  AugmentationDemands demands;
+  demands.of_contacts = augmentation_errors();
+  for (double &demand : demands.of_contacts) {
+    demand /= penetration_allowed_;
+    demands.by_tolerances = std::max(demands.by_tolerances, demand);
+  }
+  demands.largest = demands.by_tolerances;
+  if (!softness_.is_used() || is_probing_)
+    return demands;
+  std::vector<double> sums;
+  for (const SpringWork &work : spring_works()) {
+    sums.push_back(work.normal);
+    sums.push_back(work.tangential);
+  }
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  std::vector<SpringWork> works(demands.of_contacts.size());
+  for (std::size_t i = 0; i < works.size(); ++i)
+    works[i] = {sums[2 * i], sums[2 * i + 1]};
+  const std::vector<double> before = internal_.compute_body_energies(state_.displacements),
+                            now = internal_.compute_body_energies(trial_ghosted_, Beat::evaluated);
+  std::vector<SoftnessLimit::Deformation> deformations;
+  for (std::size_t body = 0; body < now.size(); ++body)
+    deformations.push_back({before[body], now[body]});
+  const std::vector<double> excess = softness_.excess(works, deformations);
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
+    demands.largest = std::max(demands.largest, excess[i]);
+  }
+  return demands;
+}
+
+std::vector<SpringWork> QuasiStatic::spring_works() const {
+  std::vector<SpringWork> works;
+  for (const auto &contact : contacts_)
+    works.push_back(contact.spring_work());
+  for (const auto &contact : body_contacts_)
+    works.push_back(contact->spring_work());
+  return works;
+}
+
+void QuasiStatic::augment_where_asked() {
+  for (auto &contact : contacts_)
+    if (scene_.pairs()[contact.pair()].is_augmented())
+      contact.augment();
+  for (std::size_t i = 0; i < body_contacts_.size(); ++i)
+    if (scene_.body_pairs()[i].is_augmented())
+      body_contacts_[i]->augment();
+}
+
 void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
   const unsigned int most = scene_.parameters().solver.most_augmentations;
+  // What limits softness alone fails no step: it is told at the end.
+  constexpr unsigned int most_of_softness = 6;
   // Residuals leave gaps, too: where augmentations do not close them, residuals have to be smaller.
   constexpr double slow = 0.5, smaller = 0.1, smallest = 0.01;
   const double accuracy = accuracy_;
   double last_error = std::numeric_limits<double>::infinity();
-  std::vector<double> before;
+  std::vector<double> before, stiffer(contacts_.size() + body_contacts_.size(), 1.);
+  std::unique_ptr<Vector> soft;
+  std::vector<double> soft_offsets;
   Pace pace;
   for (unsigned int n = 0; report.converged; ++n) {
-    const std::vector<double> errors = augmentation_errors();
-    double error = 0.;
-    for (const double of_contact : errors)
-      error = std::max(error, of_contact / penetration_allowed_);
+    const AugmentationDemands demands = augmentation_demands();
+    const double error = demands.largest;
+    const bool is_of_softness = demands.by_tolerances <= 1.;
     if (error <= 1.)
       break;
     if (error > slow * last_error)
       accuracy_ = std::max(smaller * accuracy_, smallest * accuracy);
     last_error = error;
     pace.add(error);
+    if (is_of_softness && (n >= most_of_softness || pace.is_hopeless(most_of_softness)))
+      break;
     if (n == most || pace.is_hopeless(most)) {
       if (may_leave_penetration_)
         break;
@@ -175,13 +235,37 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
     }
     if (measures_penetration_ && !is_probing_ && !of_penetration_)
       of_penetration_ = OfPenetration{find_penetration(), trial_results(), {}, 0., 0};
-    augment_contacts();
-    if (n > 0)
-      stiffen_slow_contacts(before, errors);
-    before = errors;
+    if (is_of_softness && n == 0) {
+      soft = std::make_unique<Vector>(displacements);
+      soft_offsets = offsets;
+    }
+    augment_where_asked();
+    if (n > 0) {
+      const std::vector<double> factors = stiffen_slow_contacts(before, demands.of_contacts);
+      for (std::size_t i = 0; i < factors.size(); ++i)
+        stiffer[i] *= factors[i];
+    }
+    before = demands.of_contacts;
     report.append(iterate(offsets, displacements));
+    if (!report.converged && soft && is_of_softness) { // as it was before
+      for (std::size_t i = 0; i < stiffer.size(); ++i)
+        if (stiffer[i] != 1.)
+          stiffen(i, 1. / stiffer[i]);
+      take_back_augmentation();
+      displacements = *soft;
+      offsets = soft_offsets;
+      report.append(iterate(offsets, displacements));
+      break;
+    }
   }
   accuracy_ = accuracy;
+}
+
+void QuasiStatic::take_back_augmentation() {
+  for (auto &contact : contacts_)
+    contact.take_back_augmentation();
+  for (auto &contact : body_contacts_)
+    contact->take_back_augmentation();
 }
 
 } // namespace billet

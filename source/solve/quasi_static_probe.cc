@@ -129,10 +129,7 @@ void QuasiStatic::measure_penetration(const Epetra_Vector &accepted, NewtonRepor
       of_penetration_->without = trial_results();
       left = find_penetration() / of_penetration_->penetration;
     }
-    for (auto &contact : contacts_)
-      contact.take_back_augmentation();
-    for (auto &contact : body_contacts_)
-      contact->take_back_augmentation();
+    take_back_augmentation();
   }
   if (!of_penetration_ || of_penetration_->without.empty())
     return;

@@ -81,6 +81,7 @@ my @cases = (
   ['a tool instead of the support', $static, $die . pair('set Tool = die') . ' & Supports: delete', 'Contact, Matrix'],
   ['friction', $static, $die . pair('set Tool = die\n set Friction coefficient = 0.1'), 'Contact, Friction, Moving support, Matrix, Unsymmetric'],
   ['augmentation', $static, $die . pair('set Tool = die\n set Penetration tolerance = 1e-5'), 'Contact, Augmentation, Moving support, Matrix'],
+  ['automatic augmentation', $static, $die . pair('set Tool = die\n set Penetration tolerance = automatic'), 'Contact, Augmentation, Moving support, Matrix'],
   ['a driven tool', $static, tool('set Force = t\n set Force direction = 0, 0, -1') . ' & ' . pair('set Tool = die'),
     'Contact, Driven tools, Moving support, Matrix'],
   ['another body', $static, "$other & " . pair($on_other), 'Contact, Body contact, Moving support, Matrix, Unsymmetric'],

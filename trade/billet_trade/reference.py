@@ -64,7 +64,9 @@ class Plan:
             n = steps or min(100, max(20, knobs.longest_steps(scene)))
             levels = [(f"{m} steps", knobs.equal_steps(scene, m)) for m in (n, 2 * n, 4 * n)]
         tolerances = {} if scene.is_explicit else {
-            pair: base.number(pair + "Penetration tolerance") or (AUGMENTED if base.get(pair + "Second body") else 0.0)
+            # 'automatic' is as far as the program thinks fit, which is no level of an axis.
+            pair: (AUGMENTED if base.get(pair + "Penetration tolerance") == "automatic"
+                   else base.number(pair + "Penetration tolerance")) or (AUGMENTED if base.get(pair + "Second body") else 0.0)
             for pair in (f"Contact pairs/{name}/" for name in scene.names("Contact pairs"))}
         augmented = {pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0}
         if augmented:

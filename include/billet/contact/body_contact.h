@@ -54,6 +54,9 @@ public:
                                             : 0.;
   }
 
+  /// Of this rank's nodes.
+  SpringWork spring_work() const { return contact_->spring_work(); }
+
   /// As RigidContact's.
   void stiffen(const double factor) { contact_->stiffen(factor); }
   void scale_penalties(const double normal, const double tangential) {

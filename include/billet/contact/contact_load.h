@@ -39,6 +39,12 @@ struct Penetration {
   }
 };
 
+/// What the springs of contact take of the work that is done on bodies [energy].
+struct SpringWork {
+  double normal = 0.;     ///< by penetrations so far, ½ Σ p g A
+  double tangential = 0.; ///< by the elastic slip of nodes that stick, in this step, Σ |t| s A
+};
+
 /// Of nodes that come through a surface, into contact or out of it, in the step that has been or in the next
 /// two: with d_i the way along the normal in a step, the energy in such a step is off by up to ⅛ Σ k A d_i².
 struct Crossings {

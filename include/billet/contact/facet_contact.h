@@ -204,6 +204,8 @@ public:
   /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its
   /// facets; after add_forces(). On this rank.
   double augmentation_error() const;
+  /// After add_forces(), of this rank's areas.
+  SpringWork spring_work() const;
   /// Makes all penalties so many times as stiff; what augmentation holds stays. After augment().
   void stiffen(const double factor) { scale_penalties(factor, factor); }
   /// The same, with a factor of their own for the tangential ones.
@@ -319,6 +321,8 @@ private:
   bool was_touching(std::size_t s) const;
   /// What the friction of slave s starts from becomes what it is.
   void augment_friction(std::size_t s);
+  /// Of a slave that sticks, in this step, or since its traction was augmented [length].
+  double elastic_slip(std::size_t s) const;
   /// How many times its gap the lift of slave s grows by: the secant's, where the last augmentation closed a
   /// part of it. Where little area touches, the same lift closes less.
   double pace_of_augmentation(std::size_t s, double gap) const;

@@ -135,6 +135,8 @@ public:
   void augment();
   /// Relative to what the pair asks for; 0 if it asks for none. On this rank.
   double augmentation_error() const;
+  /// After update(), on this rank.
+  SpringWork spring_work() const;
   /// Makes penalties so many times as stiff; what augmentation holds stays. After augment().
   void stiffen(const double factor) { scale_penalties(factor, factor); }
   /// The same, with a factor of their own for the tangential ones.
@@ -273,6 +275,8 @@ private:
     dealii::Tensor<2, 3> tangent; ///< −∂(push + p n)/∂x, but for that of p at a fixed s [stress/length]
     double stiffness;             ///< no less than the norm of what `tangent` has besides [stress/length]
   };
+  /// Of a node that sticks, in this step, or since its traction was augmented [length].
+  double elastic_slip(std::size_t i) const;
   /// Only with friction.
   struct FrictionHistory {
     bool is_active = false;

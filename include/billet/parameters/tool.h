@@ -82,7 +82,8 @@ struct ContactPair {
   double normal_penalty;
   bool has_own_penalty = false; ///< the scene sets it: what it is worth is the user's, and stays
   double tangential_penalty;
-  double penetration_tolerance; ///< 0: no augmentation
+  double penetration_tolerance;           ///< 0: none
+  bool has_penetration_tolerance = true; ///< else 'automatic'
   Located<double> allowed_penetration;
   bool may_overlap;  ///< at the start
   double ramp_time;  ///< in which that ceases; 0: never
@@ -104,6 +105,7 @@ struct ContactPair {
 private:
   void parse_bodies(Reader &reader);
   void parse_friction(Reader &reader);
+  void parse_penetration_tolerance(Reader &reader);
   void parse_initial_state(Reader &reader);
 };
 

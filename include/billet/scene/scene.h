@@ -85,9 +85,11 @@ struct ContactPair {
   FrictionLaw friction;
   bool penalty_is_factor;
   double normal_penalty, tangential_penalty;
-  double penetration_tolerance; ///< [facet sizes]; 0: none, penalties alone
+  double penetration_tolerance; ///< [facet sizes]; 0: none
+  bool limits_softness;         ///< or augmented until penetration takes little of the deformation
   InitialOverlap overlap;
 
+  bool is_augmented() const { return penetration_tolerance > 0. || limits_softness; }
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
   /// k [force/length³] from the scene's number, for facets of size h on a body with Young's modulus E.
   double scaled_penalty(const double penalty, const double young_modulus, const double h) const {
@@ -110,10 +112,12 @@ struct BodyPair {
   double normal_penalty, tangential_penalty;
   double smoothing;             ///< ContactLimits::zone
   double search_margin;         ///< [facet sizes]
-  double penetration_tolerance; ///< [facet sizes]; 0: none, penalties alone
+  double penetration_tolerance; ///< [facet sizes]; 0: none
+  bool limits_softness;         ///< or augmented until penetration takes little of the deformation
   InitialOverlap overlap;
   parameters::ContactPair::Correction correction;
 
+  bool is_augmented() const { return penetration_tolerance > 0. || limits_softness; }
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
 };
 

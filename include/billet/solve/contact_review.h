@@ -4,6 +4,7 @@
 
 #include "billet/diagnostics.h"
 #include "billet/scene/scene.h"
+#include "billet/solve/load_paths.h"
 #include "billet/solve/solution.h"
 #include "billet/state.h"
 
@@ -12,16 +13,6 @@
 #include <vector>
 
 namespace billet {
-
-/// Bodies that contact pairs connect, directly or by others, and the pairs: forces go through all of them,
-/// and their penetrations add up. Tools are rigid and connect nothing.
-struct LoadPath {
-  std::vector<std::size_t> bodies, pairs;
-  bool bears_given_loads = false; ///< of bodies, or of driven tools: its forces are right at any stiffness
-};
-/// `bodies_of`: the one or two bodies of each pair.
-std::vector<LoadPath> find_load_paths(std::size_t n_bodies,
-                                      const std::vector<std::vector<std::size_t>> &bodies_of);
 
 /// What penetration takes of the deformation along a load path, (L3) of doc/theory.md: over the time in
 /// which its pairs press, the energy ½ Σ p g A of pressures on penetrations beside that of the bodies'

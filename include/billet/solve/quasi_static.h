@@ -9,6 +9,7 @@
 #include "billet/solve/contact_stabilisation.h"
 #include "billet/solve/error_control.h"
 #include "billet/solve/implicit_motion.h"
+#include "billet/solve/load_paths.h"
 #include "billet/solve/motion_watch.h"
 #include "billet/solve/newton.h"
 #include "billet/solve/penalty_watch.h"
@@ -275,8 +276,20 @@ private:
   /// The augmented Lagrangian: tractions are augmented and iterated anew until all pairs have what they ask
   /// for. Continues `report`. In solve/quasi_static_augmentation.cc.
   void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
-  /// The tractions of all, once.
+  /// The tractions of all, once; in measurements, which take it back.
   void augment_contacts();
+  /// Of each contact, tools first: by how much it is farther from what its pair asks for than it may be, as
+  /// `errors`; or softer than it may be, SoftnessLimit. At the trial state. Collective.
+  struct AugmentationDemands {
+    std::vector<double> of_contacts;
+    double by_tolerances = 0., largest = 0.; ///< of all
+  };
+  AugmentationDemands augmentation_demands() const;
+  /// Of each contact, tools first, on this rank.
+  std::vector<SpringWork> spring_works() const;
+  /// The tractions of those that are augmented, once.
+  void augment_where_asked();
+  void take_back_augmentation();
   /// get(contact) of each contact of this rank, tools first.
   template <class Get> std::vector<double> of_contacts(const Get &get) const {
     std::vector<double> values;
@@ -302,8 +315,11 @@ private:
   std::vector<double> stiffening_left() const;
   /// The penalties of one of these contacts.
   void stiffen(std::size_t contact, double factor);
-  /// Makes the penalties of contacts stiffer whose errors fell by little since `before`. Collective.
-  void stiffen_slow_contacts(const std::vector<double> &before, const std::vector<double> &errors);
+  /// Makes the penalties of contacts stiffer whose errors, above 1, fell by little since `before`.
+  /// Collective.
+  /// Returns the factors, all 1 if none is.
+  std::vector<double> stiffen_slow_contacts(const std::vector<double> &before,
+                                            const std::vector<double> &errors);
   /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that. Returns a message
   /// on each. Collective.
   DiagnosticList soften_augmented_contacts();
@@ -466,6 +482,7 @@ private:
   double allowed_at_measurement_ = 0.; ///< part of the forces
   std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
+  SoftnessLimit softness_;
   std::vector<double>
       tool_pair_energies_;     ///< in the springs of each pair with a tool, at the last step's end
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
