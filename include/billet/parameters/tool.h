@@ -82,7 +82,7 @@ struct ContactPair {
   double normal_penalty;
   bool has_own_penalty = false; ///< the scene sets it: what it is worth is the user's, and stays
   double tangential_penalty;
-  double penetration_tolerance;           ///< 0: none
+  double penetration_tolerance;          ///< 0: none
   bool has_penetration_tolerance = true; ///< else 'automatic'
   Located<double> allowed_penetration;
   bool may_overlap;  ///< at the start
