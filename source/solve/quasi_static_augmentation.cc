@@ -157,6 +157,8 @@ QuasiStatic::AugmentationDemands QuasiStatic::augmentation_demands() const {
     sums.push_back(work.tangential);
   }
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  if (std::all_of(sums.begin(), sums.end(), [](const double work) { return work == 0.; }))
+    return demands; // nothing presses: energies of all elements would be for nothing
   std::vector<SpringWork> works(demands.of_contacts.size());
   for (std::size_t i = 0; i < works.size(); ++i)
     works[i] = {sums[2 * i], sums[2 * i + 1]};
