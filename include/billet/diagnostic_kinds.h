@@ -291,12 +291,11 @@ inline const DiagnosticKind target_error_expensive("target-error-expensive", Sev
 
 // --- solution --------------------------------------------------------------------------------------------
 
-inline const DiagnosticKind
-    unsupported_body("unsupported-body", Severity::warning,
-                     "A body in a static scene touches others without a force, and could move away freely. "
-                     "Its shape is right; "
-                     "its place is arbitrary.",
-                     "Hold it by a support or a symmetry plane, or end the run before it is unloaded");
+inline const DiagnosticKind unsupported_body(
+    "unsupported-body", Severity::warning,
+    "Nothing presses a body in a static scene any more, and it could move away freely: viscous "
+    "forces hold it. Its shape is right; its place is arbitrary.",
+    "Hold it by a support or a symmetry plane, or end the run before it is unloaded");
 
 inline const DiagnosticKind stabilisation_too_strong(
     "stabilisation-too-strong", Severity::warning,

@@ -802,19 +802,19 @@ double FacetContact::augmentation_error() const {
   return worst;
 }
 
-SpringWork FacetContact::spring_work() const {
-  SpringWork work;
+ContactSprings FacetContact::compute_springs() const {
+  ContactSprings springs;
+  springs.normal.of_nodes.resize(slaves_.size());
+  springs.tangential.of_nodes.resize(slaves_.size());
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     const SlaveState &state = states_[s];
     if (!state.presses())
       continue;
-    const auto &normal = state.contact.normal;
-    const auto &traction = state.traction.traction;
-    work.normal +=
-        0.5 * state.own_area * state.traction.pressure * std::abs(state.contact.gap + augmentation(s));
-    work.tangential += state.own_area * (traction - (traction * normal) * normal).norm() * elastic_slip(s);
+    springs.add(s, state.own_area * state.traction.traction, state.contact.normal,
+                state.own_area * stiffness_[s].normal * std::abs(state.contact.gap + augmentation(s)),
+                state.own_area * stiffness_[s].tangential * elastic_slip(s));
   }
-  return work;
+  return springs;
 }
 
 std::vector<SlaveForce> FacetContact::slave_forces() const {

@@ -2,6 +2,7 @@
 #include "billet/contact/rigid_contact.h"
 
 #include "billet/discretization/boundary_facets.h"
+#include "billet/discretization/supports.h"
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/lac/full_matrix.h>
@@ -42,6 +43,11 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
       has_inertia_(scene.parameters().is_dynamic()), is_explicit_(scene.parameters().is_explicit()),
       touching_gap_(has_inertia_ && !is_explicit_ ? 0. : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
+  if (!has_inertia_) {
+    const std::set<DofIndex> fixed = collect_fixed_nodes(scene, discretization);
+    for (auto &node : nodes_)
+      node.is_fixed = fixed.count(node.dofs[0]) > 0;
+  }
   placement_n_ = placement_ = tool_.placement(0.);
   states_.resize(nodes_.size());
   if (pair_.has_friction())
@@ -936,11 +942,13 @@ void RigidContact::augment() {
   Usage::count(Capability::augmentation, nodes_.size());
   augmentation_memory_.set(2 * nodes_.size() * sizeof(Node::lift));
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    nodes_[i].lift = states_[i].share == 1. ? states_[i].pressure / nodes_[i].stiffness.normal
-                                            : states_[i].share * std::max(0., -states_[i].gap);
+    nodes_[i].lift = nodes_[i].is_fixed       ? 0.
+                     : states_[i].share == 1. ? states_[i].pressure / nodes_[i].stiffness.normal
+                                              : states_[i].share * std::max(0., -states_[i].gap);
   base_.clear();
   for (std::size_t i = 0; i < friction_.size(); ++i)
-    base_.push_back(friction_n_[i].is_active ? friction_[i].tangential : friction_n_[i].tangential);
+    base_.push_back(friction_n_[i].is_active && !nodes_[i].is_fixed ? friction_[i].tangential
+                                                                    : friction_n_[i].tangential);
 }
 
 void RigidContact::scale_penalties(const double normal, const double tangential) {
@@ -961,7 +969,7 @@ double RigidContact::tangential_stiffening_left() const { return most_tangential
 Penetration RigidContact::penetration() const {
   Penetration deepest;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (states_[i].pressure > 0. && states_[i].share == 1.)
+    if (states_[i].pressure > 0. && states_[i].share == 1. && !nodes_[i].is_fixed)
       deepest.add(std::abs(states_[i].gap + nodes_[i].lift), nodes_[i].size);
   return deepest;
 }
@@ -969,7 +977,7 @@ Penetration RigidContact::penetration() const {
 double RigidContact::excessive_penetration() const {
   double largest = 0.;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (states_[i].pressure > 0. && states_[i].share == 1.)
+    if (states_[i].pressure > 0. && states_[i].share == 1. && !nodes_[i].is_fixed)
       largest = std::max(largest, std::abs(states_[i].gap + nodes_[i].lift) / nodes_[i].reach);
   return largest;
 }
@@ -995,7 +1003,7 @@ bool RigidContact::has_touching_nodes() const {
 
 double RigidContact::elastic_slip(const std::size_t i) const {
   if (!(states_[i].pressure > 0.) || states_[i].status != ContactStatus::stick || friction_.empty() ||
-      !friction_n_[i].is_active)
+      !friction_n_[i].is_active || nodes_[i].is_fixed)
     return 0.;
   const auto &from = base_.empty() ? friction_n_[i].tangential : base_[i];
   return std::hypot(friction_[i].tangential[0] - from[0], friction_[i].tangential[1] - from[1]) /
@@ -1003,23 +1011,28 @@ double RigidContact::elastic_slip(const std::size_t i) const {
 }
 
 double RigidContact::augmentation_error() const {
-  if (pair_.penetration_tolerance == 0.)
+  const double tolerance = pair_.penetration_tolerance.value_or(0.);
+  if (tolerance == 0.)
     return 0.;
   double worst = penetration().of_facet;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     worst = std::max(worst, elastic_slip(i) / nodes_[i].size);
-  return worst / pair_.penetration_tolerance;
+  return worst / tolerance;
 }
 
-SpringWork RigidContact::spring_work() const {
-  SpringWork work;
+ContactSprings RigidContact::compute_springs() const {
+  ContactSprings springs;
+  springs.normal.of_nodes.resize(nodes_.size());
+  springs.tangential.of_nodes.resize(nodes_.size());
   for_each_counted_area([&](const unsigned int i, const double area) {
     const NodeState &state = states_[i];
-    work.normal += 0.5 * area * state.pressure * std::abs(state.gap + nodes_[i].lift);
-    work.tangential +=
-        area * (state.traction - (state.traction * state.normal) * state.normal).norm() * elastic_slip(i);
+    if (nodes_[i].is_fixed)
+      return;
+    springs.add(i, area * state.traction, state.normal,
+                area * nodes_[i].stiffness.normal * std::abs(state.gap + nodes_[i].lift),
+                area * nodes_[i].stiffness.tangential * elastic_slip(i));
   });
-  return work;
+  return springs;
 }
 
 double RigidContact::largest_area(const Facet &facet, const unsigned int corner, const double area) const {

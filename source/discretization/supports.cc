@@ -58,6 +58,24 @@ std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discre
   return nodes;
 }
 
+std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization) {
+  constexpr double independent = 1e-8; // as eliminate() has it
+  std::set<DofIndex> fixed;
+  for (const auto &[dof, node] : collect_held_nodes(scene, discretization)) {
+    std::vector<dealii::Tensor<1, 3>> basis;
+    for (const Hold *hold : node.holds) {
+      dealii::Tensor<1, 3> left = hold->normal;
+      for (const auto &e : basis)
+        left -= (left * e) * e;
+      if (left.norm() > independent)
+        basis.push_back(left / left.norm());
+    }
+    if (basis.size() == 3)
+      fixed.insert(dof);
+  }
+  return fixed;
+}
+
 Supports::Supports(const Scene &scene, const Discretization &discretization)
     : discretization_(discretization) {
   for (const auto &entry : collect_held_nodes(scene, discretization))

@@ -102,16 +102,6 @@ InternalForces::Energies InternalForces::compute_energies(const Vector &displace
   return {totals[0], totals[1], totals[2]};
 }
 
-std::vector<double> InternalForces::compute_body_energies(const Vector &displacements,
-                                                          const Beat beat) const {
-  std::vector<double> energies(blocks_.size());
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (const auto &summary : summarize(b, displacements, beat))
-      energies[b] += summary.elastic_energy + summary.plastic_work + summary.hourglass_energy;
-  dealii::Utilities::MPI::sum(energies, discretization_.communicator(), energies);
-  return energies;
-}
-
 std::vector<ElementSummary> InternalForces::summarize(const std::size_t body, const Vector &displacements,
                                                       const Beat beat) const {
   std::vector<ElementSummary> result;

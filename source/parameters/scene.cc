@@ -209,12 +209,6 @@ public:
       else if (scene_.is_explicit())
         for (const std::string key : {"Penetration tolerance", "Initial penetration"})
           refuse({"Contact pairs", pair.name}, key);
-      else if (scene_.is_dynamic() && !pair.has_penetration_tolerance) {
-        const SceneFile::Path path{"Contact pairs", pair.name};
-        throw InputError(file_.where(path, "Penetration tolerance") + ": 'Penetration tolerance'" + in(path) +
-                         ": found 'automatic', allowed is a number, since 'Scheme' is " + name_of_scheme() +
-                         ": nodes that have come in would have to stop within a step");
-      }
   }
 
 private:

@@ -247,14 +247,13 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "k_n > 0: pressure = k_n times penetration. [1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
-  prm.declare_entry("Penetration tolerance", "0", Patterns::Anything(),
-                    ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
-                    "(Uzawa) until no "
-                    "node in contact is farther from its facet, and none that sticks has slipped elastically "
-                    "by more; where "
-                    "that takes long, or fails, penalties are adapted. automatic, in statics: until "
-                    "penetration takes no more "
-                    "than 0.2 % of the deformation. [facet sizes]");
+  prm.declare_entry(
+      "Penetration tolerance", "automatic", Patterns::Anything(),
+      ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
+      "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
+      "slipped elastically by more; where that takes long, or fails, penalties are adapted. "
+      "automatic: in statics, until penetration takes no more than 0.2 % of the force of the pair; "
+      "0 in dynamics, or, unless it is set, beside a Normal penalty. [facet sizes]");
   prm.declare_entry(
       "Allowed initial penetration", "1e-3", Patterns::Double(),
       "A body that starts deeper than this inside the tool, or another body, is refused. [facet "
@@ -288,10 +287,12 @@ void refuse_twice(const Reader &reader, const std::string &key, const std::vecto
 
 void ContactPair::parse_penetration_tolerance(Reader &reader) {
   const std::string key = "Penetration tolerance";
-  has_penetration_tolerance = reader.text(key) != "automatic";
-  penetration_tolerance = 0.;
-  if (!has_penetration_tolerance)
+  penetration_tolerance.reset();
+  if (reader.text(key) == "automatic") {
+    if (has_own_penalty && !reader.is_set(key))
+      penetration_tolerance = 0.;
     return;
+  }
   const auto values = reader.numbers(key);
   if (values.size() != 1 || !(values[0] >= 0.))
     reader.reject(key, "a number >= 0, or automatic");

@@ -317,8 +317,8 @@ void Scene::allow_for_pressure() {
 }
 
 void Scene::make_pairs() {
-  const auto limits_softness = [](const parameters::ContactPair &pair) {
-    return !pair.has_penetration_tolerance;
+  const auto penetration_tolerance = [&](const parameters::ContactPair &pair) {
+    return parameters_.is_dynamic() ? pair.penetration_tolerance.value_or(0.) : pair.penetration_tolerance;
   };
   for (const auto &pair : parameters_.pairs) {
     const std::size_t body = parameters_.body_index(pair);
@@ -333,8 +333,7 @@ void Scene::make_pairs() {
                         is_factor,
                         pair.normal_penalty,
                         pair.tangential_penalty,
-                        pair.penetration_tolerance,
-                        limits_softness(pair),
+                        penetration_tolerance(pair),
                         {pair.may_overlap, pair.ramp_time, pair.closed_gap}});
       continue;
     }
@@ -364,8 +363,7 @@ void Scene::make_pairs() {
          pair.tangential_penalty,
          pair.smoothing,
          pair.search_margin,
-         pair.penetration_tolerance,
-         limits_softness(pair),
+         penetration_tolerance(pair),
          {pair.may_overlap, pair.ramp_time, pair.closed_gap},
          pair.correction});
     const auto &ids = body_pairs_.back().boundary_ids;
@@ -602,10 +600,10 @@ void Scene::describe(std::ostream &stream) const {
     std::ostringstream text;
     text << ", penalties " << pair.normal_penalty << ", " << pair.tangential_penalty
          << (pair.penalty_is_factor ? " E/h" : " (absolute)");
-    if (pair.penetration_tolerance > 0.)
-      text << ", augmented to " << pair.penetration_tolerance << " facet sizes";
-    else if (pair.limits_softness)
+    if (pair.limits_softness())
       text << ", augmented where penetration counts";
+    else if (pair.is_augmented())
+      text << ", augmented to " << *pair.penetration_tolerance << " facet sizes";
     if (pair.overlap.is_allowed)
       text << ", initial overlap "
            << (pair.overlap.ramp_time > 0. ? "resolved until time " + std::to_string(pair.overlap.ramp_time)
@@ -699,8 +697,10 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
     entry["normal penalty"] = pair.normal_penalty;
     entry["tangential penalty"] = pair.tangential_penalty;
     entry["penalty unit"] = pair.penalty_is_factor ? "E/h" : "absolute";
-    entry["penetration tolerance"] = pair.penetration_tolerance;
-    entry["limits softness"] = pair.limits_softness;
+    if (pair.limits_softness())
+      entry["penetration tolerance"] = "automatic";
+    else
+      entry["penetration tolerance"] = *pair.penetration_tolerance;
     scene["contact pairs"].push_back(entry);
   };
   for (const auto &pair : pairs_)

@@ -170,8 +170,9 @@ ContactReview::Friction ContactReview::friction_of(const std::size_t p,
   const parameters::ContactPair &input =
       is_with_tool ? *scene_.pairs()[p].input : *scene_.body_pairs()[p - scene_.pairs().size()].input;
   // Augmentation makes the springs stiffer. Where both are soft, contact is told to be too soft.
-  if (input.friction_coefficient == 0. || input.penetration_tolerance > 0. ||
-      input.tangential_penalty >= input.normal_penalty)
+  const bool is_augmented = is_with_tool ? scene_.pairs()[p].is_augmented()
+                                         : scene_.body_pairs()[p - scene_.pairs().size()].is_augmented();
+  if (input.friction_coefficient == 0. || is_augmented || input.tangential_penalty >= input.normal_penalty)
     return {};
   double stiffness = std::numeric_limits<double>::infinity(), modulus = 0.;
   for (const std::size_t body : pairs_[p].bodies) {

@@ -22,7 +22,7 @@ ContactStabilisation::ContactStabilisation(const MPI_Comm communicator, const st
     squares[node.body] += node.damping * node.damping;
   dealii::Utilities::MPI::sum(squares, communicator_, squares);
   for (std::size_t body = 0; body < speeds.size(); ++body)
-    bodies_.push_back({speeds[body] > 0. ? 1. : 0., 0., 0., speeds[body] * std::sqrt(squares[body])});
+    bodies_.push_back({0., 0., 0., speeds[body] * std::sqrt(squares[body])});
 }
 
 bool ContactStabilisation::acts() const {

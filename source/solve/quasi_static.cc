@@ -51,8 +51,7 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
       motions_(scene, supports_, discretization), internal_(scene, discretization),
       tangent_(scene.contact_tangent()),
       soft_penalties_(scene.parameters().is_dynamic() ? PenaltyWatch::Motion::sudden
-                                                      : PenaltyWatch::Motion::slow),
-      softness_(scene) {
+                                                      : PenaltyWatch::Motion::slow) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     contacts_.emplace_back(scene, p, discretization, tangent_);
   RigidContact::introduce(contacts_);
@@ -63,6 +62,8 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
     if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
       check_overlap(scene, p, discretization);
   }
+  softness_ =
+      SoftnessLimit(of_contacts([](const auto &contact) { return contact.settings().limits_softness(); }));
   state_.body_pair_loads.resize(body_contacts_.size());
   tool_pair_energies_.resize(contacts_.size());
   if (body_contacts_.empty()) // else when it is known who touches whom
@@ -101,6 +102,8 @@ QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretizatio
   if (!scene.parameters().is_dynamic()) {
     prepare_support_check();
     prepare_stabilisation();
+    body_forces_n_.assign(scene.bodies().size(), 0.);
+    largest_forces_ = body_forces_n_;
   }
   if (scene.parameters().is_dynamic())
     motion_ = std::make_unique<ImplicitMotion>(scene_, discretization_, supports_);
@@ -266,12 +269,7 @@ bool QuasiStatic::compute_tangent(const Epetra_Vector &x) {
 }
 
 std::vector<std::vector<SlaveForce>> QuasiStatic::slave_forces() const {
-  std::vector<std::vector<SlaveForce>> forces;
-  for (const auto &contact : contacts_)
-    forces.push_back(contact.slave_forces());
-  for (const auto &contact : body_contacts_)
-    forces.push_back(contact->slave_forces());
-  return forces;
+  return of_contacts([](const auto &contact) { return contact.slave_forces(); });
 }
 
 StatusChanges QuasiStatic::find_status_changes() const {
@@ -684,6 +682,7 @@ NewtonReport QuasiStatic::iterate(std::vector<double> &offsets, Vector &displace
 
 void QuasiStatic::commit(const double t) {
   const StepWorks works = compute_step_works();
+  softness_.commit(contact_springs());
   if (motion_)
     book_contact(contact_loss(t));
   else

@@ -51,12 +51,10 @@ double QuasiStatic::augmentation_error() const {
 double QuasiStatic::find_penetration() const {
   constexpr double unit = 1e-5; // facet sizes: the tightest tolerance that a target error sets
   double of_penalties = 0.;
-  for (const auto &contact : contacts_)
-    if (scene_.pairs()[contact.pair()].penetration_tolerance == 0.)
-      of_penalties = std::max(of_penalties, contact.penetration().of_facet);
-  for (std::size_t i = 0; i < body_contacts_.size(); ++i)
-    if (scene_.body_pairs()[i].penetration_tolerance == 0.)
-      of_penalties = std::max(of_penalties, body_contacts_[i]->penetration().of_facet);
+  for (const double penetration : of_contacts([](const auto &contact) {
+         return contact.settings().has_tolerance() ? 0. : contact.penetration().of_facet;
+       }))
+    of_penalties = std::max(of_penalties, penetration);
   return std::max(augmentation_error(),
                   dealii::Utilities::MPI::max(of_penalties, discretization_.communicator()) / unit);
 }
@@ -94,14 +92,15 @@ std::vector<double> QuasiStatic::stiffen_slow_contacts(const std::vector<double>
   constexpr double more_of_soft_tools = 100.;
   std::vector<double> room = stiffening_left(), factors(errors.size(), 1.);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (scene_.pairs()[contacts_[i].pair()].limits_softness)
+    if (contacts_[i].settings().limits_softness())
       room[i] *= more_of_soft_tools;
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double left = errors[i] / before[i];
-    if (!(errors[i] > 1. && left > slow && room[i] > 1.))
+    if (!(errors[i] > 1. && left > slow && room[i] >= 2.))
       continue;
-    factors[i] = left < 1. ? std::min(room[i], left / (1. - left) * (1. - wanted) / wanted) : room[i];
+    factors[i] =
+        whole_octaves(left < 1. ? std::min(room[i], left / (1. - left) * (1. - wanted) / wanted) : room[i]);
     is_stiffer = true;
     stiffen(i, factors[i]);
   }
@@ -112,23 +111,22 @@ std::vector<double> QuasiStatic::stiffen_slow_contacts(const std::vector<double>
 
 DiagnosticList QuasiStatic::soften_augmented_contacts() {
   const std::vector<double> room = stiffening_left();
+  const std::vector<std::string> names = of_contacts([](const auto &contact) { return contact.name(); });
+  const std::vector<bool> is_augmented =
+      of_contacts([](const auto &contact) { return contact.settings().is_augmented(); });
   DiagnosticList messages;
   for (std::size_t i = 0; i < room.size(); ++i) {
-    if (!(room[i] < 1.))
+    if (!(room[i] < 1.) || !is_augmented[i])
       continue;
-    const bool is_tool = i < contacts_.size();
-    if (!(is_tool ? scene_.pairs()[contacts_[i].pair()].is_augmented()
-                  : scene_.body_pairs()[i - contacts_.size()].is_augmented()))
-      continue;
-    stiffen(i, room[i]);
+    const double factor = whole_octaves(room[i]), penalty = enough_penalty / room[i] * factor;
+    stiffen(i, factor);
     std::ostringstream text;
-    text << "The penalty was reduced to " << enough_penalty
+    text << "The penalty was reduced to " << penalty
          << " E/h, since Newton's method failed; augmentation makes up for that";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
-                           .pair(is_tool ? scene_.pairs()[contacts_[i].pair()].name
-                                         : body_contacts_[i - contacts_.size()]->name())
+                           .pair(names[i])
                            .time(time_)
-                           .value("penalty [E/h]", enough_penalty));
+                           .value("penalty [E/h]", penalty));
   }
   spring_round_off_ = find_spring_round_off();
   return messages;
@@ -141,7 +139,8 @@ void QuasiStatic::augment_contacts() {
     contact->augment();
 }
 
-QuasiStatic::AugmentationDemands QuasiStatic::augmentation_demands() const {
+QuasiStatic::AugmentationDemands
+QuasiStatic::augmentation_demands(const std::vector<ContactSprings> &springs) const {
   AugmentationDemands demands;
   demands.of_contacts = augmentation_errors();
   for (double &demand : demands.of_contacts) {
@@ -149,25 +148,9 @@ QuasiStatic::AugmentationDemands QuasiStatic::augmentation_demands() const {
     demands.by_tolerances = std::max(demands.by_tolerances, demand);
   }
   demands.largest = demands.by_tolerances;
-  if (!softness_.is_used() || is_probing_)
+  if (springs.empty())
     return demands;
-  std::vector<double> sums;
-  for (const SpringWork &work : spring_works()) {
-    sums.push_back(work.normal);
-    sums.push_back(work.tangential);
-  }
-  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
-  if (std::all_of(sums.begin(), sums.end(), [](const double work) { return work == 0.; }))
-    return demands; // nothing presses: energies of all elements would be for nothing
-  std::vector<SpringWork> works(demands.of_contacts.size());
-  for (std::size_t i = 0; i < works.size(); ++i)
-    works[i] = {sums[2 * i], sums[2 * i + 1]};
-  const std::vector<double> before = internal_.compute_body_energies(state_.displacements),
-                            now = internal_.compute_body_energies(trial_ghosted_, Beat::evaluated);
-  std::vector<SoftnessLimit::Deformation> deformations;
-  for (std::size_t body = 0; body < now.size(); ++body)
-    deformations.push_back({before[body], now[body]});
-  const std::vector<double> excess = softness_.excess(works, deformations);
+  const std::vector<double> excess = softness_.excess(springs);
   for (std::size_t i = 0; i < excess.size(); ++i) {
     demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
     demands.largest = std::max(demands.largest, excess[i]);
@@ -175,22 +158,58 @@ QuasiStatic::AugmentationDemands QuasiStatic::augmentation_demands() const {
   return demands;
 }
 
-std::vector<SpringWork> QuasiStatic::spring_works() const {
-  std::vector<SpringWork> works;
-  for (const auto &contact : contacts_)
-    works.push_back(contact.spring_work());
-  for (const auto &contact : body_contacts_)
-    works.push_back(contact->spring_work());
-  return works;
+std::vector<ContactSprings> QuasiStatic::contact_springs() const {
+  if (!softness_.is_used() || is_probing_)
+    return {};
+  auto springs = of_contacts([](const auto &contact) { return contact.compute_springs(); });
+  std::vector<double> sums;
+  for (const auto &[normal, tangential] : springs)
+    sums.insert(sums.end(), {normal.force, normal.held, tangential.force, tangential.held});
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    springs[i].normal.force = sums[4 * i];
+    springs[i].normal.held = sums[4 * i + 1];
+    springs[i].tangential.force = sums[4 * i + 2];
+    springs[i].tangential.held = sums[4 * i + 3];
+  }
+  return springs;
+}
+
+std::vector<std::array<SoftnessLimit::Change, 2>>
+QuasiStatic::changes_of(const std::vector<ContactSprings> &before,
+                        const std::vector<ContactSprings> &after) const {
+  constexpr std::size_t n_sums = 4;
+  std::vector<double> sums;
+  std::vector<std::array<SoftnessLimit::Change, 2>> changes(after.size());
+  for (std::size_t i = 0; i < after.size(); ++i)
+    for (const auto direction : {&ContactSprings::normal, &ContactSprings::tangential}) {
+      const auto &then = (before[i].*direction).of_nodes, &now = (after[i].*direction).of_nodes;
+      double of_nodes = 0.;
+      dealii::Tensor<1, 3> in_all;
+      for (std::size_t n = 0; n < now.size(); ++n) {
+        of_nodes += (now[n] - then[n]).norm();
+        in_all += now[n] - then[n];
+      }
+      sums.insert(sums.end(), {of_nodes, in_all[0], in_all[1], in_all[2]});
+    }
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double *sum = sums.data() + n_sums * (2 * i + d);
+      const double scalar = d == 0 ? after[i].normal.force - before[i].normal.force
+                                   : after[i].tangential.force - before[i].tangential.force;
+      changes[i][d] = {sum[0], std::max(std::abs(scalar), std::hypot(sum[1], sum[2], sum[3]))};
+    }
+  return changes;
 }
 
 void QuasiStatic::augment_where_asked() {
   for (auto &contact : contacts_)
-    if (scene_.pairs()[contact.pair()].is_augmented())
+    if (contact.settings().is_augmented())
       contact.augment();
-  for (std::size_t i = 0; i < body_contacts_.size(); ++i)
-    if (scene_.body_pairs()[i].is_augmented())
-      body_contacts_[i]->augment();
+  for (auto &contact : body_contacts_)
+    if (contact->settings().is_augmented())
+      contact->augment();
 }
 
 void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
@@ -205,8 +224,10 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
   std::unique_ptr<Vector> soft;
   std::vector<double> soft_offsets;
   Pace pace;
+  softness_.begin();
+  std::vector<ContactSprings> springs = contact_springs();
   for (unsigned int n = 0; report.converged; ++n) {
-    const AugmentationDemands demands = augmentation_demands();
+    const AugmentationDemands demands = augmentation_demands(springs);
     const double error = demands.largest;
     const bool is_of_softness = demands.by_tolerances <= 1.;
     if (error <= 1.)
@@ -258,6 +279,10 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
       offsets = soft_offsets;
       report.append(iterate(offsets, displacements));
       break;
+    }
+    if (const auto after = contact_springs(); report.converged && !after.empty()) {
+      softness_.learn(springs, changes_of(springs, after));
+      springs = after;
     }
   }
   accuracy_ = accuracy;

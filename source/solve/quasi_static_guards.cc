@@ -43,14 +43,12 @@ std::string QuasiStatic::stiffest_pairs() const {
   std::vector<double> springs = of_contacts([](const auto &contact) { return contact.largest_spring(); });
   dealii::Utilities::MPI::max(springs, discretization_.communicator(), springs);
   const double stiffest = *std::max_element(springs.begin(), springs.end());
+  const std::vector<std::string> of_pairs = of_contacts([](const auto &contact) { return contact.name(); });
   constexpr double as_stiff = 0.1;
   std::string names;
   for (std::size_t i = 0; i < springs.size(); ++i)
     if (springs[i] >= as_stiff * stiffest)
-      names += (names.empty() ? "'" : ", '") +
-               (i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
-                                     : body_contacts_[i - contacts_.size()]->name()) +
-               "'";
+      names += (names.empty() ? "'" : ", '") + of_pairs[i] + "'";
   return names;
 }
 

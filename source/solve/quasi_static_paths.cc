@@ -123,7 +123,7 @@ DiagnosticList QuasiStatic::check_motion(const double t) const {
 
 std::vector<double> QuasiStatic::raises_of_penalties() const {
   constexpr double most = 100.; // times 10 E/h
-  constexpr double least_raise = 2., largest_raise = 10., worth_it = 1.01;
+  constexpr double least_raise = 2., largest_raise = 8.;
   std::vector<double> factors =
       of_contacts([](const auto &contact) { return contact.excessive_penetration(); });
   dealii::Utilities::MPI::max(factors, discretization_.communicator(), factors);
@@ -134,19 +134,17 @@ std::vector<double> QuasiStatic::raises_of_penalties() const {
   constexpr double deep = 3.6;
   const bool is_short = stepping.control == parameters::TimeStepping::Control::automatic &&
                         time_ - state_.time < short_step * stepping.initial_step;
+  const std::vector<bool> has_tolerance = of_contacts(
+                              [](const auto &contact) { return contact.settings().has_tolerance(); }),
+                          has_own_penalty = of_contacts(
+                              [](const auto &contact) { return contact.settings().input->has_own_penalty; });
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    const bool is_tool = i < contacts_.size();
-    const auto [tolerance, has_own_penalty] =
-        is_tool ? std::make_pair(scene_.pairs()[contacts_[i].pair()].penetration_tolerance,
-                                 scene_.pairs()[contacts_[i].pair()].input->has_own_penalty)
-                : std::make_pair(scene_.body_pairs()[i - contacts_.size()].penetration_tolerance,
-                                 scene_.body_pairs()[i - contacts_.size()].input->has_own_penalty);
     // A penalty that the scene sets stays while it can; the warnings tell what it makes softer. It cannot
     // where nodes are about to go deeper than contact follows them.
     const bool is_too_much =
-        !motion_ && tolerance == 0. && factors[i] > (has_own_penalty && !is_short ? deep : 1.);
+        !motion_ && !has_tolerance[i] && factors[i] > (has_own_penalty[i] && !is_short ? deep : 1.);
     const double raise = std::min(std::clamp(2. * factors[i], least_raise, largest_raise), most * room[i]);
-    factors[i] = is_too_much && raise > worth_it ? raise : 1.;
+    factors[i] = is_too_much && raise >= least_raise ? whole_octaves(raise) : 1.;
   }
   return factors;
 }

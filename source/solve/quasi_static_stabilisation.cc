@@ -44,42 +44,37 @@ Vector nodal_volumes(const Discretization &discretization, const std::size_t bod
 
 void QuasiStatic::prepare_stabilisation() {
   const std::size_t n_bodies = scene_.bodies().size();
-  std::vector<bool> is_wanted(n_bodies, false);
   needs_no_stabilisation_.assign(n_bodies, false);
-  for (std::size_t body = 0; body < n_bodies; ++body) {
-    if (!scene_.parameters().bodies[body].is_stabilised.value)
-      continue;
-    is_wanted[body] = !body_frames_.empty();
-    if (is_wanted[body]) {
-      RigidBodySupport support(discretization_.communicator(), {body_frames_[body]}, 0);
-      for (const auto &node : supported_nodes_)
-        if (node.body == body)
-          support.add_support(0, node.position, node.normal);
-      is_wanted[body] = support.find().n_free > 0;
-    }
-    needs_no_stabilisation_[body] = !is_wanted[body];
-  }
-  if (std::none_of(is_wanted.begin(), is_wanted.end(), [](const bool is) { return is; }))
+  for (std::size_t body = 0; body < n_bodies; ++body)
+    needs_no_stabilisation_[body] = scene_.parameters().bodies[body].is_stabilised.value;
+  if (motion_ || body_frames_.empty())
     return;
   const auto &owned = discretization_.owned_dofs();
   std::vector<ContactStabilisation::Node> nodes;
+  std::vector<double> speeds(n_bodies, 0.);
   for (std::size_t body = 0; body < n_bodies; ++body) {
-    if (!is_wanted[body])
+    RigidBodySupport support(discretization_.communicator(), {body_frames_[body]}, 0);
+    for (const auto &node : supported_nodes_)
+      if (node.body == body)
+        support.add_support(0, node.position, node.normal);
+    if (support.find().n_free == 0)
       continue;
+    const double size = 2. * body_frames_[body].size, end = scene_.parameters().time_stepping.end_time;
+    speeds[body] = size / end;
     const Vector volumes = nodal_volumes(discretization_, body);
     for (std::size_t first = 0; first < owned.n_elements(); first += 3)
       if (const DofIndex dof = owned.nth_index_in_set(first); volumes(dof) > 0.)
         nodes.push_back(
             {body, first,
-             ContactStabilisation::damping(scene_.bodies()[body].young_modulus, 2. * body_frames_[body].size,
-                                           scene_.parameters().time_stepping.end_time, volumes(dof))});
+             ContactStabilisation::damping(scene_.bodies()[body].young_modulus, size, end, volumes(dof))});
   }
-  std::vector<double> speeds;
-  for (std::size_t body = 0; body < n_bodies; ++body)
-    speeds.push_back(
-        is_wanted[body] ? 2. * body_frames_[body].size / scene_.parameters().time_stepping.end_time : 0.);
   stabilisation_ =
       std::make_unique<ContactStabilisation>(discretization_.communicator(), speeds, std::move(nodes));
+  for (std::size_t body = 0; body < n_bodies; ++body)
+    if (speeds[body] > 0. && needs_no_stabilisation_[body]) {
+      stabilisation_->hold(body);
+      needs_no_stabilisation_[body] = false;
+    }
 }
 
 void QuasiStatic::add_stabilisation(Vector &residual) {

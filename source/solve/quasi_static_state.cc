@@ -31,6 +31,10 @@ void QuasiStatic::save(StateWriter &writer) const {
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
   soft_penalties_.save(writer);
+  if (softness_.is_used())
+    writer.write("softness", softness_.save());
+  writer.write("forces on bodies", body_forces_n_);
+  writer.write("largest forces on bodies", largest_forces_);
   save_nodal(writer, "internal forces", nodes, internal_forces_n_);
   save_nodal(writer, "contact forces", nodes, contact_forces_n_);
   writer.write("largest energy", {largest_energy_});
@@ -147,6 +151,7 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
   load_tools(reader);
   load_contacts(reader);
   update_contacts(reader, report.is_exact);
+  spring_round_off_ = find_spring_round_off(); // of penalties as they are by now
   if (is_own) {
     load_nodal(reader, "increment", nodes, last_increment_);
     load_nodal(reader, "support forces", nodes, support_forces_n_);
@@ -164,6 +169,12 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
     }
     soft_penalties_.load(reader);
     load_stabilisation(reader);
+    if (report.is_exact && reader.has("forces on bodies")) {
+      body_forces_n_ = reader.read("forces on bodies");
+      largest_forces_ = reader.read("largest forces on bodies");
+    }
+    if (report.is_exact && softness_.is_used() && reader.has("softness"))
+      softness_.load(reader.read("softness"));
     if (report.is_exact && reader.has("probe"))
       reader.in("probe", [&] {
         probe_ =

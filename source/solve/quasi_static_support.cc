@@ -141,74 +141,96 @@ RigidBodySupport::Result QuasiStatic::find_support_by_contact() const {
   return support.find();
 }
 
+std::vector<double> QuasiStatic::contact_forces_on_bodies() const {
+  std::vector<double> forces(scene_.bodies().size(), 0.);
+  const auto sum = [](const auto &contact) {
+    double total = 0.;
+    for (const auto &node : contact.slave_forces())
+      total += node.force.norm();
+    return total;
+  };
+  for (const auto &contact : contacts_)
+    forces[contact.body()] += sum(contact);
+  for (const auto &contact : body_contacts_)
+    for (const std::size_t body : contact->settings().bodies)
+      forces[body] += sum(*contact);
+  dealii::Utilities::MPI::sum(forces, discretization_.communicator(), forces);
+  return forces;
+}
+
 bool QuasiStatic::loses_bodies(const double t, NewtonReport &report) {
   if (motion_)
     return false;
-  if (!body_frames_.empty()) {
-    const RigidBodySupport::Result found = find_support();
-    if (found.n_free > support_.n_free) {
-      std::ostringstream text;
-      text << "body '" << scene_.bodies()[found.free->body].name << "' is unsupported at time " << t
-           << ": the last contact that resisted its rigid-body mode with " << print(found.free->motion)
-           << " has opened, or slides at the limit of friction. Hold the body by a support or a symmetry "
-              "plane, let a tool or body touch it longer, or increase friction; use 'Scheme = implicit "
-              "dynamics' if it is to move freely";
-      // When it happens is known well enough then.
-      constexpr double short_step = 1e-3; // of the largest one
-      if (t - state_.time < short_step * scene_.parameters().time_stepping.largest_step)
-        throw SolutionFailure(scene_.parameters().file_name + ": " + text.str() +
-                              ". What was computed until then is in '" +
-                              scene_.parameters().output.folder.value + "'");
-      report.converged = false;
-      report.failure = text.str();
-      report.is_explained = true;
-      return true;
-    }
-    if (moves_too_far(t, report))
-      return true;
-    watch_unloaded_bodies(found, t, report);
-    support_ = found;
-    if (!support_.sliding)
-      support_.sliding = find_sliding_soon();
-    if (stabilisation_ && stabilisation_->acts())
-      support_by_contact_ = find_support_by_contact();
-    return false;
+  if (body_frames_.empty())
+    return moves_too_far(t, report);
+  const RigidBodySupport::Result found = find_support();
+  if (found.n_free > support_.n_free) {
+    const bool is_held = hold_if_let_go(*found.free);
+    const std::string &name = scene_.bodies()[found.free->body].name;
+    std::ostringstream text;
+    text << "body '" << name << "' is unsupported at time " << t
+         << ": the last contact that resisted its rigid-body mode with " << print(found.free->motion)
+         << " has opened, or slides at the limit of friction. Hold the body by a support or a symmetry "
+            "plane, let a tool or body touch it longer, or increase friction; use 'Scheme = implicit "
+            "dynamics' if it is to move freely";
+    // When it happens is known well enough then.
+    constexpr double short_step = 1e-3; // of the largest one
+    if (!is_held && t - state_.time < short_step * scene_.parameters().time_stepping.largest_step)
+      throw SolutionFailure(scene_.parameters().file_name + ": " + text.str() +
+                            ". What was computed until then is in '" +
+                            scene_.parameters().output.folder.value + "'");
+    report.converged = false;
+    report.failure = text.str();
+    report.is_explained = true;
+    return true;
   }
-  return moves_too_far(t, report);
+  if (moves_too_far(t, report))
+    return true;
+  body_forces_n_ = contact_forces_on_bodies();
+  for (std::size_t body = 0; body < body_forces_n_.size(); ++body)
+    largest_forces_[body] = std::max(largest_forces_[body], body_forces_n_[body]);
+  support_ = found;
+  hold_unloaded_bodies();
+  for (const RigidBodySupport::Mode &mode : let_go_) {
+    const std::string &name = scene_.bodies()[mode.body].name;
+    report.diagnostics.push_back(
+        Diagnostic(
+            diagnostic::unsupported_body,
+            "Nothing presses body '" + name +
+                "' any more, and neither supports nor symmetry planes resist its rigid-body mode with " +
+                print(mode.motion) + ": viscous forces hold it from now on")
+            .body(name)
+            .time(t));
+  }
+  let_go_.clear();
+  if (!support_.sliding)
+    support_.sliding = find_sliding_soon();
+  if (stabilisation_->acts())
+    support_by_contact_ = find_support_by_contact();
+  return false;
 }
 
-void QuasiStatic::watch_unloaded_bodies(const RigidBodySupport::Result &found, const double t,
-                                        NewtonReport &report) {
-  constexpr double unloaded = 1e-10; // of the largest energy: 1e-5 of the forces
-  std::vector<double> stored(scene_.bodies().size(), 0.);
-  for (const auto &contact : contacts_)
-    stored[contact.body()] += contact.compute_load().stored_energy;
-  for (std::size_t i = 0; i < body_contacts_.size(); ++i) {
-    const double energy = body_contacts_[i]->compute_load().stored_energy;
-    for (const std::size_t body : scene_.body_pairs()[i].bodies)
-      stored[body] += energy;
-  }
-  most_stored_.resize(stored.size(), 0.);
+bool QuasiStatic::hold_if_let_go(const RigidBodySupport::Mode &mode) {
+  constexpr double little = 0.01; // of the largest forces so far
+  if (!(largest_forces_[mode.body] > 0.) || body_forces_n_[mode.body] > little * largest_forces_[mode.body])
+    return false;
+  stabilisation_->hold(mode.body);
+  let_go_.push_back(mode);
+  return true;
+}
+
+void QuasiStatic::hold_unloaded_bodies() {
+  constexpr double unloaded = 1e-5; // of the largest forces so far
   std::vector<bool> is_unloaded;
-  bool any = false;
-  for (std::size_t body = 0; body < stored.size(); ++body) {
-    is_unloaded.push_back(stored[body] < unloaded * most_stored_[body]);
-    any = any || is_unloaded.back();
-    most_stored_[body] = std::max(most_stored_[body], stored[body]);
+  for (std::size_t body = 0; body < body_forces_n_.size(); ++body)
+    is_unloaded.push_back(body_forces_n_[body] < unloaded * largest_forces_[body] && !is_stabilised(body));
+  // One after the other: those that hang together are free together.
+  for (std::size_t n = std::count(is_unloaded.begin(), is_unloaded.end(), true); n > 0; --n) {
+    const RigidBodySupport::Result lifted = find_support(is_unloaded);
+    if (lifted.n_free <= support_.n_free || !hold_if_let_go(*lifted.free))
+      return;
+    support_ = find_support();
   }
-  if (!any)
-    return;
-  const RigidBodySupport::Result lifted = find_support(is_unloaded);
-  if (lifted.n_free <= found.n_free)
-    return;
-  const std::string &name = scene_.bodies()[lifted.free->body].name;
-  report.diagnostics.push_back(
-      Diagnostic(diagnostic::unsupported_body,
-                 "Nothing presses body '" + name +
-                     "' any more, and neither supports nor symmetry planes resist its rigid-body mode with " +
-                     print(lifted.free->motion))
-          .body(name)
-          .time(t));
 }
 
 bool QuasiStatic::moves_too_far(const double t, NewtonReport &report) const {

@@ -50,12 +50,12 @@ public:
   void augment() { contact_->augment(); }
   void take_back_augmentation() { contact_->take_back_augmentation(); }
   double augmentation_error() const {
-    return pair_.penetration_tolerance > 0. ? contact_->augmentation_error() / pair_.penetration_tolerance
-                                            : 0.;
+    const double tolerance = pair_.penetration_tolerance.value_or(0.);
+    return tolerance > 0. ? contact_->augmentation_error() / tolerance : 0.;
   }
 
   /// Of this rank's nodes.
-  SpringWork spring_work() const { return contact_->spring_work(); }
+  ContactSprings compute_springs() const { return contact_->compute_springs(); }
 
   /// As RigidContact's.
   void stiffen(const double factor) { contact_->stiffen(factor); }
@@ -69,6 +69,7 @@ public:
   Penetration penetration() const { return contact_->penetration(); }
   double excessive_penetration() const { return contact_->excessive_penetration(); }
   double closing_of_new_contacts() const { return contact_->closing_of_new_contacts(); }
+  const BodyPair &settings() const { return pair_; }
   const std::string &name() const { return pair_.name; }
   /// The part of the motion from these displacements to those (ghosted) in which no node of either body goes
   /// through the other's facets, see FacetPaths. Collective.

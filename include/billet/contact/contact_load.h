@@ -39,10 +39,28 @@ struct Penetration {
   }
 };
 
-/// What the springs of contact take of the work that is done on bodies [energy].
-struct SpringWork {
-  double normal = 0.;     ///< by penetrations so far, ½ Σ p g A
-  double tangential = 0.; ///< by the elastic slip of nodes that stick, in this step, Σ |t| s A
+/// Forces of a contact, summed over its nodes whatever their directions, and what its springs hold of them:
+/// that augmentation has not taken over, for which they are stretched.
+struct ContactSprings {
+  struct Direction {
+    double force = 0., held = 0.;               ///< [force]
+    std::vector<dealii::Tensor<1, 3>> of_nodes; ///< their forces [force]
+
+    void add(const std::size_t node, const dealii::Tensor<1, 3> &of_node, const double held_by_node) {
+      force += of_node.norm();
+      held += held_by_node;
+      of_nodes[node] += of_node;
+    }
+  };
+  Direction normal;     ///< Σ p A, Σ k_n |g| A
+  Direction tangential; ///< Σ |t| A, Σ k_t s A, s the elastic slip in this step
+
+  void add(const std::size_t node, const dealii::Tensor<1, 3> &force, const dealii::Tensor<1, 3> &along,
+           const double held, const double held_tangentially) {
+    const dealii::Tensor<1, 3> of_pressure = (force * along) * along;
+    normal.add(node, of_pressure, held);
+    tangential.add(node, force - of_pressure, held_tangentially);
+  }
 };
 
 /// Of nodes that come through a surface, into contact or out of it, in the step that has been or in the next

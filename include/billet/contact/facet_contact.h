@@ -205,7 +205,7 @@ public:
   /// facets; after add_forces(). On this rank.
   double augmentation_error() const;
   /// After add_forces(), of this rank's areas.
-  SpringWork spring_work() const;
+  ContactSprings compute_springs() const;
   /// Makes all penalties so many times as stiff; what augmentation holds stays. After augment().
   void stiffen(const double factor) { scale_penalties(factor, factor); }
   /// The same, with a factor of their own for the tangential ones.

@@ -59,6 +59,8 @@ public:
                ContactTangent tangent);
 
   std::size_t pair() const { return index_; } ///< of Scene::pairs()
+  const ContactPair &settings() const { return pair_; }
+  const std::string &name() const { return pair_.name; }
   std::size_t tool() const { return pair_.tool; }
   std::size_t body() const { return pair_.body; }
 
@@ -136,7 +138,7 @@ public:
   /// Relative to what the pair asks for; 0 if it asks for none. On this rank.
   double augmentation_error() const;
   /// After update(), on this rank.
-  SpringWork spring_work() const;
+  ContactSprings compute_springs() const;
   /// Makes penalties so many times as stiff; what augmentation holds stays. After augment().
   void stiffen(const double factor) { scale_penalties(factor, factor); }
   /// The same, with a factor of their own for the tangential ones.
@@ -238,6 +240,7 @@ private:
     double reach;            ///< how deep it may be, as part of these facets and of the elements below them
     double spacing;          ///< of the parts of facets around it; the same where none is divided
     bool is_divided = false; ///< a facet around it is
+    bool is_fixed = false;   ///< supports prescribe all its motion: it cannot come out of the tool
     double hardening_depth = std::numeric_limits<double>::infinity(); ///< of its normal spring
     HardeningSpring spring() const { return {stiffness.normal, hardening_depth}; }
     double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty

@@ -6,6 +6,7 @@
 #include "billet/parameters/control.h"
 
 #include <array>
+#include <cmath>
 
 namespace billet {
 
@@ -15,6 +16,10 @@ enum class ContactStatus { open = 0, stick = 1, slip = 2 };
 
 /// Stiffer than this, relative to E/h, augmentation does not make penalties: each one leaves little then.
 constexpr double enough_penalty = 10.;
+
+/// The largest power of 2 not above a factor of penalties: products of those are exact in any order, so that
+/// a run that goes on from a checkpoint has the same penalties to the last bit.
+inline double whole_octaves(const double factor) { return std::exp2(std::floor(std::log2(factor))); }
 
 /// Penalties of a node [force/length³].
 struct ContactStiffness {

@@ -10,6 +10,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <map>
+#include <set>
 
 namespace billet {
 
@@ -35,6 +36,9 @@ struct HeldNode {
 
 /// All held nodes of the cells that this rank owns, and of their ghosts, by their first dof.
 std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization);
+
+/// First dofs of those of them that are held in all directions.
+std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization);
 
 /// The prescribed displacements of a held node, as far as they change with time.
 class SupportTrack {

@@ -38,8 +38,6 @@ public:
   };
   /// At a history and the displacements that belong to it; on all ranks the same.
   Energies compute_energies(const Vector &displacements, Beat beat = Beat::committed) const;
-  /// The totals by body.
-  std::vector<double> compute_body_energies(const Vector &displacements, Beat beat = Beat::committed) const;
 
   /// One entry for each owned element of the body, in the order of Discretization::elements().
   std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements,

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace billet::parameters {
@@ -82,8 +83,7 @@ struct ContactPair {
   double normal_penalty;
   bool has_own_penalty = false; ///< the scene sets it: what it is worth is the user's, and stays
   double tangential_penalty;
-  double penetration_tolerance;          ///< 0: none
-  bool has_penetration_tolerance = true; ///< else 'automatic'
+  std::optional<double> penetration_tolerance; ///< 0: penalties alone; none: contact must not be too soft
   Located<double> allowed_penetration;
   bool may_overlap;  ///< at the start
   double ramp_time;  ///< in which that ceases; 0: never

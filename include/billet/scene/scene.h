@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace billet {
@@ -85,11 +86,13 @@ struct ContactPair {
   FrictionLaw friction;
   bool penalty_is_factor;
   double normal_penalty, tangential_penalty;
-  double penetration_tolerance; ///< [facet sizes]; 0: none
-  bool limits_softness;         ///< or augmented until penetration takes little of the deformation
+  std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L5)
   InitialOverlap overlap;
 
-  bool is_augmented() const { return penetration_tolerance > 0. || limits_softness; }
+  /// Augmented until penetration takes little of the deformation.
+  bool limits_softness() const { return !penetration_tolerance; }
+  bool has_tolerance() const { return penetration_tolerance.value_or(0.) > 0.; }
+  bool is_augmented() const { return limits_softness() || has_tolerance(); }
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
   /// k [force/length³] from the scene's number, for facets of size h on a body with Young's modulus E.
   double scaled_penalty(const double penalty, const double young_modulus, const double h) const {
@@ -110,14 +113,16 @@ struct BodyPair {
   bool penalty_is_factor;
   parameters::ContactPair::PenaltyOf penalty_of;
   double normal_penalty, tangential_penalty;
-  double smoothing;             ///< ContactLimits::zone
-  double search_margin;         ///< [facet sizes]
-  double penetration_tolerance; ///< [facet sizes]; 0: none
-  bool limits_softness;         ///< or augmented until penetration takes little of the deformation
+  double smoothing;                            ///< ContactLimits::zone
+  double search_margin;                        ///< [facet sizes]
+  std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L5)
   InitialOverlap overlap;
   parameters::ContactPair::Correction correction;
 
-  bool is_augmented() const { return penetration_tolerance > 0. || limits_softness; }
+  /// Augmented until penetration takes little of the deformation.
+  bool limits_softness() const { return !penetration_tolerance; }
+  bool has_tolerance() const { return penetration_tolerance.value_or(0.) > 0.; }
+  bool is_augmented() const { return limits_softness() || has_tolerance(); }
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
 };
 

@@ -9,11 +9,11 @@
 
 namespace billet {
 
-/// Viscous forces that resist the motion of static bodies until contact supports them, (Q7). In a step of
-/// length Δt from u_n, the force on a node a of body b is
+/// Viscous forces that resist the motion of static bodies while contact does not support them, (Q7). In a
+/// step of length Δt from u_n, the force on a node a of body b is
 ///   f_a = −φ_b c_a (u_a − u_n,a) / Δt,    c_a = ζ E T V_a / L²    [force time/length]
 /// E: Young's modulus; L: the body's longest extent; T: the end time; V_a: the node's undeformed volume. φ_b
-/// is 1 at first, and fades in accepted steps at whose end contact supports the body. It never grows.
+/// is 1 once the body is held, and fades in accepted steps at whose end contact supports the body.
 class ContactStabilisation {
 public:
   /// ζ: small, so that a body that moves by its size within the run feels a mean stress of ζ E; large, so
@@ -34,9 +34,11 @@ public:
   /// c_a of a node.
   static double damping(double young_modulus, double size, double end_time, double volume);
 
-  /// `speeds`: L / T of each body, 0 where it is not stabilised. Collective.
+  /// `speeds`: L / T of each body, 0 where it has no nodes here. Holds none. Collective.
   ContactStabilisation(MPI_Comm communicator, const std::vector<double> &speeds, std::vector<Node> nodes);
 
+  /// From now on, until contact supports it.
+  void hold(const std::size_t body) { bodies_[body].factor = 1.; }
   /// φ of a body.
   double factor(const std::size_t body) const { return bodies_[body].factor; }
   bool acts_on(const std::size_t body) const { return bodies_[body].factor > 0.; }

@@ -9,13 +9,13 @@
 #include "billet/solve/contact_stabilisation.h"
 #include "billet/solve/error_control.h"
 #include "billet/solve/implicit_motion.h"
-#include "billet/solve/load_paths.h"
 #include "billet/solve/motion_watch.h"
 #include "billet/solve/newton.h"
 #include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
 #include "billet/solve/rigid_body_support.h"
 #include "billet/solve/round_off_watch.h"
+#include "billet/solve/softness_limit.h"
 #include "billet/solve/solution.h"
 #include "billet/solve/step_energy.h"
 #include "billet/solve/tangent_solver.h"
@@ -284,15 +284,18 @@ private:
     std::vector<double> of_contacts;
     double by_tolerances = 0., largest = 0.; ///< of all
   };
-  AugmentationDemands augmentation_demands() const;
-  /// Of each contact, tools first, on this rank.
-  std::vector<SpringWork> spring_works() const;
+  AugmentationDemands augmentation_demands(const std::vector<ContactSprings> &springs) const;
+  /// Of each contact, tools first; of none if no pair limits softness. Collective.
+  std::vector<ContactSprings> contact_springs() const;
+  /// What an augmentation has changed of the forces of each contact. Collective.
+  std::vector<std::array<SoftnessLimit::Change, 2>>
+  changes_of(const std::vector<ContactSprings> &before, const std::vector<ContactSprings> &after) const;
   /// The tractions of those that are augmented, once.
   void augment_where_asked();
   void take_back_augmentation();
   /// get(contact) of each contact of this rank, tools first.
-  template <class Get> std::vector<double> of_contacts(const Get &get) const {
-    std::vector<double> values;
+  template <class Get> auto of_contacts(const Get &get) const {
+    std::vector<std::decay_t<decltype(get(contacts_.front()))>> values;
     for (const auto &contact : contacts_)
       values.push_back(get(contact));
     for (const auto &contact : body_contacts_)
@@ -401,9 +404,13 @@ private:
   void load_stabilisation(StateReader &reader);
   /// What supports and contact resist at the trial state, contact of stabilised bodies in one sense only.
   RigidBodySupport::Result find_support_by_contact() const;
-  /// Notes which bodies contact presses, and warns of those that nothing presses any more and that may lift
-  /// off.
-  void watch_unloaded_bodies(const RigidBodySupport::Result &found, double t, NewtonReport &report);
+  /// Σ |f| of the nodes of contacts, by body [force]. Collective.
+  std::vector<double> contact_forces_on_bodies() const;
+  /// A body that is free to move so is held by viscous forces from now on if contact bore next to nothing at
+  /// the end of the last step. Returns whether it is.
+  bool hold_if_let_go(const RigidBodySupport::Mode &mode);
+  /// The same with bodies that others touch without a force, at the end of this step. Collective.
+  void hold_unloaded_bodies();
   /// Whether a body loses its support, or bodies are thrown out of the scene: then the step fails.
   bool loses_bodies(double t, NewtonReport &report);
   bool moves_too_far(double t, NewtonReport &report) const;
@@ -482,7 +489,7 @@ private:
   double allowed_at_measurement_ = 0.; ///< part of the forces
   std::optional<OfPenetration> of_penetration_;
   PenaltyWatch soft_penalties_;
-  SoftnessLimit softness_;
+  SoftnessLimit softness_{{}};
   std::vector<double>
       tool_pair_energies_;     ///< in the springs of each pair with a tool, at the last step's end
   bool has_lost_pace_ = false; ///< a tool stopped or went at the end of the last step
@@ -508,7 +515,9 @@ private:
     std::array<DofIndex, 3> dofs;
   };
   std::vector<SupportedNode> supported_nodes_;
-  std::vector<double> most_stored_; ///< in the springs of all contacts of each body, so far [energy]
+  /// contact_forces_on_bodies() at the end of the last step, and the largest so far.
+  std::vector<double> body_forces_n_, largest_forces_;
+  std::vector<RigidBodySupport::Mode> let_go_;          ///< bodies that this step has begun to hold
   std::unique_ptr<ContactStabilisation> stabilisation_; ///< of static scenes with such bodies
   std::vector<bool> needs_no_stabilisation_;            ///< of bodies that supports hold; or empty
   RigidBodySupport::Result support_by_contact_;         ///< of the last step, while bodies are stabilised

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/softness_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace billet {
+
+namespace {
+
+constexpr double allowed = 2e-3; // of the forces
+
+// Forces of a pair count beside those of the pair that has most; friction, beside pressures.
+constexpr double least_of_largest = 0.01, least_friction = 0.02;
+
+double largest_force(const std::vector<ContactSprings> &springs) {
+  double largest = 0.;
+  for (const auto &of_pair : springs)
+    largest = std::max(largest, of_pair.normal.force);
+  return largest;
+}
+
+} // namespace
+
+double SoftnessLimit::Direction::missing(const ContactSprings::Direction &springs, const double force) const {
+  // What counts of springs is to be known for states like this one.
+  constexpr double unlike = 0.5;
+  return std::min(changed, springs.held > unlike * force ? springs.held : counts * springs.held);
+}
+
+void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change) {
+  // Less than this of a force tells nothing; nor does what the first augmentation has not closed: facets that
+  // do not fit keep gaps.
+  constexpr double least_held = 1e-4;
+  const bool is_first = std::isinf(changed);
+  changed = change.in_all;
+  if (is_first && before.held > least_held * before.force && before.held > 0.)
+    counts = std::min(1., change.of_nodes / before.held);
+}
+
+SoftnessLimit::SoftnessLimit(const std::vector<bool> &limits) : pairs_(limits.size()) {
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    pairs_[i].limits = limits[i];
+  begin();
+}
+
+void SoftnessLimit::begin() {
+  for (Pair &pair : pairs_)
+    pair.normal.changed = pair.tangential.changed = std::numeric_limits<double>::infinity();
+}
+
+bool SoftnessLimit::is_used() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.limits; });
+}
+
+std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs) const {
+  // Slip stays: what one step lets in, the next ones have no more.
+  constexpr double least_left = 0.1;
+  const double least = least_of_largest * largest_force(springs);
+  std::vector<double> result(pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Pair &pair = pairs_[i];
+    if (!pair.limits)
+      continue;
+    const auto &[normal, tangential] = springs[i];
+    const double pressure = std::max(least, normal.force),
+                 friction = std::max(least_friction * pressure, tangential.force);
+    const double of_pressure = pair.normal.missing(normal, pressure),
+                 of_friction = pair.tangential.missing(tangential, friction),
+                 left = std::max(least_left * allowed * friction, allowed * friction - pair.let_in);
+    if (of_pressure > 0.)
+      result[i] += of_pressure / (allowed * pressure);
+    if (of_friction > 0.)
+      result[i] += of_friction / left;
+  }
+  return result;
+}
+
+void SoftnessLimit::learn(const std::vector<ContactSprings> &before,
+                          const std::vector<std::array<Change, 2>> &changes) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    pairs_[i].normal.learn(before[i].normal, changes[i][0]);
+    pairs_[i].tangential.learn(before[i].tangential, changes[i][1]);
+  }
+}
+
+void SoftnessLimit::commit(const std::vector<ContactSprings> &springs) {
+  for (std::size_t i = 0; i < springs.size(); ++i)
+    pairs_[i].let_in += pairs_[i].tangential.counts * springs[i].tangential.held;
+}
+
+std::vector<double> SoftnessLimit::save() const {
+  std::vector<double> numbers;
+  for (const Pair &pair : pairs_)
+    numbers.insert(numbers.end(), {pair.normal.counts, pair.tangential.counts, pair.let_in});
+  return numbers;
+}
+
+void SoftnessLimit::load(const std::vector<double> &numbers) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    pairs_[i].normal.counts = numbers.at(3 * i);
+    pairs_[i].tangential.counts = numbers.at(3 * i + 1);
+    pairs_[i].let_in = numbers.at(3 * i + 2);
+  }
+}
+
+} // namespace billet
