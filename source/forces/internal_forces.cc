@@ -11,6 +11,36 @@
 
 namespace billet {
 
+namespace {
+
+/// Axes of a body's elements through the thickness; throws InputError where none is clearly nearest to the
+/// direction.
+std::vector<ThicknessAxis> find_thickness_axes(const Scene &scene, const std::size_t b,
+                                               const Discretization &discretization,
+                                               const std::vector<ElementVectors> &positions) {
+  const Body &body = scene.bodies()[b];
+  std::vector<ThicknessAxis> axes(positions.size());
+  for (std::size_t e = 0; e < positions.size() && !body.thickness_direction.empty(); ++e) {
+    const auto centre = discretization.elements(b)[e].cell->center();
+    dealii::Tensor<1, 3> direction;
+    for (unsigned int i = 0; i < 3; ++i)
+      direction[i] = body.thickness_direction[i].value(0., centre);
+    const auto axis = find_thickness_axis(positions[e], direction);
+    if (!axis) {
+      std::ostringstream message;
+      message << scene.parameters().bodies[b].thickness_direction.origin << ": found (" << direction
+              << ") at the element with its centre at (" << centre
+              << "), allowed is a direction that is nearer to one axis of each element than to the others, "
+                 "by 10 degrees";
+      throw InputError(message.str());
+    }
+    axes[e] = *axis;
+  }
+  return axes;
+}
+
+} // namespace
+
 InternalForces::InternalForces(const Scene &scene, const Discretization &discretization)
     : discretization_(discretization) {
   std::size_t plastic_bytes = 0;
@@ -21,7 +51,8 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
         positions.push_back(nodal_positions(element.cell));
       blocks_.push_back(make_element_block(scene.bodies()[b].material, scene.bodies()[b].formulation));
       std::size_t offender = 0;
-      if (!blocks_.back()->initialize(positions, offender)) {
+      const auto axes = find_thickness_axes(scene, b, discretization, positions);
+      if (!blocks_.back()->initialize(positions, axes, offender)) {
         std::ostringstream message;
         message << scene.parameters().bodies[b].origin << ": the element with its centre at ("
                 << discretization.elements(b)[offender].cell->center()
@@ -108,6 +139,16 @@ std::vector<ElementSummary> InternalForces::summarize(const std::size_t body, co
   const auto &elements = discretization_.elements(body);
   for (std::size_t e = 0; e < elements.size(); ++e)
     result.push_back(blocks_[body]->summarize(e, gather(displacements, elements[e].dofs), beat));
+  return result;
+}
+
+std::vector<LayerSummaries> InternalForces::summarize_layers(const std::size_t body,
+                                                             const Vector &displacements) const {
+  std::vector<LayerSummaries> result;
+  const auto &elements = discretization_.elements(body);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    if (const auto layers = blocks_[body]->summarize_layers(e, gather(displacements, elements[e].dofs)))
+      result.push_back(*layers);
   return result;
 }
 

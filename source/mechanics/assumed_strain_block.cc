@@ -6,7 +6,7 @@ namespace billet {
 
 std::unique_ptr<ElementBlock> make_assumed_strain_block(const MaterialLaw &material,
                                                         const ElementFormulation &formulation) {
-  return make_law_block<AssumedStrainElement>(material, formulation);
+  return make_law_block<AssumedStrainElement<>>(material, formulation);
 }
 
 } // namespace billet

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace billet {
 
@@ -17,10 +18,11 @@ using strain_modes::Strains;
 
 namespace {
 
-using Element = AssumedStrainElement;
-
-constexpr unsigned int n_directions = 9;                    ///< components of the columns a_k
-constexpr unsigned int n_unknowns = 3 * Element::n_vectors; ///< and of the hourglass vectors
+constexpr unsigned int n_directions = 9; ///< components of the columns a_k
+constexpr unsigned int n_vectors = AssumedStrainElement<>::n_vectors;
+constexpr unsigned int n_unknowns = 3 * n_vectors; ///< and of the hourglass vectors
+constexpr unsigned int thinning = n_unknowns;      ///< of bricks with layers X is one more, the last
+constexpr unsigned int thinning_direction = n_directions;
 // Rows are longer than that, for the sake of processors: a multiple of the lanes.
 constexpr unsigned int width = 24, direction_width = 10;
 constexpr unsigned int n_tensors = 6; ///< strains: three linear, three bilinear
@@ -32,21 +34,42 @@ template <std::size_t n> using Rows = std::array<Row, n>;
 constexpr unsigned int symmetric[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 constexpr unsigned int pair_of[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
+double poisson_ratio(const ElasticModuli &elastic) {
+  return (3. * elastic.bulk - 2. * elastic.shear) / (6. * elastic.bulk + 2. * elastic.shear);
+}
+
 double reciprocal(const double x) { return 1. / x; }
 double root(const double x) { return std::sqrt(x); }
 
 /// How much of each strain a point has.
-std::array<std::array<double, n_tensors>, n_element_points> compute_shares() {
-  std::array<std::array<double, n_tensors>, n_element_points> shares{};
+template <unsigned int n_through> using Shares = std::array<std::array<double, n_tensors>, 4 * n_through>;
+template <unsigned int n_through> Shares<n_through> compute_shares() {
+  Shares<n_through> shares{};
   const double place = 1. / std::sqrt(3.);
-  for (unsigned int q = 0; q < n_element_points; ++q)
+  for (unsigned int q = 0; q < shares.size(); ++q) {
+    const std::array<double, 3> at = {place * corner(q, 0), place * corner(q, 1),
+                                      gauss_rule(n_through).points[q / 4]};
     for (unsigned int k = 0; k < 3; ++k) {
-      shares[q][k] = place * corner(q, k);
-      shares[q][3 + k] = place * place * corner(q, (k + 1) % 3) * corner(q, (k + 2) % 3);
+      shares[q][k] = at[k];
+      shares[q][3 + k] = at[(k + 1) % 3] * at[(k + 2) % 3];
     }
+  }
   return shares;
 }
-const auto shares = compute_shares();
+template <unsigned int n_through> const Shares<n_through> shares = compute_shares<n_through>();
+
+/// Of the volume.
+template <unsigned int n_through> double point_weight(const double volume, const unsigned int q) {
+  if constexpr (n_through == 2)
+    return volume / n_element_points;
+  static const std::array<double, n_through> weights = [] {
+    std::array<double, n_through> made{};
+    for (unsigned int l = 0; l < n_through; ++l)
+      made[l] = 0.25 * gauss_rule(n_through).weights[l];
+    return made;
+  }();
+  return volume * weights[q / 4];
+}
 
 template <class Real> Real *tensor(Strains<Real> &strains, const unsigned int t) {
   return t < 3 ? strains.linear[t] : strains.bilinear[t - 3];
@@ -62,13 +85,13 @@ template <class Fixed, class Real> void multiply(const Fixed *s, const Real *v, 
 }
 
 /// The strains in space, Σ h_ab a^a ⊗ a^b.
-template <class Real>
+template <class Real, class Thinning>
 void compute_spatial_strains(const strain_modes::Constants<double> &constants, const Frame<Real> &frame,
-                             const Real (*hourglass)[3], Strains<Real> &strains) {
+                             const Real (*hourglass)[3], const Thinning &of_layers, Strains<Real> &strains) {
   Products<Real> products;
   strain_modes::multiply(frame, hourglass, products);
   Strains<Real> by_columns;
-  strain_modes::compute_strains<double>(constants, frame, products, by_columns);
+  strain_modes::compute_strains<double>(constants, frame, products, by_columns, of_layers);
   for (unsigned int t = 0; t < n_tensors; ++t) {
     const Real *h = tensor(by_columns, t);
     Real half[3][3]; // [a][i]: Σ_b h_ab a^b
@@ -87,18 +110,43 @@ void compute_spatial_strains(const strain_modes::Constants<double> &constants, c
   }
 }
 
-/// Sums over the points: V/8 (p 1 + Y dev τ Y⁻¹), which the mean gradient works on, and V/8 sym(dev τ Y⁻¹) of
-/// each strain.
+/// The thinning and its force as numbers of type `Real`: those of the element, or what stands for none.
+template <class Real, unsigned int n_through>
+auto thinning_of(const typename AssumedStrainElement<n_through>::Reference &reference,
+                 const typename AssumedStrainElement<n_through>::Kinematics &kinematics) {
+  if constexpr (n_through == 2)
+    return strain_modes::GivenThinning();
+  else {
+    strain_modes::FreeThinning<Real> of_layers{
+        kinematics.thinning, AssumedStrainElement<n_through>::thinning_force(reference, kinematics)};
+    if constexpr (std::is_same_v<Real, Direction>)
+      of_layers.strain.rate[thinning_direction] = 1.;
+    return of_layers;
+  }
+}
+
+/// No thinning at all.
+template <class Real, unsigned int n_through> auto no_thinning() {
+  if constexpr (n_through == 2)
+    return strain_modes::GivenThinning();
+  else
+    return strain_modes::FreeThinning<Real>{Real{}, Real{}};
+}
+
+/// Sums over the points, w their volumes: w (p 1 + Y dev τ Y⁻¹), which the mean gradient works on, and
+/// w sym(dev τ Y⁻¹) of each strain.
 struct StressSums {
   Tensor<2, 3> mean;
   Strains<double> of_strains{};
 };
 
-StressSums sum_stresses(const Element::Reference &reference, const Element::Kinematics &kinematics,
-                        const PointStresses &tau) {
+template <unsigned int n_through>
+StressSums sum_stresses(const typename AssumedStrainElement<n_through>::Reference &reference,
+                        const typename AssumedStrainElement<n_through>::Kinematics &kinematics,
+                        const typename AssumedStrainElement<n_through>::Stresses &tau) {
   StressSums sums;
-  const double weight = reference.volume / n_element_points;
-  for (unsigned int q = 0; q < n_element_points; ++q) {
+  for (unsigned int q = 0; q < tau.size(); ++q) {
+    const double weight = point_weight<n_through>(reference.volume, q);
     const Tensor<2, 3> dev = dealii::deviator(tau[q]);
     const Tensor<2, 3> by_inverse = dev * Tensor<2, 3>(kinematics.inverse_Y[q]);
     sums.mean += weight * (Tensor<2, 3>(kinematics.Y[q]) * by_inverse);
@@ -108,17 +156,17 @@ StressSums sum_stresses(const Element::Reference &reference, const Element::Kine
       const unsigned int i = pair_of[r][0], j = pair_of[r][1];
       const double T = 0.5 * weight * (by_inverse[i][j] + by_inverse[j][i]);
       for (unsigned int t = 0; t < n_tensors; ++t)
-        tensor(sums.of_strains, t)[r] += shares[q][t] * T;
+        tensor(sums.of_strains, t)[r] += shares<n_through>[q][t] * T;
     }
   }
   return sums;
 }
 
 /// Forces of the seven vectors.
-template <class Real>
-std::array<std::array<Real, 3>, Element::n_vectors>
-compute_vector_forces(const Element::Reference &reference, const Frame<Real> &frame,
-                      const Real (*hourglass)[3], const StressSums &sums) {
+template <class Real, class Thinning>
+std::array<std::array<Real, 3>, n_vectors>
+compute_vector_forces(const strain_modes::Constants<double> &constants, const Frame<Real> &frame,
+                      const Real (*hourglass)[3], const Thinning &of_layers, const StressSums &sums) {
   Forces<Real> forces{};
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
@@ -127,7 +175,7 @@ compute_vector_forces(const Element::Reference &reference, const Frame<Real> &fr
   Products<Real> products;
   strain_modes::multiply(frame, hourglass, products);
   Strains<Real> strains, stresses;
-  strain_modes::compute_strains<double>(reference.constants, frame, products, strains);
+  strain_modes::compute_strains<double>(constants, frame, products, strains, of_layers);
   // In T : (δh_ab a^a ⊗ a^b) the duals follow the columns: δa^a = −Σ_k (a^a·δa_k) a^k.
   Real of_duals[3][3] = {}; // [a][k]
   for (unsigned int t = 0; t < n_tensors; ++t) {
@@ -149,8 +197,8 @@ compute_vector_forces(const Element::Reference &reference, const Frame<Real> &fr
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int a = 0; a < 3; ++a)
         forces.columns[k][i] -= 2. * (of_duals[a][k] * frame.duals[a][i]);
-  strain_modes::compute_forces<double>(reference.constants, frame, hourglass, products, stresses, forces);
-  std::array<std::array<Real, 3>, Element::n_vectors> result;
+  strain_modes::compute_forces<double>(constants, frame, hourglass, products, stresses, forces, of_layers);
+  std::array<std::array<Real, 3>, n_vectors> result;
   for (unsigned int i = 0; i < 3; ++i) {
     for (unsigned int k = 0; k < 3; ++k)
       result[k][i] = forces.columns[k][i];
@@ -175,25 +223,31 @@ Frame<Direction> differentiate(const Frame<double> &frame) {
 }
 
 /// Derivatives of the strains by the unknowns.
-std::array<Rows<6>, n_tensors> compute_strain_rates(const Element::Reference &reference,
-                                                    const Frame<double> &frame,
-                                                    const Frame<Direction> &directions,
-                                                    const Direction (*hourglass)[3]) {
+template <unsigned int n_through>
+std::array<Rows<6>, n_tensors>
+compute_strain_rates(const typename AssumedStrainElement<n_through>::Reference &reference,
+                     const typename AssumedStrainElement<n_through>::Kinematics &kinematics,
+                     const Frame<Direction> &directions, const Direction (*hourglass)[3]) {
+  const Frame<double> &frame = kinematics.frame;
   std::array<Rows<6>, n_tensors> rates{};
   Strains<Direction> by_columns;
-  compute_spatial_strains(reference.constants, directions, hourglass, by_columns);
+  compute_spatial_strains(reference.constants, directions, hourglass,
+                          thinning_of<Direction, n_through>(reference, kinematics), by_columns);
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int r = 0; r < 6; ++r)
       for (unsigned int d = 0; d < n_directions; ++d) {
         rates[k][r][d] = by_columns.linear[k][r].rate[d];
         rates[3 + k][r][d] = by_columns.bilinear[k][r].rate[d];
       }
+  if constexpr (n_through > 2)
+    for (unsigned int r = 0; r < 6; ++r)
+      rates[2][r][thinning] = by_columns.linear[2][r].rate[thinning_direction];
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
       double unit[4][3] = {};
       unit[m][i] = 1.;
       Strains<double> by_vector;
-      compute_spatial_strains(reference.constants, frame, unit, by_vector);
+      compute_spatial_strains(reference.constants, frame, unit, no_thinning<double, n_through>(), by_vector);
       for (unsigned int t = 0; t < n_tensors; ++t)
         for (unsigned int r = 0; r < 6; ++r)
           rates[t][r][n_directions + 3 * m + i] = tensor(by_vector, t)[r];
@@ -258,16 +312,19 @@ inline void combine(const double a, const Row &x, const double b, const Row &y, 
 }
 
 /// What the points add to the rates of StressSums by the unknowns; of the mean only for the first `n_mean`.
-template <unsigned int n_mean, class Moduli>
-void add_point_rates(const Element::Reference &reference, const Element::Kinematics &kinematics,
-                     const std::array<Rows<6>, n_tensors> &strain_rates, const PointStresses &tau,
-                     const PointModuli<Moduli> &moduli, const double bulk, Rows<9> &mean,
-                     std::array<Rows<6>, n_tensors> &of_strains) {
-  const double weight = reference.volume / n_element_points;
-  for (unsigned int q = 0; q < n_element_points; ++q) {
+template <unsigned int n_mean, unsigned int n_through, class Moduli>
+void add_point_rates(const typename AssumedStrainElement<n_through>::Reference &reference,
+                     const typename AssumedStrainElement<n_through>::Kinematics &kinematics,
+                     const std::array<Rows<6>, n_tensors> &strain_rates,
+                     const typename AssumedStrainElement<n_through>::Stresses &tau,
+                     const typename AssumedStrainElement<n_through>::template ModuliOf<Moduli> &moduli,
+                     const double bulk, Rows<9> &mean, std::array<Rows<6>, n_tensors> &of_strains) {
+  for (unsigned int q = 0; q < tau.size(); ++q) {
+    const double weight = point_weight<n_through>(reference.volume, q);
+    const auto &own_shares = shares<n_through>[q];
     const Numbers M(dealii::deviator(tau[q])), Y(kinematics.Y[q]), Z(kinematics.inverse_Y[q]);
-    const double s0 = shares[q][0], s1 = shares[q][1], s2 = shares[q][2], s3 = shares[q][3],
-                 s4 = shares[q][4], s5 = shares[q][5];
+    const double s0 = own_shares[0], s1 = own_shares[1], s2 = own_shares[2], s3 = own_shares[3],
+                 s4 = own_shares[4], s5 = own_shares[5];
     Rows<6> dY;
     for (unsigned int r = 0; r < 6; ++r)
       for (unsigned int u = 0; u < width; ++u)
@@ -324,7 +381,7 @@ void add_point_rates(const Element::Reference &reference, const Element::Kinemat
       for (unsigned int u = 0; u < width; ++u)
         T[u] += transposed[u];
       for (unsigned int t = 0; t < n_tensors; ++t) {
-        const double share = shares[q][t];
+        const double share = own_shares[t];
         for (unsigned int u = 0; u < width; ++u)
           of_strains[t][r][u] += share * T[u];
       }
@@ -355,12 +412,13 @@ void add_point_rates(const Element::Reference &reference, const Element::Kinemat
   }
 }
 
-/// K of the unknowns to that of the nodes.
-void scatter(const Element::Reference &reference, const Rows<n_unknowns> &K, ElementMatrix &matrix) {
+/// K of the unknowns, of which the first 21 are read, to that of the nodes.
+template <class Reference, std::size_t n>
+void scatter(const Reference &reference, const Rows<n> &K, ElementMatrix &matrix) {
   std::array<std::array<double, n_element_dofs>, n_unknowns> half;
   for (unsigned int r = 0; r < n_unknowns; ++r) {
     std::array<double, n_element_nodes> sums[3]{};
-    for (unsigned int v = 0; v < Element::n_vectors; ++v)
+    for (unsigned int v = 0; v < n_vectors; ++v)
       for (unsigned int j = 0; j < 3; ++j) {
         const double entry = K[r][3 * v + j];
         for (unsigned int b = 0; b < n_element_nodes; ++b)
@@ -374,7 +432,7 @@ void scatter(const Element::Reference &reference, const Rows<n_unknowns> &K, Ele
     for (unsigned int i = 0; i < 3; ++i) {
       double *row = matrix.data() + (std::size_t{3} * a + i) * n_element_dofs;
       std::fill(row, row + n_element_dofs, 0.);
-      for (unsigned int v = 0; v < Element::n_vectors; ++v) {
+      for (unsigned int v = 0; v < n_vectors; ++v) {
         const double value = reference.of_nodes[v][a];
         for (unsigned int c = 0; c < n_element_dofs; ++c)
           row[c] += value * half[3 * v + i][c];
@@ -382,25 +440,65 @@ void scatter(const Element::Reference &reference, const Rows<n_unknowns> &K, Ele
     }
 }
 
+/// Of bricks with layers: what the force of the thinning, (B10), adds to K, and then what is left of K when X
+/// is in balance.
+template <unsigned int n_through, std::size_t n>
+void add_thinning(const typename AssumedStrainElement<n_through>::Reference &reference,
+                  const Frame<double> &frame, const Frame<Direction> &directions,
+                  const Direction (*hourglass)[3], Rows<n> &K) {
+  Row rates{}; // of E − X
+  Products<Direction> products;
+  strain_modes::multiply(directions, hourglass, products);
+  const Direction stretch =
+      strain_modes::compute_plane_stretch<double>(reference.constants, directions, products);
+  std::copy(stretch.rate, stretch.rate + n_directions, rates.begin());
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int i = 0; i < 3; ++i) {
+      double unit[4][3] = {};
+      unit[m][i] = 1.;
+      Products<double> of_unit;
+      strain_modes::multiply(frame, unit, of_unit);
+      rates[n_directions + 3 * m + i] =
+          strain_modes::compute_plane_stretch<double>(reference.constants, frame, of_unit);
+    }
+  rates[thinning] = -1.;
+  const double stiffness = reference.modulus * reference.volume / 3.;
+  for (unsigned int r = 0; r <= thinning; ++r)
+    for (unsigned int u = 0; u <= thinning; ++u)
+      K[r][u] += stiffness * rates[r] * rates[u];
+  const Row &own = K[thinning];
+  for (unsigned int r = 0; r < n_unknowns; ++r) {
+    const double factor = K[r][thinning] / own[thinning];
+    for (unsigned int u = 0; u < n_unknowns; ++u)
+      K[r][u] -= factor * own[u];
+  }
+}
+
 /// The exact tangent, (B6): what the rates of the stresses do, and, at frozen stresses, what the directions
 /// do, from the forces' own code with derivatives by the columns. `is_symmetric`: as the moduli.
-template <bool is_symmetric, class Moduli>
-void compute_element_tangent(const Element::Reference &reference, const Element::Kinematics &kinematics,
-                             const PointStresses &tau, const PointModuli<Moduli> &moduli, const double bulk,
-                             ElementMatrix &matrix) {
+template <bool is_symmetric, unsigned int n_through, class Moduli>
+void compute_element_tangent(
+    const typename AssumedStrainElement<n_through>::Reference &reference,
+    const typename AssumedStrainElement<n_through>::Kinematics &kinematics,
+    const typename AssumedStrainElement<n_through>::Stresses &tau,
+    const typename AssumedStrainElement<n_through>::template ModuliOf<Moduli> &moduli, const double bulk,
+    ElementMatrix &matrix) {
+  constexpr bool is_layered = n_through > 2;
   constexpr unsigned int n_mean = is_symmetric ? direction_width : width;
+  constexpr unsigned int n_all = n_unknowns + (is_layered ? 1 : 0);
   const Frame<Direction> directions = differentiate(kinematics.frame);
   Direction hourglass[4][3];
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int i = 0; i < 3; ++i)
       hourglass[m][i] = kinematics.hourglass[m][i];
-  const auto strain_rates = compute_strain_rates(reference, kinematics.frame, directions, hourglass);
+  const auto strain_rates = compute_strain_rates<n_through>(reference, kinematics, directions, hourglass);
   Rows<9> mean{};
   std::array<Rows<6>, n_tensors> of_strains{};
-  add_point_rates<n_mean>(reference, kinematics, strain_rates, tau, moduli, bulk, mean, of_strains);
+  add_point_rates<n_mean, n_through, Moduli>(reference, kinematics, strain_rates, tau, moduli, bulk, mean,
+                                             of_strains);
 
-  Rows<n_unknowns> K{};
-  for (unsigned int v = 0; v < Element::n_vectors; ++v) {
+  Rows<n_all> K{};
+  for (unsigned int v = 0; v < n_vectors; ++v) {
     // b̂_m makes no strain that varies as ξ_m, ĉ none that is linear.
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int t = v < 6 ? 0 : 3; t < (v < 3 || v == 6 ? n_tensors : 3); ++t) {
@@ -413,6 +511,12 @@ void compute_element_tangent(const Element::Reference &reference, const Element:
         }
       }
   }
+  if constexpr (is_layered)
+    for (unsigned int r = 0; r < 6; ++r) {
+      const double rate = (r < 3 ? 1. : 2.) * strain_rates[2][r][thinning];
+      for (unsigned int u = 0; u < width; ++u)
+        K[thinning][u] += rate * of_strains[2][r][u];
+    }
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i) {
       const double *a = kinematics.frame.duals[k];
@@ -423,32 +527,41 @@ void compute_element_tangent(const Element::Reference &reference, const Element:
     }
   if constexpr (is_symmetric)
     for (unsigned int r = 0; r < n_directions; ++r)
-      for (unsigned int u = n_directions; u < n_unknowns; ++u)
+      for (unsigned int u = n_directions; u < n_all; ++u)
         K[r][u] = K[u][r];
 
-  const auto forces =
-      compute_vector_forces(reference, directions, hourglass, sum_stresses(reference, kinematics, tau));
-  for (unsigned int v = 0; v < Element::n_vectors; ++v)
-    for (unsigned int i = 0; i < 3; ++i)
+  const auto forces = compute_vector_forces(reference.constants, directions, hourglass,
+                                            thinning_of<Direction, n_through>(reference, kinematics),
+                                            sum_stresses<n_through>(reference, kinematics, tau));
+  for (unsigned int v = 0; v < n_vectors; ++v)
+    for (unsigned int i = 0; i < 3; ++i) {
       for (unsigned int d = 0; d < n_directions; ++d) {
         K[3 * v + i][d] += forces[v][i].rate[d];
         if (v >= 3)
           K[d][3 * v + i] += forces[v][i].rate[d];
       }
+      if constexpr (is_layered) {
+        K[3 * v + i][thinning] += forces[v][i].rate[thinning_direction];
+        K[thinning][3 * v + i] += forces[v][i].rate[thinning_direction];
+      }
+    }
+  if constexpr (is_layered)
+    add_thinning<n_through>(reference, kinematics.frame, directions, hourglass, K);
   scatter(reference, K, matrix);
 }
 
 } // namespace
 
 strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &elastic,
-                                                         const std::array<double, 3> &lengths) {
+                                                         const std::array<double, 3> &lengths,
+                                                         const double kept_through) {
   const double theta = strain_modes::kept_shear;
-  const double nu = (3. * elastic.bulk - 2. * elastic.shear) / (6. * elastic.bulk + 2. * elastic.shear);
+  const double nu = poisson_ratio(elastic);
   strain_modes::Constants<double> constants{};
   for (unsigned int j = 0; j < 3; ++j)
     for (unsigned int k = 0; k < 3; ++k)
       if (j != k) {
-        const double kept = std::min(theta, lengths[j] / lengths[k]);
+        const double kept = std::min(k == 2 ? kept_through : theta, lengths[j] / lengths[k]);
         constants.share[j][k] = 1. / std::sqrt(1. + 0.5 * kept * kept);
         constants.shear[j][k] = kept * constants.share[j][k];
       }
@@ -461,11 +574,22 @@ strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &el
   return constants;
 }
 
-bool AssumedStrainElement::initialize(const ElementVectors &positions, Reference &reference) const {
+template <unsigned int n_through>
+bool AssumedStrainElement<n_through>::initialize(const ElementVectors &positions, Reference &reference,
+                                                 const ThicknessAxis &axis) const {
   ReferenceElement points; // a mesh that eight points refuse is refused
   if (!compute_reference_element(positions, points))
     return false;
-  const ModalGeometry geometry(positions);
+  std::array<unsigned int, n_element_nodes> corners{};
+  std::iota(corners.begin(), corners.end(), 0U);
+  ElementVectors turned = positions;
+  if constexpr (is_layered) {
+    corners = turn_corners(axis);
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        turned[3 * a + i] = positions[3 * corners[a] + i];
+  }
+  const ModalGeometry geometry(turned);
   std::array<double, 3> lengths{};
   for (unsigned int k = 0; k < 3; ++k) {
     lengths[k] = geometry.modes[k].norm();
@@ -476,25 +600,72 @@ bool AssumedStrainElement::initialize(const ElementVectors &positions, Reference
     return false;
   reference.inverse_jacobian = dealii::invert(reference.jacobian);
   reference.volume = geometry.volume;
-  reference.constants = compute_strain_constants(elastic_, lengths);
+  reference.constants = compute_strain_constants(
+      elastic_, lengths, is_layered ? kept_shear_of_layers : strain_modes::kept_shear);
+  if constexpr (is_layered) {
+    const double nu = poisson_ratio(elastic_), part = nu / (1. - nu);
+    const auto &share = reference.constants.share;
+    // Towards ν = ½ and −1 a finite modulus above zero is left.
+    constexpr double least = -0.45;
+    const double counted =
+        std::max(least, std::min(part / (share[0][2] * share[1][2]), 1. - 0.25 * (1. - part)));
+    const double ratio = counted / (1. - counted);
+    reference.modulus = 2. * elastic_.shear * (1. / 3. + ratio);
+    reference.elastic_part = ratio / (1. + ratio);
+  }
   for (unsigned int a = 0; a < n_element_nodes; ++a) {
     for (unsigned int k = 0; k < 3; ++k) {
-      reference.of_nodes[k][a] = 0.;
+      double &of_node = reference.of_nodes[k][corners[a]];
+      of_node = 0.;
       for (unsigned int m = 0; m < n_linear_modes; ++m)
-        reference.of_nodes[k][a] += 0.125 * geometry.beta[m][k] * mode_values[m][a];
+        of_node += 0.125 * geometry.beta[m][k] * mode_values[m][a];
     }
     for (unsigned int m = 0; m < 4; ++m) {
       const Tensor<1, 3> own = reference.inverse_jacobian * geometry.modes[3 + m];
-      reference.of_nodes[3 + m][a] = 0.125 * mode_values[3 + m][a];
+      double &of_node = reference.of_nodes[3 + m][corners[a]];
+      of_node = 0.125 * mode_values[3 + m][a];
       for (unsigned int k = 0; k < 3; ++k)
-        reference.of_nodes[3 + m][a] -= own[k] * reference.of_nodes[k][a];
+        of_node -= own[k] * reference.of_nodes[k][corners[a]];
     }
   }
   return true;
 }
 
-bool AssumedStrainElement::compute(const Reference &reference, const ElementVectors &displacements,
-                                   Kinematics &kinematics) {
+namespace {
+
+/// The points' gradients from Y; false if one is not admissible.
+template <class Kinematics> bool complete_points(const Tensor<2, 3> &mean_F, Kinematics &kinematics) {
+  for (unsigned int q = 0; q < kinematics.Y.size(); ++q) {
+    const SymmetricTensor<2, 3> &Y = kinematics.Y[q];
+    const double determinant = dealii::determinant(Y);
+    // Positive definite: no fibre turned inside out, nor two.
+    if (!(determinant > 0.) || !(dealii::trace(Y) > 0.) || !(dealii::second_invariant(Y) > 0.) ||
+        !std::isfinite(determinant))
+      return false;
+    kinematics.inverse_Y[q] = dealii::invert(Y);
+    kinematics.F_of_rates[q] = Tensor<2, 3>(Y) * mean_F;
+    kinematics.F[q] = kinematics.F_of_rates[q] / std::cbrt(determinant);
+  }
+  return true;
+}
+
+template <unsigned int n_through>
+void set_strains(const Strains<double> &strains,
+                 std::array<SymmetricTensor<2, 3>, 4 * n_through> &of_points) {
+  for (unsigned int q = 0; q < of_points.size(); ++q) {
+    SymmetricTensor<2, 3> &Y = of_points[q];
+    Y = dealii::unit_symmetric_tensor<3>();
+    for (unsigned int t = 0; t < n_tensors; ++t)
+      for (unsigned int r = 0; r < 6; ++r)
+        Y[pair_of[r][0]][pair_of[r][1]] += shares<n_through>[q][t] * tensor(strains, t)[r];
+  }
+}
+
+} // namespace
+
+template <unsigned int n_through>
+bool AssumedStrainElement<n_through>::compute(const Reference &reference, const ElementVectors &displacements,
+                                              Kinematics &kinematics) {
   std::array<Tensor<1, 3>, n_vectors> moved;
   for (unsigned int v = 0; v < n_vectors; ++v)
     for (unsigned int a = 0; a < n_element_nodes; ++a)
@@ -517,64 +688,126 @@ bool AssumedStrainElement::compute(const Reference &reference, const ElementVect
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int i = 0; i < 3; ++i)
       kinematics.hourglass[m][i] = moved[3 + m][i];
-  Strains<double> strains;
-  compute_spatial_strains(reference.constants, kinematics.frame, kinematics.hourglass, strains);
-  for (unsigned int q = 0; q < n_points; ++q) {
-    SymmetricTensor<2, 3> &Y = kinematics.Y[q];
-    Y = dealii::unit_symmetric_tensor<3>();
-    for (unsigned int t = 0; t < n_tensors; ++t)
-      for (unsigned int r = 0; r < 6; ++r)
-        Y[pair_of[r][0]][pair_of[r][1]] += shares[q][t] * tensor(strains, t)[r];
-    const double determinant = dealii::determinant(Y);
-    // Positive definite: no fibre turned inside out, nor two.
-    if (!(determinant > 0.) || !(dealii::trace(Y) > 0.) || !(dealii::second_invariant(Y) > 0.) ||
-        !std::isfinite(determinant))
-      return false;
-    kinematics.inverse_Y[q] = dealii::invert(Y);
-    kinematics.F_of_rates[q] = Tensor<2, 3>(Y) * F;
-    kinematics.F[q] = kinematics.F_of_rates[q] / std::cbrt(determinant);
+  if constexpr (is_layered) {
+    kinematics.mean_F = F;
+    compute_spatial_strains(reference.constants, kinematics.frame, kinematics.hourglass,
+                            no_thinning<double, n_through>(), kinematics.strains);
+    Products<double> products;
+    strain_modes::multiply(kinematics.frame, kinematics.hourglass, products);
+    kinematics.stretch =
+        strain_modes::compute_plane_stretch<double>(reference.constants, kinematics.frame, products);
+    return std::isfinite(kinematics.stretch);
+  } else {
+    Strains<double> strains;
+    compute_spatial_strains(reference.constants, kinematics.frame, kinematics.hourglass,
+                            no_thinning<double, n_through>(), strains);
+    set_strains<n_through>(strains, kinematics.Y);
+    return complete_points(F, kinematics);
   }
-  return true;
 }
 
+template <unsigned int n_through>
+bool AssumedStrainElement<n_through>::set_thinning(const double strain, Kinematics &kinematics) {
+  kinematics.thinning = strain;
+  Strains<double> strains = kinematics.strains;
+  const double *normal = kinematics.frame.duals[2];
+  const double factor = strain * kinematics.frame.square_heights[2];
+  for (unsigned int r = 0; r < 6; ++r)
+    strains.linear[2][r] -= factor * normal[pair_of[r][0]] * normal[pair_of[r][1]];
+  set_strains<n_through>(strains, kinematics.Y);
+  return complete_points(kinematics.mean_F, kinematics);
+}
+
+template <unsigned int n_through>
+double AssumedStrainElement<n_through>::reference_volume(const Reference &reference, const unsigned int q) {
+  return point_weight<n_through>(reference.volume, q);
+}
+
+template <unsigned int n_through>
 template <bool>
-void AssumedStrainElement::add_force(const Reference &reference, const Kinematics &kinematics,
-                                     const PointStresses &tau, ElementVectors &force) {
-  const auto forces = compute_vector_forces(reference, kinematics.frame, kinematics.hourglass,
-                                            sum_stresses(reference, kinematics, tau));
+void AssumedStrainElement<n_through>::add_force(const Reference &reference, const Kinematics &kinematics,
+                                                const Stresses &tau, ElementVectors &force) {
+  const auto forces = compute_vector_forces(reference.constants, kinematics.frame, kinematics.hourglass,
+                                            thinning_of<double, n_through>(reference, kinematics),
+                                            sum_stresses<n_through>(reference, kinematics, tau));
   for (unsigned int a = 0; a < n_element_nodes; ++a)
     for (unsigned int v = 0; v < n_vectors; ++v)
       for (unsigned int i = 0; i < 3; ++i)
         force[3 * a + i] += reference.of_nodes[v][a] * forces[v][i];
 }
 
-template void AssumedStrainElement::add_force<false>(const Reference &, const Kinematics &,
-                                                     const PointStresses &, ElementVectors &);
-template void AssumedStrainElement::add_force<true>(const Reference &, const Kinematics &,
-                                                    const PointStresses &, ElementVectors &);
-
-void AssumedStrainElement::compute_symmetric_tangent(const Reference &reference, const Kinematics &kinematics,
-                                                     const PointStresses &tau,
-                                                     const PointModuli<SpatialModuli> &moduli,
-                                                     ElementMatrix &matrix) {
-  compute_element_tangent<true>(reference, kinematics, tau, moduli, 0., matrix);
+template <unsigned int n_through>
+void AssumedStrainElement<n_through>::compute_symmetric_tangent(const Reference &reference,
+                                                                const Kinematics &kinematics,
+                                                                const Stresses &tau,
+                                                                const ModuliOf<SpatialModuli> &moduli,
+                                                                ElementMatrix &matrix) {
+  compute_element_tangent<true, n_through, SpatialModuli>(reference, kinematics, tau, moduli, 0., matrix);
 }
 
+template <unsigned int n_through>
 template <class Moduli>
-void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &reference,
-                                                       const Kinematics &kinematics, const PointStresses &tau,
-                                                       const PointModuli<Moduli> &moduli,
-                                                       ElementMatrix &matrix) const {
-  compute_element_tangent<false>(reference, kinematics, tau, moduli, elastic_.bulk, matrix);
+void AssumedStrainElement<n_through>::compute_unsymmetric_tangent(const Reference &reference,
+                                                                  const Kinematics &kinematics,
+                                                                  const Stresses &tau,
+                                                                  const ModuliOf<Moduli> &moduli,
+                                                                  ElementMatrix &matrix) const {
+  compute_element_tangent<false, n_through, Moduli>(reference, kinematics, tau, moduli, elastic_.bulk,
+                                                    matrix);
 }
 
-template void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &, const Kinematics &,
-                                                                const PointStresses &,
-                                                                const PointModuli<SpatialModuli> &,
-                                                                ElementMatrix &) const;
-template void AssumedStrainElement::compute_unsymmetric_tangent(const Reference &, const Kinematics &,
-                                                                const PointStresses &,
-                                                                const PointModuli<GradientModuli> &,
-                                                                ElementMatrix &) const;
+template <unsigned int n_through>
+double AssumedStrainElement<n_through>::varying_pressure(const Reference &reference,
+                                                         const Kinematics &kinematics, const unsigned int q) {
+  return reference.modulus * (kinematics.thinning - kinematics.stretch) * shares<n_through>[q][2];
+}
+
+template <unsigned int n_through>
+double AssumedStrainElement<n_through>::thinning_residual(const Reference &reference,
+                                                          const Kinematics &kinematics, const Stresses &tau) {
+  const double *normal = kinematics.frame.duals[2];
+  double sum = 0.;
+  for (unsigned int q = 0; q < n_points; ++q) {
+    const Tensor<2, 3> by_inverse =
+        Tensor<2, 3>(dealii::deviator(tau[q])) * Tensor<2, 3>(kinematics.inverse_Y[q]);
+    double along = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        along += normal[i] * by_inverse[i][j] * normal[j];
+    sum += point_weight<n_through>(reference.volume, q) * shares<n_through>[q][2] * along;
+  }
+  return -kinematics.frame.square_heights[2] * sum - thinning_force(reference, kinematics);
+}
+
+#define BILLET_INSTANTIATE(n)                                                                                \
+  template bool AssumedStrainElement<n>::initialize(const ElementVectors &, Reference &,                     \
+                                                    const ThicknessAxis &) const;                            \
+  template bool AssumedStrainElement<n>::compute(const Reference &, const ElementVectors &, Kinematics &);   \
+  template double AssumedStrainElement<n>::reference_volume(const Reference &, unsigned int);                \
+  template void AssumedStrainElement<n>::add_force<false>(const Reference &, const Kinematics &,             \
+                                                          const Stresses &, ElementVectors &);               \
+  template void AssumedStrainElement<n>::add_force<true>(const Reference &, const Kinematics &,              \
+                                                         const Stresses &, ElementVectors &);                \
+  template void AssumedStrainElement<n>::compute_symmetric_tangent(                                          \
+      const Reference &, const Kinematics &, const Stresses &, const ModuliOf<SpatialModuli> &,              \
+      ElementMatrix &);                                                                                      \
+  template void AssumedStrainElement<n>::compute_unsymmetric_tangent<SpatialModuli>(                         \
+      const Reference &, const Kinematics &, const Stresses &, const ModuliOf<SpatialModuli> &,              \
+      ElementMatrix &) const;                                                                                \
+  template void AssumedStrainElement<n>::compute_unsymmetric_tangent<GradientModuli>(                        \
+      const Reference &, const Kinematics &, const Stresses &, const ModuliOf<GradientModuli> &,             \
+      ElementMatrix &) const;
+#define BILLET_INSTANTIATE_LAYERS(n)                                                                         \
+  BILLET_INSTANTIATE(n)                                                                                      \
+  template bool AssumedStrainElement<n>::set_thinning(double, Kinematics &);                                 \
+  template double AssumedStrainElement<n>::varying_pressure(const Reference &, const Kinematics &,           \
+                                                            unsigned int);                                   \
+  template double AssumedStrainElement<n>::thinning_residual(const Reference &, const Kinematics &,          \
+                                                             const Stresses &);
+
+BILLET_INSTANTIATE(2)
+BILLET_INSTANTIATE_LAYERS(3)
+BILLET_INSTANTIATE_LAYERS(5)
+BILLET_INSTANTIATE_LAYERS(7)
 
 } // namespace billet

@@ -38,14 +38,26 @@ const char *name_of(const Kinematics kinematics) {
 }
 
 std::string describe(const ElementFormulation &formulation) {
-  return std::string("implicit, ") + name_of(formulation.element) + ", " + name_of(formulation.kinematics);
+  std::string words = std::string("implicit, ") + name_of(formulation.element) + ", ";
+  if (formulation.points_through > 2)
+    words += std::to_string(formulation.points_through) + " points through, ";
+  return words + name_of(formulation.kinematics);
 }
 
 std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material,
                                                  const ElementFormulation &formulation) {
   switch (formulation.element) {
   case Element::assumed_strain:
-    return make_assumed_strain_block(material, formulation);
+    switch (formulation.points_through) {
+    case 3:
+      return make_assumed_strain_block_3(material, formulation);
+    case 5:
+      return make_assumed_strain_block_5(material, formulation);
+    case 7:
+      return make_assumed_strain_block_7(material, formulation);
+    default:
+      return make_assumed_strain_block(material, formulation);
+    }
   case Element::mean_dilatation:
     return make_mean_dilatation_block(material, formulation);
   case Element::one_point:

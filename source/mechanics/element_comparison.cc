@@ -99,7 +99,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
     return true;
   };
   if (!add_one_point(positions, displacements, one_point) ||
-      !add_points(AssumedStrainElement(elastic_, formulation_), own.accurate))
+      !add_points(AssumedStrainElement<>(elastic_, formulation_), own.accurate))
     return false;
   own.one_point = one_point.used;
   switch (formulation_.element) {

@@ -263,10 +263,11 @@ public:
       return;
     }
     is_fresh_ = false;
-    ElementStress wanted = stress;
+    const ElementStress corners = stress.transfer(2);
+    ElementStress wanted = corners;
     if (formulation_.element == Element::one_point) {
       wanted[0] = PointStress();
-      for (const PointStress &point : stress) {
+      for (const PointStress &point : corners) {
         wanted[0].deviator += 0.125 * point.deviator;
         wanted[0].equivalent_plastic_strain += 0.125 * point.equivalent_plastic_strain;
       }

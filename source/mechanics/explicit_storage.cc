@@ -465,10 +465,11 @@ void ExplicitStorage<Number>::visit_points(const std::size_t element, const doub
     return;
   }
   if (formulation_.element == Element::assumed_strain) {
-    const AssumedStrainElement brick(elastic_, {});
-    AssumedStrainElement::Reference reference;
-    AssumedStrainElement::Kinematics kinematics;
-    if (!brick.initialize(X, reference) || !AssumedStrainElement::compute(reference, u, kinematics))
+    using Brick = AssumedStrainElement<>;
+    const Brick brick(elastic_, {});
+    Brick::Reference reference;
+    Brick::Kinematics kinematics;
+    if (!brick.initialize(X, reference) || !Brick::compute(reference, u, kinematics))
       return;
     for (unsigned int q = 0; q < n_element_points; ++q)
       visit(first_point_ + q * layout_.n_point_history, reference.volume / n_element_points, kinematics.J,

@@ -12,6 +12,8 @@
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iomanip>
@@ -29,17 +31,38 @@ struct CellFields {
   std::vector<dealii::Vector<double>> values;
 };
 
+constexpr std::array<const char *, 8> stress_names = {"stress_xx",        "stress_yy", "stress_zz",
+                                                      "stress_xy",        "stress_xz", "stress_yz",
+                                                      "von_mises_stress", "pressure"};
+
+/// Values of `stress_names`.
+template <class Add> void add_stress(const dealii::SymmetricTensor<2, 3> &sigma, const Add &add) {
+  for (const auto &ij : {std::pair<int, int>{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
+    add(sigma[ij.first][ij.second]);
+  add(std::sqrt(1.5) * dealii::deviator(sigma).norm());
+  add(-dealii::trace(sigma) / 3.);
+}
+
 CellFields collect_cell_fields(const Scene &scene, const Discretization &discretization,
                                const Solution &solution) {
   const bool stress = scene.parameters().output.stress;
   const bool strain = scene.parameters().output.plastic_strain && scene.capabilities().plasticity;
   CellFields fields;
-  if (stress)
-    fields.names = {"stress_xx", "stress_yy", "stress_zz",        "stress_xy",
-                    "stress_xz", "stress_yz", "von_mises_stress", "pressure"};
-  if (strain)
-    fields.names.emplace_back("equivalent_plastic_strain");
+  const auto add_names = [&](const std::string &layer) {
+    if (stress)
+      for (const char *name : stress_names)
+        fields.names.push_back(layer + name);
+    if (strain)
+      fields.names.push_back(layer + "equivalent_plastic_strain");
+  };
+  add_names("");
   fields.names.emplace_back("body");
+  const bool has_layers = std::any_of(scene.bodies().begin(), scene.bodies().end(),
+                                      [](const Body &body) { return body.formulation.points_through > 2; }) &&
+                          !scene.parameters().is_explicit();
+  if (has_layers)
+    for (const std::string name : layer_names)
+      add_names(name + "_");
   const auto n_cells = discretization.dof_handler().get_triangulation().n_active_cells();
   fields.values.assign(fields.names.size(), dealii::Vector<double>(n_cells));
 
@@ -48,20 +71,29 @@ CellFields collect_cell_fields(const Scene &scene, const Discretization &discret
     std::vector<ElementSummary> summaries(elements.size());
     if (stress || strain)
       summaries = solution.summarize(body);
+    std::vector<LayerSummaries> layers;
+    if (has_layers && (stress || strain))
+      layers = solution.summarize_layers(body);
     for (std::size_t e = 0; e < elements.size(); ++e) {
       const auto cell = elements[e].cell->active_cell_index();
       std::size_t next = 0;
       const auto add = [&](const double value) { fields.values[next++](cell) = value; };
-      if (stress) {
-        const auto &sigma = summaries[e].cauchy_stress;
-        for (const auto &ij : {std::pair<int, int>{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
-          add(sigma[ij.first][ij.second]);
-        add(std::sqrt(1.5) * dealii::deviator(sigma).norm());
-        add(-dealii::trace(sigma) / 3.);
-      }
-      if (strain)
-        add(summaries[e].equivalent_plastic_strain);
+      const auto add_all = [&](const auto &summary) {
+        if (stress)
+          add_stress(summary.cauchy_stress, add);
+        if (strain)
+          add(summary.equivalent_plastic_strain);
+      };
+      add_all(summaries[e]);
       add(static_cast<double>(body));
+      if (!has_layers)
+        continue;
+      if (layers.empty()) // two points: a layer has what the element has
+        for (std::size_t layer = 0; layer < layer_names.size(); ++layer)
+          add_all(summaries[e]);
+      else
+        for (const LayerSummary &layer : layers[e])
+          add_all(layer);
     }
   }
   return fields;

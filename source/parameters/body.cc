@@ -340,6 +340,15 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
       "flow; "
       "mean dilatation: eight points with a common volumetric strain, for solid parts that do not bend; one "
       "point: with hourglass stabilisation, the cheapest.");
+  prm.declare_entry(
+      "Points through thickness", "2", Patterns::Selection("2|3|5|7"),
+      "Integration points (Gauss) of each brick along the thickness direction; more than 2 need "
+      "'Element = assumed strain' and a scheme without 'explicit'. 5 or 7 for the springback of a "
+      "sheet with one brick through its thickness.");
+  prm.declare_entry("Thickness direction", "", Patterns::Anything(),
+                    "From the inner to the outer side, with more than 2 points through the thickness: three "
+                    "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' of a plate "
+                    "or 'x ; y ; 0' of a tube about z. Each brick takes its axis nearest to it.");
   prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
                     "Of dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
@@ -429,6 +438,18 @@ void Body::parse(Reader &reader) {
   element = reader.located("Element", type == "one point"         ? ElementType::one_point
                                       : type == "mean dilatation" ? ElementType::mean_dilatation
                                                                   : ElementType::assumed_strain);
+  points_through =
+      reader.located("Points through thickness",
+                     static_cast<unsigned int>(reader.text("Points through thickness")[0] - '0'));
+  thickness_direction = reader.located("Thickness direction", reader.parts("Thickness direction"));
+  if (points_through.value > 2 && element.value != ElementType::assumed_strain)
+    reader.reject("Points through thickness", "2, since only 'Element = assumed strain' takes more");
+  if (points_through.value > 2 && thickness_direction.value.size() != 3)
+    reader.reject("Thickness direction",
+                  "three expressions, separated by semicolons, such as '0 ; 0 ; 1', since 'Points through "
+                  "thickness' is more than 2");
+  if (points_through.value == 2 && !thickness_direction.value.empty())
+    reader.reject("Thickness direction", "no value: 'Points through thickness = 2' does not use it");
   const auto velocity = reader.parts("Initial velocity");
   if (velocity.size() != 3)
     reader.reject("Initial velocity", "three expressions, separated by semicolons");

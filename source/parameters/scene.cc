@@ -219,6 +219,9 @@ private:
       throw InputError(body.is_stabilised.origin +
                        ": found 'until touched', allowed is 'no', since 'Scheme' is " + name_of_scheme() +
                        ": the mass of a body resists its motion");
+    if (scene_.is_explicit() && body.points_through.value > 2)
+      throw InputError(body.points_through.origin + ": found '" + std::to_string(body.points_through.value) +
+                       "', allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
     if (scene_.is_explicit())
       return;
     if (!scene_.is_dynamic())

@@ -95,6 +95,10 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   for (const auto &component : parameters.initial_velocity.value)
     body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,
                                        parameters.initial_velocity.origin);
+  for (const auto &component : parameters.thickness_direction.value)
+    body.thickness_direction.emplace_back(component, Expression::Variables::time_and_position,
+                                          std::vector<parameters::Amplitude>(),
+                                          parameters.thickness_direction.origin);
   for (const auto &load : parameters.loads)
     body.loads.push_back(make_load(load, amplitudes));
   for (const auto &plane : parameters.symmetry_planes.value) {
@@ -185,6 +189,9 @@ std::string describe_law(const parameters::Body &body) {
   return std::string(body.element.value == Type::mean_dilatation ? "mean dilatation, "
                      : body.element.value == Type::one_point     ? "one point, "
                                                                  : "") +
+         (body.points_through.value > 2
+              ? std::to_string(body.points_through.value) + " points through the thickness, "
+              : "") +
          (kinematics == Kinematics::hencky        ? "Hencky "
           : kinematics == Kinematics::neo_hookean ? "neo-Hookean "
                                                   : "hypoelastic ") +
@@ -213,6 +220,7 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
   formulation.kinematics = kinematics == Kinematics::hencky        ? Formulation::Kinematics::hencky
                            : kinematics == Kinematics::neo_hookean ? Formulation::Kinematics::neo_hookean
                                                                    : Formulation::Kinematics::hypoelastic;
+  formulation.points_through = parameters.points_through.value;
   return formulation;
 }
 

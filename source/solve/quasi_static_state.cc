@@ -64,6 +64,8 @@ void QuasiStatic::save(StateWriter &writer) const {
       writer.write_text("formulation", describe(scene_.bodies()[b].formulation));
       const ElementBlock &block = internal_.block(b);
       const std::size_t width = block.state_size();
+      if (scene_.bodies()[b].formulation.points_through > 2)
+        save_thickness_axes(writer, block, element_keys(discretization_, b));
       if (width == 0)
         return;
       std::vector<double> rows(width * block.size());
@@ -134,7 +136,14 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b)
     reader.in(group("body", b), [&] {
       ElementBlock &block = internal_.block(b);
-      if (reader.read_text("formulation") == describe(scene_.bodies()[b].formulation)) {
+      const ElementFormulation &formulation = scene_.bodies()[b].formulation;
+      bool is_same = reader.read_text("formulation") == describe(formulation);
+      if (is_same && formulation.points_through > 2) {
+        const bool has_same_axes =
+            load_thickness_axes(reader, element_keys(discretization_, b)) == block.thickness_axes();
+        is_same = dealii::Utilities::MPI::min(has_same_axes ? 1 : 0, discretization_.communicator()) == 1;
+      }
+      if (is_same) {
         const std::size_t width = block.state_size();
         if (width == 0)
           return;

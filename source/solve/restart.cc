@@ -39,12 +39,14 @@ std::vector<double> measure(const Discretization &discretization, const std::siz
 std::optional<ElementFormulation> find_implicit_formulation(const std::string &words) {
   ElementFormulation formulation;
   for (const auto element : all_elements)
-    for (const auto kinematics : all_kinematics) {
-      formulation.element = element;
-      formulation.kinematics = kinematics;
-      if (describe(formulation) == words)
-        return formulation;
-    }
+    for (const auto kinematics : all_kinematics)
+      for (const unsigned int points_through : all_points_through) {
+        formulation.element = element;
+        formulation.kinematics = kinematics;
+        formulation.points_through = points_through;
+        if (describe(formulation) == words)
+          return formulation;
+      }
   return {};
 }
 
@@ -145,6 +147,22 @@ std::vector<std::uint64_t> element_keys(const Discretization &discretization, co
   return keys;
 }
 
+void save_thickness_axes(StateWriter &writer, const ElementBlock &block,
+                         const std::vector<std::uint64_t> &keys) {
+  std::vector<double> codes;
+  for (const auto &axis : block.thickness_axes())
+    codes.push_back(axis.code());
+  writer.write_rows("thickness axes", 1, keys, codes);
+}
+
+std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
+                                               const std::vector<std::uint64_t> &keys) {
+  std::vector<ThicknessAxis> axes;
+  for (const double code : reader.read_rows("thickness axes", 1, keys))
+    axes.push_back(ThicknessAxis::from_code(static_cast<unsigned int>(code)));
+  return axes;
+}
+
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, const std::size_t body,
                                        const Discretization &discretization, const Vector &displacements) {
   const std::string words = reader.read_text("formulation");
@@ -159,7 +177,10 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
     positions.reserve(elements.size());
     for (const auto &element : elements)
       positions.push_back(nodal_positions(element.cell));
-    block->initialize(positions, ignored);
+    std::vector<ThicknessAxis> axes(elements.size());
+    if (implicit->points_through > 2)
+      axes = load_thickness_axes(reader, keys);
+    block->initialize(positions, axes, ignored);
     const std::size_t width = block->state_size();
     std::vector<double> rows;
     if (width > 0)

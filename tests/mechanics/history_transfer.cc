@@ -26,7 +26,7 @@ ElementStress mean_of(const ElementStress &stress) {
     mean.equivalent_plastic_strain += 0.125 * point.equivalent_plastic_strain;
   }
   ElementStress result;
-  result.fill(mean);
+  std::fill(result.begin(), result.end(), mean);
   return result;
 }
 

@@ -43,6 +43,9 @@ public:
   std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements,
                                         Beat beat = Beat::committed) const;
 
+  /// The same of the layers; empty if the body has two points through the thickness.
+  std::vector<LayerSummaries> summarize_layers(std::size_t body, const Vector &displacements) const;
+
   /// Doubles of history on this rank.
   std::size_t history_size() const;
 

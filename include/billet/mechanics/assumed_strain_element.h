@@ -5,42 +5,113 @@
 #include "billet/mechanics/eight_point_elements.h"
 #include "billet/mechanics/modal_geometry.h"
 #include "billet/mechanics/strain_modes.h"
+#include "billet/mechanics/thickness.h"
+
+#include <array>
+#include <type_traits>
 
 namespace billet {
 
-/// Constants of (B3) to (B5) for a brick with edges of these lengths.
+/// Constants of (B3) to (B5) for a brick with edges of these lengths. `kept_through`: θ of the bending
+/// through the thickness.
 strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &elastic,
-                                                         const std::array<double, 3> &lengths);
+                                                         const std::array<double, 3> &lengths,
+                                                         double kept_through = strain_modes::kept_shear);
+/// The same with more than two points there: the middle point would add the shear's stress to the plastic
+/// moment.
+constexpr double kept_shear_of_layers = 0.2;
 
-/// Eight points under assumed strains, (B1) to (B6) of doc/theory.md: F_q = (det Y_q)^{−1/3} Y_q F̄ with the
-/// mean gradient F̄ and strains Y_q − 1 that vary through the brick without parasitic shear. Bends as it
-/// should with one brick through a thickness, at any aspect ratio; all points share det F̄. Laws in rate form
-/// see Y_q F̄.
-class AssumedStrainElement {
+// What a brick with layers of points has besides.
+struct NoLayers {};
+struct LayersReference {
+  double modulus;      ///< κ' of (B10) [stress]
+  double elastic_part; ///< X/E of elastic bricks
+};
+struct LayersKinematics {
+  strain_modes::Strains<double> strains; ///< in space, without the free thinning
+  dealii::Tensor<2, 3> mean_F;           ///< F̄
+  double stretch;                        ///< E of (B9)
+  double thinning;                       ///< X of (B9), which set_thinning() sets
+};
+
+/// Assumed strains, (B1) to (B6) of doc/theory.md: F_q = (det Y_q)^{−1/3} Y_q F̄ with the mean gradient F̄ and
+/// strains Y_q − 1 that vary through the brick without parasitic shear. Bends as it should with one brick
+/// through a thickness, at any aspect ratio; all points share det F̄. Laws in rate form see Y_q F̄.
+///
+/// `n_through`: 2, the same points in all directions, or 3, 5 or 7 points through the thickness. There the
+/// brick's thinning X is free, (B9) to (B11): the stresses decide it, as plastic flow thins more than
+/// elasticity.
+template <unsigned int n_through = 2> class AssumedStrainElement {
 public:
-  static constexpr unsigned int n_points = n_element_points;
+  static constexpr unsigned int n_points = 4 * n_through;
+  static constexpr unsigned int points_through = n_through;
   static constexpr bool is_stabilised = false;
+  static constexpr bool is_layered = n_through > 2;
   static constexpr unsigned int n_vectors = 7; ///< a_1, a_2, a_3, b̂_1, b̂_2, b̂_3, ĉ
+  using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
+  template <class Moduli> using ModuliOf = std::array<Moduli, n_points>;
 
-  struct Reference {
+  /// Of bricks with layers in the order of turn_corners(), but for the nodes.
+  struct Reference : std::conditional_t<is_layered, LayersReference, NoLayers> {
     std::array<std::array<double, n_element_nodes>, n_vectors> of_nodes; ///< these from the nodes' positions
     dealii::Tensor<2, 3> jacobian, inverse_jacobian;                     ///< (a_1 a_2 a_3)_0
     double volume;
     strain_modes::Constants<double> constants;
   };
-  struct Kinematics {
+  struct Kinematics : std::conditional_t<is_layered, LayersKinematics, NoLayers> {
     strain_modes::Frame<double> frame;
     double hourglass[4][3];
     std::array<dealii::SymmetricTensor<2, 3>, n_points> Y, inverse_Y;
     std::array<dealii::Tensor<2, 3>, n_points> F, F_of_rates;
     double J, volume; ///< det F̄, and the volume that it makes
   };
+  /// Of bricks with layers: the thinning and the stretch of the plane that went with it.
+  struct History {
+    double thinning = 0., stretch = 0.;
+  };
+  static constexpr unsigned int n_history = 2;
+  static void store(const History &history, double *numbers) {
+    numbers[0] = history.thinning;
+    numbers[1] = history.stretch;
+  }
+  static History restore(const double *numbers) { return {numbers[0], numbers[1]}; }
 
   AssumedStrainElement(const ElasticModuli &elastic, const ElementFormulation &) : elastic_(elastic) {}
 
-  bool initialize(const ElementVectors &positions, Reference &reference) const;
+  /// False of a degenerate or inverted brick.
+  bool initialize(const ElementVectors &positions, Reference &reference,
+                  const ThicknessAxis &axis = {}) const;
+  /// False of an inadmissible state. With layers all but what follows from the thinning.
   static bool compute(const Reference &reference, const ElementVectors &displacements,
                       Kinematics &kinematics);
+
+  // Of bricks with layers:
+  /// Completes the kinematics; false as compute().
+  static bool set_thinning(double thinning, Kinematics &kinematics);
+  /// X from which to start: that of a step without plastic flow.
+  static double predict_thinning(const Reference &reference, const Kinematics &kinematics,
+                                 const History &history_n) {
+    return history_n.thinning + reference.elastic_part * (kinematics.stretch - history_n.stretch);
+  }
+  /// P of (B10), and the energy that it belongs to.
+  static double thinning_force(const Reference &reference, const Kinematics &kinematics) {
+    return reference.modulus * reference.volume / 3. * (kinematics.stretch - kinematics.thinning);
+  }
+  static double thinning_energy(const Reference &reference, const Kinematics &kinematics) {
+    return 0.5 * thinning_force(reference, kinematics) * (kinematics.stretch - kinematics.thinning);
+  }
+  /// Pressure of (B10) at a point, to be taken off Kirchhoff's stress there.
+  static double varying_pressure(const Reference &reference, const Kinematics &kinematics, unsigned int q);
+  /// (B11), derivative of the power by X, which vanishes in balance.
+  static double thinning_residual(const Reference &reference, const Kinematics &kinematics,
+                                  const Stresses &tau);
+  /// Its derivative for small strains: of an elastic brick, and without any stiffness of the law.
+  double elastic_thinning_stiffness(const Reference &reference) const {
+    return reference.volume / 3. * (4. / 3. * elastic_.shear + reference.modulus);
+  }
+  static double least_thinning_stiffness(const Reference &reference) {
+    return reference.volume / 3. * reference.modulus;
+  }
 
   template <bool is_rate_form>
   static const dealii::Tensor<2, 3> &deformation(const Reference &, const Kinematics &kinematics,
@@ -48,34 +119,32 @@ public:
     return is_rate_form ? kinematics.F_of_rates[q] : kinematics.F[q];
   }
   static double volume_ratio(const Kinematics &kinematics, unsigned int) { return kinematics.J; }
-  static double reference_volume(const Reference &reference, unsigned int) {
-    return reference.volume / n_points;
-  }
+  static double reference_volume(const Reference &reference, unsigned int q);
   static double current_volume(const Kinematics &kinematics) { return kinematics.volume; }
-  template <bool> static double weight(const Reference &reference, const Kinematics &, unsigned int) {
-    return reference.volume / n_points;
+  template <bool> static double weight(const Reference &reference, const Kinematics &, const unsigned int q) {
+    return reference_volume(reference, q);
   }
 
   template <bool>
-  static void add_force(const Reference &reference, const Kinematics &kinematics, const PointStresses &tau,
+  static void add_force(const Reference &reference, const Kinematics &kinematics, const Stresses &tau,
                         ElementVectors &force);
 
   template <bool is_symmetrised, class Moduli>
-  void compute_tangent(const Reference &reference, const Kinematics &kinematics, const PointStresses &tau,
-                       const PointModuli<Moduli> &moduli, ElementMatrix &matrix) const {
+  void compute_tangent(const Reference &reference, const Kinematics &kinematics, const Stresses &tau,
+                       const ModuliOf<Moduli> &moduli, ElementMatrix &matrix) const {
     compute_unsymmetric_tangent(reference, kinematics, tau, moduli, matrix);
     if constexpr (is_symmetrised)
       symmetrise(matrix);
   }
   /// Of symmetric moduli.
   static void compute_symmetric_tangent(const Reference &reference, const Kinematics &kinematics,
-                                        const PointStresses &tau, const PointModuli<SpatialModuli> &moduli,
+                                        const Stresses &tau, const ModuliOf<SpatialModuli> &moduli,
                                         ElementMatrix &matrix);
 
 private:
   template <class Moduli>
   void compute_unsymmetric_tangent(const Reference &reference, const Kinematics &kinematics,
-                                   const PointStresses &tau, const PointModuli<Moduli> &moduli,
+                                   const Stresses &tau, const ModuliOf<Moduli> &moduli,
                                    ElementMatrix &matrix) const;
 
   ElasticModuli elastic_;

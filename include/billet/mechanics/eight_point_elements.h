@@ -19,6 +19,7 @@ class MeanDilatationElement {
 public:
   static constexpr unsigned int n_points = n_element_points;
   static constexpr bool is_stabilised = false;
+  static constexpr bool is_layered = false;
   using Reference = ReferenceElement;
   using Kinematics = MeanDilatationKinematics;
 

@@ -4,6 +4,7 @@
 
 #include "billet/material/hardening.h"
 #include "billet/mechanics/mean_dilatation.h"
+#include "billet/mechanics/thickness.h"
 
 #include <memory>
 #include <string>
@@ -22,7 +23,7 @@ struct MaterialLaw {
 /// How the elements of a body are computed in static scenes and implicit dynamics.
 struct ElementFormulation {
   enum class Element {
-    assumed_strain,  ///< 2 × 2 × 2 points without parasitic shear, see AssumedStrainElement
+    assumed_strain,  ///< points without parasitic shear, see AssumedStrainElement
     mean_dilatation, ///< 2 × 2 × 2 points, F̄ of MeanDilatationKinematics: locks in bending
     one_point        ///< mean gradient with physical stabilisation, see OnePointElement
   };
@@ -35,6 +36,7 @@ struct ElementFormulation {
 
   Element element = Element::assumed_strain;
   Kinematics kinematics = Kinematics::hencky;
+  unsigned int points_through = 2; ///< of assumed strains, through the thickness: one of all_points_through
   bool is_symmetrised = false; ///< the symmetric part of an unsymmetric tangent, see has_symmetric_tangent()
 };
 
@@ -53,7 +55,7 @@ const char *name_of(ElementFormulation::Kinematics kinematics);
 /// with the neo-Hookean law.
 bool has_symmetric_tangent(const ElementFormulation &formulation, bool is_plastic);
 
-/// What a history means: element and kinematics in words.
+/// What a history means: element, points through the thickness unless two, and kinematics in words.
 std::string describe(const ElementFormulation &formulation);
 
 /// Averages and integrals over one element, for output.
@@ -64,13 +66,6 @@ struct ElementSummary {
   double plastic_work = 0.;                    ///< integral [energy]
   double hourglass_energy = 0.;                ///< stored in the stabilisation [energy]
 };
-
-/// Where a material point stands, whatever law and kinematics it has: enough to go on with others.
-struct PointStress {
-  dealii::SymmetricTensor<2, 3> deviator; ///< of the Kirchhoff stress [stress]
-  double equivalent_plastic_strain = 0.;
-};
-using ElementStress = std::array<PointStress, n_element_points>;
 
 /// Whose history: that at the start of the step, or that of the last evaluate().
 enum class Beat { committed, evaluated };
@@ -83,9 +78,17 @@ class ElementBlock {
 public:
   virtual ~ElementBlock() = default;
 
-  /// Nodal positions of the undeformed elements [length]. False, with the index of the first offender, if one
-  /// is degenerate or inverted.
-  virtual bool initialize(const std::vector<ElementVectors> &positions, std::size_t &offender) = 0;
+  /// Nodal positions of the undeformed elements [length]; their axes through the thickness, read where there
+  /// are more than two points along them. False, with the index of the first offender, if one is degenerate
+  /// or inverted.
+  virtual bool initialize(const std::vector<ElementVectors> &positions,
+                          const std::vector<ThicknessAxis> &axes, std::size_t &offender) = 0;
+  bool initialize(const std::vector<ElementVectors> &positions, std::size_t &offender) {
+    return initialize(positions, std::vector<ThicknessAxis>(positions.size()), offender);
+  }
+
+  /// Axes through the thickness; empty with two points.
+  virtual std::vector<ThicknessAxis> thickness_axes() const = 0;
 
   virtual std::size_t size() const = 0;
 
@@ -99,6 +102,11 @@ public:
   /// At a history and the displacements that belong to it.
   virtual ElementSummary summarize(std::size_t element, const ElementVectors &displacements,
                                    Beat beat = Beat::committed) const = 0;
+
+  /// Of the layers at the history at the start of the step and the displacements that belong to it; none with
+  /// two points through the thickness.
+  virtual std::optional<LayerSummaries> summarize_layers(std::size_t element,
+                                                         const ElementVectors &displacements) const = 0;
 
   /// Doubles of history kept per element, both beats counted.
   virtual std::size_t history_size() const = 0;

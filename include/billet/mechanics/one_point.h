@@ -17,6 +17,7 @@ class OnePointElement {
 public:
   static constexpr unsigned int n_points = 1;
   static constexpr bool is_stabilised = true;
+  static constexpr bool is_layered = false;
 
   /// Of b_1, b_2, b_3, c, in the element's own directions.
   using HourglassVector = std::array<std::array<double, 3>, 4>;

@@ -11,6 +11,8 @@
 // Strains are written by their products with the columns, h_ab = a_a·h a_b (B8). There most vectors of (B3)
 // to (B5) have one component or two, and nothing but scalars is left: of the metric a_a·a_b and of a_a·b̂.
 
+#include <type_traits>
+
 #define BILLET_STRAIN inline __attribute__((always_inline))
 
 namespace billet::strain_modes {
@@ -51,6 +53,14 @@ template <class Real> struct Strains { Real linear[3][6], bilinear[3][6]; };
 
 /// a_k·b̂_1, b̂_2, b̂_3, ĉ: [vector][k].
 template <class Real> struct Products { Real of[4][3]; };
+
+/// The thinning along the third direction where (B3) does not give it.
+struct GivenThinning {};
+template <class Real> struct FreeThinning {
+  Real strain;   ///< X of (B9): the strain along the normal is −X ξ_3
+  Real pressure; ///< P of (B10), which works on the stretch of the plane
+};
+template <class Thinning> constexpr bool is_free = !std::is_same_v<Thinning, GivenThinning>;
 
 /// Forces of the hourglass vectors, and of the columns where strains follow those by their metric and by
 /// their products with the hourglass vectors.
@@ -142,9 +152,10 @@ BILLET_STRAIN void add_shear(const Frame<Real> &frame, const Real &factor, Real 
 }
 
 /// h_k of (B3), without shear; e: [j][k].
-template <class Number, unsigned int k, class Fixed, class Real>
+template <class Number, unsigned int k, class Fixed, class Real, class Thinning>
 BILLET_STRAIN void set_bending(const Constants<Fixed> &constants, const Frame<Real> &frame,
-                               const Products<Real> &products, Real (*e)[3], Real *h) {
+                               const Products<Real> &products, [[maybe_unused]] const Thinning &thinning,
+                               Real (*e)[3], Real *h) {
   constexpr unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
   const Bending<Real> bending = bend<Number, k>(constants, frame, products);
   e[i][k] = bending.e_i;
@@ -154,8 +165,12 @@ BILLET_STRAIN void set_bending(const Constants<Fixed> &constants, const Frame<Re
   h[pair[i][j]] = bending.ij;
   h[pair[i][k]] = bending.ik;
   h[pair[j][k]] = bending.jk;
-  h[k] = frame.slopes[k][i] * bending.ik + frame.slopes[k][j] * bending.jk -
-         constants.thinning[k] * (frame.square_heights[k] * bending.sum);
+  if constexpr (k == 2 && is_free<Thinning>)
+    h[k] = frame.slopes[k][i] * bending.ik + frame.slopes[k][j] * bending.jk -
+           frame.square_heights[k] * thinning.strain;
+  else
+    h[k] = frame.slopes[k][i] * bending.ik + frame.slopes[k][j] * bending.jk -
+           constants.thinning[k] * (frame.square_heights[k] * bending.sum);
 }
 
 /// Of the fourth mode, without shear; returns θ e_j.
@@ -185,14 +200,22 @@ BILLET_STRAIN void add_shears(const Constants<Fixed> &constants, const Frame<Rea
   add_shear<Number, j, k>(frame, fourth * slender, strains.bilinear[k]);
 }
 
-/// (B3) to (B5).
+/// E of (B9): how much bending stretches the plane of the first two directions, per ξ_3.
 template <class Number, class Fixed, class Real>
+BILLET_STRAIN Real compute_plane_stretch(const Constants<Fixed> &constants, const Frame<Real> &frame,
+                                         const Products<Real> &products) {
+  return bend<Number, 2>(constants, frame, products).sum;
+}
+
+/// (B3) to (B5); with a FreeThinning (B9).
+template <class Number, class Fixed, class Real, class Thinning = GivenThinning>
 BILLET_STRAIN void compute_strains(const Constants<Fixed> &constants, const Frame<Real> &frame,
-                                   const Products<Real> &products, Strains<Real> &strains) {
+                                   const Products<Real> &products, Strains<Real> &strains,
+                                   const Thinning &thinning = {}) {
   Real e[3][3];
-  set_bending<Number, 0>(constants, frame, products, e, strains.linear[0]);
-  set_bending<Number, 1>(constants, frame, products, e, strains.linear[1]);
-  set_bending<Number, 2>(constants, frame, products, e, strains.linear[2]);
+  set_bending<Number, 0>(constants, frame, products, thinning, e, strains.linear[0]);
+  set_bending<Number, 1>(constants, frame, products, thinning, e, strains.linear[1]);
+  set_bending<Number, 2>(constants, frame, products, thinning, e, strains.linear[2]);
   const Real fourth[3] = {set_fourth<Number, 0>(constants, frame, products, strains.bilinear[0]),
                           set_fourth<Number, 1>(constants, frame, products, strains.bilinear[1]),
                           set_fourth<Number, 2>(constants, frame, products, strains.bilinear[2])};
@@ -258,9 +281,10 @@ BILLET_STRAIN void differentiate_fourth(const Constants<Fixed> &constants, const
 }
 
 /// Of what bends along k. To be called last, when derivatives.height[k] is complete.
-template <class Number, unsigned int k, class Fixed, class Real>
+template <class Number, unsigned int k, class Fixed, class Real, class Thinning>
 BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                          const Products<Real> &products, const Strains<Real> &stresses,
+                                         [[maybe_unused]] const Thinning &thinning,
                                          Derivatives<Real> &derivatives) {
   constexpr unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
   const Bending<Real> h = bend<Number, k>(constants, frame, products);
@@ -270,8 +294,14 @@ BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, cons
   const Real &g_ij = frame.metric[pair[i][j]];
 
   // The thinning, then from a_k to its part in the plane
-  const Real by_sum = constants.thinning[k] * (frame.square_heights[k] * T[k]); // with its sign
-  derivatives.height[k] -= Number(2) * (by_sum * h.sum);
+  Real by_sum; // with its sign
+  if constexpr (k == 2 && is_free<Thinning>) {
+    by_sum = Real{} - thinning.pressure;
+    derivatives.height[k] -= Number(2) * (frame.square_heights[k] * T[k] * thinning.strain);
+  } else {
+    by_sum = constants.thinning[k] * (frame.square_heights[k] * T[k]);
+    derivatives.height[k] -= Number(2) * (by_sum * h.sum);
+  }
   const Real T_ik = T[pair[i][k]] + p_i * T[k], T_jk = T[pair[j][k]] + p_j * T[k];
   const Real by_p_i = T[k] * h.ik + T_ik * h.ii + T_jk * h.ij,
              by_p_j = T[k] * h.jk + T_ik * h.ij + T_jk * h.jj;
@@ -317,20 +347,21 @@ BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, cons
 }
 
 /// Of the power Σ T_ab h_ab˙ of stresses, a ≤ b: the shear stresses count twice. The derivatives of
-/// compute_strains(). Those of the columns are added.
-template <class Number, class Fixed, class Real>
+/// compute_strains(), and of P times compute_plane_stretch(). Those of the columns are added.
+template <class Number, class Fixed, class Real, class Thinning = GivenThinning>
 BILLET_STRAIN void compute_forces(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                   const Real (*hourglass)[3], const Products<Real> &products,
-                                  const Strains<Real> &stresses, Forces<Real> &forces) {
+                                  const Strains<Real> &stresses, Forces<Real> &forces,
+                                  const Thinning &thinning = {}) {
   Derivatives<Real> by;
   for (unsigned int j = 0; j < 3; ++j)
     by.metric[j] = by.metric[3 + j] = by.length[j] = by.height[j] = by.products[j][j] = Real{};
   differentiate_fourth<Number, 0>(constants, frame, products, stresses, by);
   differentiate_fourth<Number, 1>(constants, frame, products, stresses, by);
   differentiate_fourth<Number, 2>(constants, frame, products, stresses, by);
-  differentiate_bending<Number, 0>(constants, frame, products, stresses, by);
-  differentiate_bending<Number, 1>(constants, frame, products, stresses, by);
-  differentiate_bending<Number, 2>(constants, frame, products, stresses, by);
+  differentiate_bending<Number, 0>(constants, frame, products, stresses, thinning, by);
+  differentiate_bending<Number, 1>(constants, frame, products, stresses, thinning, by);
+  differentiate_bending<Number, 2>(constants, frame, products, stresses, thinning, by);
   for (unsigned int k = 0; k < 3; ++k) {
     const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
     const Real own = (by.metric[k] + by.metric[k]) + frame.inverse_squares[k] * by.length[k];

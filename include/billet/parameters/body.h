@@ -108,6 +108,8 @@ struct Body {
 
   Material material;
   Located<ElementType> element;
+  Located<unsigned int> points_through;                  ///< the thickness, of assumed strains
+  Located<std::vector<std::string>> thickness_direction; ///< expressions of x, y, z; empty with two points
   std::vector<Support> supports;
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z

@@ -59,6 +59,8 @@ struct Body {
   std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by the holds
   std::vector<Load> loads;
   std::vector<Expression> initial_velocity; ///< three, of the position
+  /// Three, of the undeformed position; none with two points through the thickness.
+  std::vector<Expression> thickness_direction;
 };
 
 /// How deep a pair may be in each other at the start.

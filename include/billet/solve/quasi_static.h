@@ -111,6 +111,9 @@ public:
   std::vector<ElementSummary> summarize(const std::size_t body) const override {
     return internal_.summarize(body, state_.displacements);
   }
+  std::vector<LayerSummaries> summarize_layers(const std::size_t body) const override {
+    return internal_.summarize_layers(body, state_.displacements);
+  }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override { return linear_->name(); }

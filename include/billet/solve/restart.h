@@ -44,6 +44,12 @@ void load_nodal(const StateReader &reader, const std::string &name, const OwnedN
 /// Of the elements of a body that this rank owns.
 std::vector<std::uint64_t> element_keys(const Discretization &discretization, std::size_t body);
 
+/// Axes of a body's elements through the thickness, where it has more than two points along them.
+void save_thickness_axes(StateWriter &writer, const ElementBlock &block,
+                         const std::vector<std::uint64_t> &keys);
+std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
+                                               const std::vector<std::uint64_t> &keys);
+
 /// From the group of a body at hand, whichever formulation has written it: the stress that its history means
 /// at these displacements (ghosted).
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, std::size_t body,

@@ -52,6 +52,8 @@ public:
   virtual const SolutionState &state() const = 0;
   /// One entry for each owned element of the body, in the order of Discretization::elements().
   virtual std::vector<ElementSummary> summarize(std::size_t body) const = 0;
+  /// The same of the layers; empty if the body has two points through the thickness.
+  virtual std::vector<LayerSummaries> summarize_layers(std::size_t) const { return {}; }
   /// Of every contact pair, tools first, the slave nodes on this rank.
   virtual std::vector<std::vector<ContactNodeReport>> report_contacts() const = 0;
   /// Doubles of history on all ranks: of elements, of contact.

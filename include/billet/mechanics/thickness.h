@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_THICKNESS_H
+#define BILLET_MECHANICS_THICKNESS_H
+
+#include "billet/mechanics/modal_geometry.h"
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace billet {
+
+/// Numbers of integration points through a thickness that a scene may ask for.
+inline constexpr std::array<unsigned int, 4> all_points_through = {2, 3, 5, 7};
+constexpr unsigned int max_points_through = 7;
+
+/// Gauss points on [−1, 1] in increasing order, and their weights, which add up to 1.
+struct GaussRule {
+  std::vector<double> points, weights;
+};
+/// One of `all_points_through`.
+const GaussRule &gauss_rule(unsigned int n_through);
+
+/// The axis of a brick (0, 1, 2: ξ, η, ζ) that runs through the thickness, and whether the thickness
+/// direction runs against it.
+struct ThicknessAxis {
+  unsigned int axis = 2;
+  bool is_reversed = false;
+
+  /// As one number, for checkpoints.
+  unsigned int code() const { return axis + (is_reversed ? 3 : 0); }
+  static ThicknessAxis from_code(const unsigned int code) { return {code % 3, code >= 3}; }
+  bool operator==(const ThicknessAxis &other) const { return code() == other.code(); }
+};
+
+/// The axis nearest to a direction; none if another axis is as near, to 10 degrees, or if the direction is
+/// zero.
+std::optional<ThicknessAxis> find_thickness_axis(const ElementVectors &positions,
+                                                 const dealii::Tensor<1, 3> &direction);
+
+/// Nodes (or corner points) of the brick in the order of its directions turned so that the third one is the
+/// thickness direction: number a of the turned brick is number turn_corners(axis)[a] of the brick.
+std::array<unsigned int, n_element_nodes> turn_corners(const ThicknessAxis &axis);
+
+/// State of a material point, whatever law and kinematics it has: enough to continue with others.
+struct PointStress {
+  dealii::SymmetricTensor<2, 3> deviator; ///< of the Kirchhoff stress [stress]
+  double equivalent_plastic_strain = 0.;
+};
+
+/// States of the points of a brick. With two points through each direction they are in the order of the
+/// corners. With more they are in layers of four from the inside to the outside, within a layer in the order
+/// of turn_corners().
+class ElementStress {
+public:
+  explicit ElementStress(unsigned int n_through = 2, const ThicknessAxis &axis = {})
+      : n_through_(n_through), axis_(axis), points_(std::size_t{4} * n_through) {}
+
+  PointStress &operator[](const std::size_t q) { return points_[q]; }
+  const PointStress &operator[](const std::size_t q) const { return points_[q]; }
+  std::size_t size() const { return points_.size(); }
+  std::vector<PointStress>::iterator begin() { return points_.begin(); }
+  std::vector<PointStress>::iterator end() { return points_.end(); }
+  std::vector<PointStress>::const_iterator begin() const { return points_.begin(); }
+  std::vector<PointStress>::const_iterator end() const { return points_.end(); }
+
+  /// The same on another number of layers, (B12) of doc/theory.md: means over the part of the thickness that
+  /// belongs to each point. Keeps the mean of each column, never leaves the yield surface.
+  ElementStress transfer(unsigned int n_through, const ThicknessAxis &axis = {}) const;
+
+private:
+  unsigned int n_through_;
+  ThicknessAxis axis_;
+  std::vector<PointStress> points_;
+};
+
+/// Average over a layer of points, for output.
+struct LayerSummary {
+  dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
+  double equivalent_plastic_strain = 0.;
+};
+/// Layers that output shows: the first, the middle and the last one along the thickness direction.
+constexpr std::array<const char *, 3> layer_names = {"inner", "membrane", "outer"};
+using LayerSummaries = std::array<LayerSummary, layer_names.size()>;
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/assumed_strain_element.h"
+#include "billet/mechanics/law_block.h"
+
+namespace billet {
+
+std::unique_ptr<ElementBlock> make_assumed_strain_block_5(const MaterialLaw &material,
+                                                          const ElementFormulation &formulation) {
+  return make_law_block<AssumedStrainElement<5>>(material, formulation);
+}
+
+} // namespace billet
