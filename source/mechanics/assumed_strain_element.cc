@@ -58,7 +58,7 @@ template <unsigned int n_through> Shares<n_through> compute_shares() {
 }
 template <unsigned int n_through> const Shares<n_through> shares = compute_shares<n_through>();
 
-/// Of the volume.
+/// Returns the part of the volume that belongs to a point.
 template <unsigned int n_through> double point_weight(const double volume, const unsigned int q) {
   if constexpr (n_through == 2)
     return volume / n_element_points;
@@ -440,8 +440,7 @@ void scatter(const Reference &reference, const Rows<n> &K, ElementMatrix &matrix
     }
 }
 
-/// Of bricks with layers: what the force of the thinning, (B10), adds to K, and then what is left of K when X
-/// is in balance.
+/// Adds the stiffness of W_X, (B10), of a brick with layers to K, and condenses X.
 template <unsigned int n_through, std::size_t n>
 void add_thinning(const typename AssumedStrainElement<n_through>::Reference &reference,
                   const Frame<double> &frame, const Frame<Direction> &directions,

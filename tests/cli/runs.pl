@@ -447,6 +447,16 @@ check "HDF5 on $_ ranks", sub {
   return is('times of bodies in tools.pvd', pictured("$folder/tools.pvd"), '')
     || ($index =~ /stress_xx/ && $index =~ /NumberOfElements="4"/ ? '' : "fields.xdmf:\n$index");
 } for 1, 2;
+check 'layers of points through the thickness', sub {
+  my $folder = billet('block: Points through thickness = 3 & block: Thickness direction = 0 ; 0 ; 1 & Output: Every steps = 0');
+  my ($two, $three) = (read_text("$reference/fields_00001.pvtu"), read_text("$folder/fields_00001.pvtu"));
+  for my $layer (qw(inner membrane outer)) {
+    for my $field (qw(stress_xx von_mises_stress pressure equivalent_plastic_strain)) {
+      return "no ${layer}_$field" if $three !~ /"${layer}_$field"/;
+    }
+  }
+  return $two =~ /"(inner|membrane|outer)_/ ? "$1 layer with two points" : '';
+};
 for (['Stress', 'von_mises_stress'], ['Plastic strain', 'equivalent_plastic_strain'], ['Contact', 'contact_pressure'])
 {
   my ($key, $field) = @$_;

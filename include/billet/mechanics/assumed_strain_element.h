@@ -21,7 +21,7 @@ strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &el
 /// moment.
 constexpr double kept_shear_of_layers = 0.2;
 
-// What a brick with layers of points has besides.
+// Additional data of bricks with more than two points through the thickness ("layers").
 struct NoLayers {};
 struct LayersReference {
   double modulus;      ///< κ' of (B10) [stress]
@@ -51,7 +51,7 @@ public:
   using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
   template <class Moduli> using ModuliOf = std::array<Moduli, n_points>;
 
-  /// Of bricks with layers in the order of turn_corners(), but for the nodes.
+  /// Undeformed brick. With layers its directions are those of turn_corners(), its nodes stay in order.
   struct Reference : std::conditional_t<is_layered, LayersReference, NoLayers> {
     std::array<std::array<double, n_element_nodes>, n_vectors> of_nodes; ///< these from the nodes' positions
     dealii::Tensor<2, 3> jacobian, inverse_jacobian;                     ///< (a_1 a_2 a_3)_0
@@ -65,7 +65,7 @@ public:
     std::array<dealii::Tensor<2, 3>, n_points> F, F_of_rates;
     double J, volume; ///< det F̄, and the volume that it makes
   };
-  /// Of bricks with layers: the thinning and the stretch of the plane that went with it.
+  /// Thinning of a brick with layers, and the stretch of the plane that belongs to it.
   struct History {
     double thinning = 0., stretch = 0.;
   };
@@ -78,29 +78,29 @@ public:
 
   AssumedStrainElement(const ElasticModuli &elastic, const ElementFormulation &) : elastic_(elastic) {}
 
-  /// False of a degenerate or inverted brick.
+  /// Returns false if the brick is degenerate or inverted.
   bool initialize(const ElementVectors &positions, Reference &reference,
                   const ThicknessAxis &axis = {}) const;
-  /// False of an inadmissible state. With layers all but what follows from the thinning.
+  /// Returns false if the state is inadmissible. With layers, set_thinning() completes the kinematics.
   static bool compute(const Reference &reference, const ElementVectors &displacements,
                       Kinematics &kinematics);
 
-  // Of bricks with layers:
-  /// Completes the kinematics; false as compute().
+  // The following functions exist with layers only.
+  /// Completes the kinematics; returns false as compute() does.
   static bool set_thinning(double thinning, Kinematics &kinematics);
-  /// X from which to start: that of a step without plastic flow.
+  /// Returns the X of a step without plastic flow, where iterations start.
   static double predict_thinning(const Reference &reference, const Kinematics &kinematics,
                                  const History &history_n) {
     return history_n.thinning + reference.elastic_part * (kinematics.stretch - history_n.stretch);
   }
-  /// P of (B10), and the energy that it belongs to.
+  /// Returns P of (B10), and W_X.
   static double thinning_force(const Reference &reference, const Kinematics &kinematics) {
     return reference.modulus * reference.volume / 3. * (kinematics.stretch - kinematics.thinning);
   }
   static double thinning_energy(const Reference &reference, const Kinematics &kinematics) {
     return 0.5 * thinning_force(reference, kinematics) * (kinematics.stretch - kinematics.thinning);
   }
-  /// Pressure of (B10) at a point, to be taken off Kirchhoff's stress there.
+  /// Returns the pressure −p(ζ) of (B10) at a point, to be subtracted from its Kirchhoff stress.
   static double varying_pressure(const Reference &reference, const Kinematics &kinematics, unsigned int q);
   /// (B11), derivative of the power by X, which vanishes in balance.
   static double thinning_residual(const Reference &reference, const Kinematics &kinematics,

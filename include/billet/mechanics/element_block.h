@@ -103,8 +103,8 @@ public:
   virtual ElementSummary summarize(std::size_t element, const ElementVectors &displacements,
                                    Beat beat = Beat::committed) const = 0;
 
-  /// Of the layers at the history at the start of the step and the displacements that belong to it; none with
-  /// two points through the thickness.
+  /// Returns averages of the layers at the history at the start of the step and the displacements that belong
+  /// to it; none with two points through the thickness.
   virtual std::optional<LayerSummaries> summarize_layers(std::size_t element,
                                                          const ElementVectors &displacements) const = 0;
 

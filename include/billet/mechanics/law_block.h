@@ -319,7 +319,7 @@ private:
       return true;
   }
 
-  /// Of all points.
+  /// Updates all points; returns false if a state is not admissible.
   bool update_points(const Reference &reference, const Kinematics &kinematics,
                      const ElementHistory &history_n, ElementHistory &history, Stresses &tau, Moduli *moduli,
                      const double yield_slack) const {

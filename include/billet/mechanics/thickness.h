@@ -20,7 +20,7 @@ constexpr unsigned int max_points_through = 7;
 struct GaussRule {
   std::vector<double> points, weights;
 };
-/// One of `all_points_through`.
+/// Returns the rule with one of `all_points_through`.
 const GaussRule &gauss_rule(unsigned int n_through);
 
 /// The axis of a brick (0, 1, 2: ξ, η, ζ) that runs through the thickness, and whether the thickness
@@ -29,7 +29,7 @@ struct ThicknessAxis {
   unsigned int axis = 2;
   bool is_reversed = false;
 
-  /// As one number, for checkpoints.
+  /// Returns it as one number, for checkpoints.
   unsigned int code() const { return axis + (is_reversed ? 3 : 0); }
   static ThicknessAxis from_code(const unsigned int code) { return {code % 3, code >= 3}; }
   bool operator==(const ThicknessAxis &other) const { return code() == other.code(); }
@@ -66,8 +66,8 @@ public:
   std::vector<PointStress>::const_iterator begin() const { return points_.begin(); }
   std::vector<PointStress>::const_iterator end() const { return points_.end(); }
 
-  /// The same on another number of layers, (B12) of doc/theory.md: means over the part of the thickness that
-  /// belongs to each point. Keeps the mean of each column, never leaves the yield surface.
+  /// Returns the states on another number of layers, (B12) of doc/theory.md: means over the part of the
+  /// thickness that belongs to each point. Keeps the mean of each column, never leaves the yield surface.
   ElementStress transfer(unsigned int n_through, const ThicknessAxis &axis = {}) const;
 
 private:
