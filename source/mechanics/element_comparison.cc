@@ -4,6 +4,7 @@
 #include "billet/mechanics/assumed_strain_element.h"
 #include "billet/mechanics/one_point.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -84,24 +85,70 @@ bool ElementComparison::add_one_point(const ElementVectors &positions, const Ele
   return true;
 }
 
+double ElementComparison::energy_of_taper(const ElementVectors &positions,
+                                          const ElementVectors &displacements) const {
+  using dealii::Tensor;
+  ElementVectors moved = positions;
+  for (unsigned int i = 0; i < n_element_dofs; ++i)
+    moved[i] += displacements[i];
+  const ModalGeometry reference(positions);
+  const auto modes = compute_modes(moved);
+  Tensor<2, 3> jacobian, moved_jacobian;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j) {
+      jacobian[i][j] = reference.modes[j][i];
+      moved_jacobian[i][j] = modes[j][i];
+    }
+  const Tensor<2, 3> F = moved_jacobian * invert(jacobian);
+  const auto strain = 0.5 * symmetrize(transpose(F) * F - dealii::unit_symmetric_tensor<3>());
+  const double shear = elastic_.shear, lame = elastic_.bulk - 2. / 3. * shear,
+               young = 9. * elastic_.bulk * shear / (3. * elastic_.bulk + shear);
+  const Tensor<2, 3> back = invert(F);
+  double energy = 0.;
+  for (unsigned int i = 0; i < 3; ++i)     // along which the brick bends
+    for (unsigned int j = 0; j < 3; ++j) { // through its thickness
+      if (i == j)
+        continue;
+      const unsigned int between = 3 + (3 - i - j);
+      const double length = reference.modes[i].norm(), thickness = reference.modes[j].norm();
+      const Tensor<1, 3> along = reference.modes[i] / length, through = reference.modes[j] / thickness;
+      const double bending = (back * modes[between] - reference.modes[between]) * along / length,
+                   taper = reference.modes[between] * along / thickness;
+      const double wanted = -bending * taper * length / thickness;
+      const double stress = lame * trace(strain) + 2. * shear * (through * (strain * through));
+      energy += 0.5 * reference.volume * std::clamp(stress * wanted, 0., young * wanted * wanted);
+    }
+  return energy;
+}
+
 bool ElementComparison::compare(const ElementVectors &positions, const ElementVectors &displacements,
                                 ElementEnergies &energies) const {
   ElementEnergies own, one_point;
+  double elastic = 0.;
   const auto add_points = [&](const auto &element, double &sum) {
     using Element = std::decay_t<decltype(element)>;
     typename Element::Reference reference;
     typename Element::Kinematics kinematics;
     if (!element.initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
       return false;
-    for (unsigned int q = 0; q < n_element_points; ++q)
-      sum += Element::reference_volume(reference, q) *
-             energy(measure(Element::template deformation<false>(reference, kinematics, q)));
+    elastic = 0.;
+    for (unsigned int q = 0; q < n_element_points; ++q) {
+      const Strains strains = measure(Element::template deformation<false>(reference, kinematics, q));
+      const double volume = Element::reference_volume(reference, q);
+      sum += volume * energy(strains);
+      elastic += volume *
+                 (0.5 * elastic_.bulk * strains.volumetric * strains.volumetric + strains.deviatoric_energy);
+    }
     return true;
   };
   if (!add_one_point(positions, displacements, one_point) ||
       !add_points(AssumedStrainElement<>(elastic_, formulation_), own.accurate))
     return false;
-  own.one_point = one_point.used;
+  // A body that yields stores less of all its strains. Nothing bends by taper alone.
+  constexpr double most = 0.95;
+  own.tapered =
+      elastic > 0. ? own.accurate * std::min(most, energy_of_taper(positions, displacements) / elastic) : 0.;
+  own.one_point = std::max(0., one_point.used - own.tapered);
   switch (formulation_.element) {
   case ElementFormulation::Element::assumed_strain:
     own.used = own.accurate;
@@ -114,6 +161,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
     own += one_point;
     break;
   }
+  own.accurate -= own.tapered;
   if (!std::isfinite(own.used + own.one_point + own.accurate))
     return false;
   energies += own;

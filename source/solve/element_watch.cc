@@ -14,21 +14,30 @@ namespace {
 using ElementType = ElementFormulation::Element;
 
 /// What helps a body whose elements are too stiff: never an element that is as stiff.
-std::string advise_on_stiffness(const ElementFormulation &formulation) {
-  return formulation.element == ElementType::one_point
-             ? "Use bricks with edges along the normal of the surface, or a finer mesh"
+std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
+  constexpr double much = 0.5;
+  const bool is_of_taper = energies.tapered > much * (energies.used - energies.accurate);
+  return is_of_taper || formulation.element != ElementType::mean_dilatation
+             ? "Use bricks with edges along the normal of the surface, or shorter ones"
              : "Use 'Element = assumed strain'";
 }
 
-constexpr std::size_t n_energies = 5;
+constexpr std::size_t n_energies = 6;
 
 void add_numbers(const ElementEnergies &energies, std::vector<double> &values) {
-  values.insert(values.end(),
-                {energies.used, energies.one_point, energies.accurate, energies.hourglass, energies.plastic});
+  values.insert(values.end(), {energies.used, energies.one_point, energies.accurate, energies.hourglass,
+                               energies.plastic, energies.tapered});
 }
 ElementEnergies energies_in(const std::vector<double> &values, const std::size_t body) {
   const double *own = &values[n_energies * body];
-  return {own[0], own[1], own[2], own[3], own[4]};
+  ElementEnergies energies;
+  energies.used = own[0];
+  energies.one_point = own[1];
+  energies.accurate = own[2];
+  energies.hourglass = own[3];
+  energies.plastic = own[4];
+  energies.tapered = own[5];
+  return energies;
 }
 
 } // namespace
@@ -110,7 +119,8 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
                                   : diagnostic::element_too_soft,
                        text.str());
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("factor", factor);
-    const std::string advice = is_stiff ? advise_on_stiffness(formulation) : "Use 'Element = assumed strain'";
+    const std::string advice =
+        is_stiff ? advise_on_stiffness(formulation, energies_[b]) : "Use 'Element = assumed strain'";
     message.advice(is_first ? "If that stays so until the end: " + advice : advice);
     diagnostics.push_back(message);
   }

@@ -12,7 +12,8 @@ namespace billet {
 struct ElementEnergies {
   double used = 0.;      ///< the element of the body
   double one_point = 0.; ///< the one-point element
-  double accurate = 0.;  ///< AssumedStrainElement
+  double accurate = 0.;  ///< AssumedStrainElement, but for `tapered`
+  double tapered = 0.;   ///< what every element has too much where bricks are tapered, (L6)
   double hourglass = 0.; ///< of `used`: what a one-point element has by its stabilisation alone
   double plastic = 0.;   ///< of `used`, of one-point elements: what is dissipated
 
@@ -22,6 +23,7 @@ struct ElementEnergies {
     used += other.used;
     one_point += other.one_point;
     accurate += other.accurate;
+    tapered += other.tapered;
     hourglass += other.hourglass;
     plastic += other.plastic;
     return *this;
@@ -53,6 +55,8 @@ private:
   double energy(const Strains &strains) const {
     return energy(strains.volumetric, strains.deviatoric_energy);
   }
+  /// (L6), of elastic bricks.
+  double energy_of_taper(const ElementVectors &positions, const ElementVectors &displacements) const;
   /// α of (L2).
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
   /// Adds to `used`, `hourglass` and `plastic`; false if the element is inside out.
