@@ -159,7 +159,7 @@ QuasiStatic::augmentation_demands(const std::vector<ContactSprings> &springs) co
 }
 
 std::vector<ContactSprings> QuasiStatic::contact_springs() const {
-  if (!softness_.is_used() || is_probing_)
+  if (!softness_.is_used())
     return {};
   auto springs = of_contacts([](const auto &contact) { return contact.compute_springs(); });
   std::vector<double> sums;

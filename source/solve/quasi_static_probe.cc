@@ -76,7 +76,9 @@ QuasiStatic::Probe QuasiStatic::probe(const double t, const double previous_step
   choose_contact_damping();
   is_probing_ = true;
   probe_.reset();
+  const SoftnessLimit learnt = softness_;
   probe.newton = attempt_step(t, previous_step);
+  softness_ = learnt;
   is_probing_ = false;
   if (probe.newton.converged) {
     probe.results = trial_results();

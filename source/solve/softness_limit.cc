@@ -24,9 +24,11 @@ double largest_force(const std::vector<ContactSprings> &springs) {
 } // namespace
 
 double SoftnessLimit::Direction::missing(const ContactSprings::Direction &springs, const double force) const {
-  // What counts of springs is to be known for states like this one.
-  constexpr double unlike = 0.5;
-  return std::min(changed, springs.held > unlike * force ? springs.held : counts * springs.held);
+  // What counts of springs is to be known for states like this one. All augmentations that would follow make
+  // a geometric series.
+  constexpr double unlike = 0.5, most = 0.8;
+  const double in_all = counts / (1. - std::min(counts, most));
+  return std::min(changed, springs.held > unlike * force ? springs.held : in_all * springs.held);
 }
 
 void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change) {

@@ -34,6 +34,8 @@ void test(const std::string &name, const std::string &scene, const unsigned int 
           const parameters::ContactPair::Facets facets) {
   parameters::Scene parameters = testing::read_shipped_scene(scene);
   parameters.pairs[2].facets.value = facets;
+  for (auto &pair : parameters.pairs)
+    pair.penetration_tolerance = 0.; // springs alone know no history
   set_grid(parameters, n);
   SceneRun run(parameters);
   std::vector<FoldState> states{{0., 0., 0., 0.}};

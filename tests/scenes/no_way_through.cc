@@ -47,8 +47,7 @@ int main(int argc, char *argv[]) {
     SceneRun run(scene);
     run.finish();
     check(std::string("distant blocks, slave is the ") + (is_lower_slave ? "lower" : "upper"),
-          near(std::abs(run.problem.state().body_pair_loads[0].force[2]), is_lower_slave ? 124.3 : 118.7,
-               0.03));
+          near(std::abs(run.problem.state().body_pair_loads[0].force[2]), 125.4, 0.01)); // on either side
   }
   {
     SceneRun run(read("block_flies_at_plate.prm"));
@@ -57,8 +56,8 @@ int main(int argc, char *argv[]) {
   }
   {
     SceneRun run(read("turning_tool.prm"));
-    run.finish();
-    check("moment of a tool that turns", near(run.load(0).moment[2], 2544.3, 0.01));
+    run.finish(); // as with a 'Penetration tolerance' of 1e-5
+    check("moment of a tool that turns", near(run.load(0).moment[2], 2667.3, 1e-3));
   }
   return testing::exit_code();
 }

@@ -67,6 +67,22 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
   check(name + ": iterations begin nearer to their end", n_from_probe <= n_otherwise);
 }
 
+/// Contact that is augmented where it is too soft is so in a probe, too; what that teaches is forgotten.
+void check_automatic(parameters::Scene parameters, const unsigned int n_steps) {
+  testing::set_fixed_steps(parameters, n_steps);
+  SceneRun coarse(parameters);
+  coarse.advance();
+  testing::set_fixed_steps(parameters, 2 * n_steps);
+  SceneRun tried(parameters), untried(parameters);
+  const QuasiStatic::Probe probe = tried.problem.probe(2. * tried.control.next_time(), 0.);
+  check("automatic: a probe gives what the step gives", difference(probe.results, coarse.problem.results()),
+        1e-8);
+  tried.advance();
+  untried.advance();
+  check("automatic: it changes no step", difference(tried.problem.results(), untried.problem.results()),
+        5e-3);
+}
+
 /// A step that fails, or in which a tool stops after tractions have been augmented, leaves no measurement to
 /// the next one, and none that compares two places of the tool.
 void check_stop() {
@@ -139,7 +155,10 @@ int main(int argc, char *argv[]) {
   check_scene("billet", billet, 20);
   billet.pairs[0].penetration_tolerance = 1e-5;
   check_scene("billet, augmented", billet, 20);
-  check_scene("ironing", testing::read_shipped_scene("ironing.prm"), 70);
+  parameters::Scene ironing = testing::read_shipped_scene("ironing.prm");
+  check_automatic(ironing, 70);
+  ironing.pairs[0].penetration_tolerance = 0.;
+  check_scene("ironing", ironing, 70);
   check_stop();
   check_force();
   return billet::testing::exit_code();
