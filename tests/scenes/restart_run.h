@@ -43,7 +43,7 @@ inline double difference(const History &a, const History &b, const std::vector<s
   WorstError error;
   std::size_t begin = 0;
   for (const std::size_t n : kinds) {
-    double size = 0.;
+    double size = 1e-4; // mm, N: what augmentation leaves of penetrations is round-off
     for (const auto &row : a)
       for (std::size_t k = begin; k < begin + n; ++k)
         size = std::max(size, std::abs(row[k]));
