@@ -954,6 +954,8 @@ void RigidContact::augment() {
 void RigidContact::scale_penalties(const double normal, const double tangential) {
   stiffening_ *= normal;
   for (auto &node : nodes_) {
+    if (node.is_fixed) // its force is that of its spring alone
+      continue;
     node.stiffness.normal *= normal;
     node.stiffness.tangential *= tangential;
     node.lift /= normal;

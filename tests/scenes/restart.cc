@@ -27,6 +27,8 @@ int main(int argc, char *argv[]) {
     scene.solver.force_tolerance = 1e-11;
     scene.bodies[0].element.value = parameters::Body::ElementType::one_point;
     scene.bodies[0].material.kinematics.value = parameters::Material::Kinematics::hypoelastic;
+    for (auto &pair : scene.pairs)
+      pair.penetration_tolerance = 0.; // whether to augment once more may hang on round-off, and so on ranks
     testing::set_fixed_steps(scene, 25);
     testing::test_going_on<testing::QuasiStaticRun>(
         "Press, one point, hypoelastic", scene, {0.6},
