@@ -112,31 +112,37 @@ void BodyContact::collect(const NodeKeys &keys) {
     }
   positions_.resize(local_nodes_.size());
   const auto sizes = compute_facet_sizes(discretization, all);
-  for (const unsigned int node : local_nodes_)
-    sizes_.push_back(sizes.at(nodes_.dofs(node)[0]));
+  for (const unsigned int node : local_nodes_) {
+    const FacetSize size = sizes.at(nodes_.dofs(node)[0]);
+    sizes_.push_back(size.size);
+    penalty_lengths_.push_back(penalty_length(pair_.penalty_counts_thickness, size.size, size.thickness));
+  }
 }
 
 std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene) {
   const MPI_Comm communicator = nodes_.discretization().communicator();
-  std::array<double, 4> totals{}; // area and number of facets, by surface
+  std::array<double, 6> totals{}; // area, number of facets and volume below them, by surface
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     totals[facets_[f].surface] += areas_[f];
     totals[2 + facets_[f].surface] += 1.;
+    totals[4 + facets_[f].surface] += areas_[f] * facets_[f].wall;
   }
-  MPI_Allreduce(MPI_IN_PLACE, totals.data(), 4, MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, totals.data(), 6, MPI_DOUBLE, MPI_SUM, communicator);
   const auto young = [&](const unsigned int surface) {
     return scene.bodies()[pair_.bodies[surface]].young_modulus;
   };
-  const auto mean_size = [&](const unsigned int surface) {
-    return std::sqrt(totals[surface] / totals[2 + surface]);
+  const auto mean_length = [&](const unsigned int surface) {
+    return penalty_length(pair_.penalty_counts_thickness, std::sqrt(totals[surface] / totals[2 + surface]),
+                          totals[4 + surface] / totals[surface]);
   };
   // Overlapping facets pass a uniform pressure exactly if all nodes have the same penalty.
   const bool is_uniform = pair_.facets == parameters::ContactPair::Facets::overlap;
   std::vector<ContactStiffness> stiffness;
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
     const unsigned int other = pair_.is_self_contact ? 0 : 1 - surface_of_[i];
-    const double own_side = young(surface_of_[i]) / (is_uniform ? mean_size(surface_of_[i]) : sizes_[i]);
-    const double other_side = young(other) / mean_size(other);
+    const double own_side =
+        young(surface_of_[i]) / (is_uniform ? mean_length(surface_of_[i]) : penalty_lengths_[i]);
+    const double other_side = young(other) / mean_length(other);
     const double of_factor = pair_.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
                                  ? std::max(own_side, other_side)
                                  : own_side * other_side / (own_side + other_side);

@@ -98,16 +98,18 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         Node node;
         node.dofs = boundary.dofs[a];
         node.reference = boundary.corners[a];
-        node.size = node.spacing = sizes.at(node.dofs[0]);
+        const FacetSize size = sizes.at(node.dofs[0]);
+        node.size = node.spacing = size.size;
         node.reach = 0.2 * node.size;
-        node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, node.size),
-                          pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, node.size)};
-        const double room = enough_penalty * young_modulus / (node.size * node.stiffness.normal);
+        const double length = penalty_length(pair_.penalty_counts_thickness, size.size, size.thickness);
+        node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, length),
+                          pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, length)};
+        const double room = enough_penalty * young_modulus / (length * node.stiffness.normal);
         most_stiffening_ = std::min(most_stiffening_, room);
         if (pair_.has_friction())
           most_tangential_stiffening_ =
               std::min(most_tangential_stiffening_,
-                       enough_penalty * young_modulus / (node.size * node.stiffness.tangential));
+                       enough_penalty * young_modulus / (length * node.stiffness.tangential));
         node.touching_gap = touching_gap_ * node.size * std::min(1., room);
         nodes_.push_back(node);
       }

@@ -52,21 +52,24 @@ std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discret
   return collect(discretization, body, [](const unsigned int /*id*/) { return true; });
 }
 
-std::map<DofIndex, double> compute_facet_sizes(const Discretization &discretization,
-                                               const std::vector<BoundaryFacet> &facets) {
-  Vector sums = discretization.make_additive_vector(); // area and number
+std::map<DofIndex, FacetSize> compute_facet_sizes(const Discretization &discretization,
+                                                  const std::vector<BoundaryFacet> &facets) {
+  Vector sums = discretization.make_additive_vector(); // area, number and volume
   for (const auto &facet : facets) {
-    const std::array<double, 2> values{facet.area_vector().norm(), 1.};
+    const double area = facet.area_vector().norm();
+    const std::array<double, 3> values{area, 1., area * facet.thickness};
     for (const auto &dofs : facet.dofs)
-      sums.add(2, dofs.data(), values.data());
+      sums.add(3, dofs.data(), values.data());
   }
   sums.compress(dealii::VectorOperation::add);
   Vector ghosted = discretization.make_ghosted_vector();
   ghosted = sums;
-  std::map<DofIndex, double> sizes;
+  std::map<DofIndex, FacetSize> sizes;
   for (const auto &facet : facets)
-    for (const auto &dofs : facet.dofs)
-      sizes[dofs[0]] = std::sqrt(ghosted(dofs[0]) / ghosted(dofs[1]));
+    for (const auto &dofs : facet.dofs) {
+      const double area = ghosted(dofs[0]);
+      sizes[dofs[0]] = {std::sqrt(area / ghosted(dofs[1])), ghosted(dofs[2]) / area};
+    }
   return sizes;
 }
 

@@ -244,7 +244,8 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "absolute: they are pressures "
                     "per penetration.");
   prm.declare_entry("Normal penalty", "10", Patterns::Double(),
-                    "k_n > 0: pressure = k_n times penetration. [1 or stress/length, see Penalty unit]");
+                    "k_n > 0: pressure = k_n times penetration. Unless it is set, h is the elements' "
+                    "thickness in dynamics where that is less. [1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
   prm.declare_entry(

@@ -331,6 +331,7 @@ void Scene::make_pairs() {
   for (const auto &pair : parameters_.pairs) {
     const std::size_t body = parameters_.body_index(pair);
     const bool is_factor = pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
+    const bool counts_thickness = parameters_.is_dynamic() && !pair.has_own_penalty;
     if (!pair.is_between_bodies()) {
       pairs_.push_back({pair.name,
                         &pair,
@@ -339,6 +340,7 @@ void Scene::make_pairs() {
                         parameters_.tool_index(pair),
                         make_friction(pair),
                         is_factor,
+                        counts_thickness,
                         pair.normal_penalty,
                         pair.tangential_penalty,
                         penetration_tolerance(pair),
@@ -366,6 +368,7 @@ void Scene::make_pairs() {
          parameters_.is_explicit() && facets != Pair::Facets::overlap && pair.edges != Pair::Edges::free,
          make_friction(pair),
          is_factor,
+         counts_thickness,
          penalty_of,
          pair.normal_penalty,
          pair.tangential_penalty,

@@ -105,10 +105,10 @@ class Invariants(unittest.TestCase):
 
     def test_penetration(self):
         # 10 E/h on facets of 1/2: 20000, under a pressure of 100
-        make = lambda: made_up("upset", history=force("ram", z=-200.0, contact_area=2.0, deepest_penetration=0.005))  # noqa: E731
+        make = lambda: made_up("upset", {"penalty": 10.0}, history=force("ram", z=-200.0, contact_area=2.0, deepest_penetration=0.005))  # noqa: E731
         self.about(must.penalty_depth("ram", 0.5), make, lambda r: r.history.update({"ram.deepest_penetration": r.history["time"] * 0.006}))
         self.about(must.depth_bound("ram", 0.01), make, lambda r: r.history["ram.deepest_penetration"].__setitem__(3, 0.02))
-        self.about(must.touches("ram"), make, lambda r: r.history.update({"ram.deepest_penetration": 0 * r.history["time"]}))
+        self.about(must.touches("ram"), make, lambda r: r.history.update({f"ram.{what}": 0 * r.history["time"] for what in ("deepest_penetration", "contact_area")}))
 
     def test_energies(self):
         t = numpy.linspace(0.1, 1, 10)

@@ -157,6 +157,7 @@ private:
   std::vector<unsigned int> local_nodes_; ///< of each surface node
   std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
   std::vector<double> sizes_;             ///< of the undeformed facets around it
+  std::vector<double> penalty_lengths_;   ///< penalty_length() there
   std::vector<SurfaceFacet> facets_;
   std::vector<double> areas_;  ///< of the undeformed facets
   std::vector<double> depths_; ///< that nodes must not exceed on their ways, by facet

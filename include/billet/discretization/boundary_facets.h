@@ -32,10 +32,15 @@ std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discret
 /// All facets of a body on this rank, whatever their boundary ids.
 std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization, std::size_t body);
 
-/// Facet size h at each node of these facets, by its first dof: the root of the mean area of the undeformed
-/// facets around it, those of other ranks among them [length]. Collective.
-std::map<DofIndex, double> compute_facet_sizes(const Discretization &discretization,
-                                               const std::vector<BoundaryFacet> &facets);
+/// What the undeformed facets around a node are like [length].
+struct FacetSize {
+  double size = 0.;      ///< h, the root of their mean area
+  double thickness = 0.; ///< of the elements below them: the volumes over the areas
+};
+
+/// At each node of these facets, by its first dof, with those of other ranks. Collective.
+std::map<DofIndex, FacetSize> compute_facet_sizes(const Discretization &discretization,
+                                                  const std::vector<BoundaryFacet> &facets);
 
 /// Shape functions and their derivatives at one of the four Gauss points (±1/√3, ±1/√3), weights 1, of a
 /// facet.

@@ -78,6 +78,13 @@ struct InitialOverlap {
   double allowed_part(const double t) const { return ramp_time > 0. ? std::max(0., 1. - t / ramp_time) : 1.; }
 };
 
+/// h, of which penalties E/h are made. Of penalties that no scene sets in dynamics it is the thickness of
+/// thinner elements: they make the stable step short enough for such springs, and facets wider than thick
+/// would give way as much as the elements.
+inline double penalty_length(const bool counts_thickness, const double facet_size, const double thickness) {
+  return counts_thickness ? std::min(facet_size, thickness) : facet_size;
+}
+
 /// Boundary faces of a body that may touch a tool.
 struct ContactPair {
   std::string name;
@@ -87,6 +94,7 @@ struct ContactPair {
   std::size_t tool;
   FrictionLaw friction;
   bool penalty_is_factor;
+  bool penalty_counts_thickness; ///< penalty_length()
   double normal_penalty, tangential_penalty;
   std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L5)
   InitialOverlap overlap;
@@ -96,7 +104,7 @@ struct ContactPair {
   bool has_tolerance() const { return penetration_tolerance.value_or(0.) > 0.; }
   bool is_augmented() const { return limits_softness() || has_tolerance(); }
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
-  /// k [force/length³] from the scene's number, for facets of size h on a body with Young's modulus E.
+  /// k [force/length³] from the scene's number, for a penalty_length() h on a body with Young's modulus E.
   double scaled_penalty(const double penalty, const double young_modulus, const double h) const {
     return penalty_is_factor ? penalty * young_modulus / h : penalty;
   }
@@ -113,6 +121,7 @@ struct BodyPair {
   bool two_passes, edges;
   FrictionLaw friction;
   bool penalty_is_factor;
+  bool penalty_counts_thickness; ///< penalty_length()
   parameters::ContactPair::PenaltyOf penalty_of;
   double normal_penalty, tangential_penalty;
   double smoothing;                            ///< ContactLimits::zone

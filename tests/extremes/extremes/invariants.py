@@ -188,8 +188,8 @@ def cone(r):
 def penalty_depth(name, facet):
     """Under a uniform pressure nodes go in by the pressure over the penalty."""
     def check(r):
-        if r.knobs.augmentation is not None or r.knobs.profile or r.knobs.target_error:
-            return []
+        if "penalty" not in r.knobs.chosen or r.knobs.augmentation is not None or r.knobs.profile or r.knobs.target_error:
+            return []  # as deep as the program finds right
         f, area = abs(r.force(name)[-1][2]), r.history[f"{name}.contact_area"][-1]
         expected = f / area / (r.knobs.penalty * r.knobs.young / facet) if area > 0 else 0.0
         return [Finding("penetration", part(abs(r.history[f"{name}.deepest_penetration"][-1] - expected), expected), newton(r, 100, 1e-3))]
@@ -210,19 +210,24 @@ def depth_bound(name, bound):
     return check
 
 
+def touched(r, name):
+    """Where tractions are augmented, what presses need not be deep."""
+    return any(float(numpy.max(r.history[f"{name}.{what}"], initial=0.0)) > 0 for what in ("deepest_penetration", "contact_area"))
+
+
 def touches(name):
     """Where the ends are led together to the end, and the ring does not grow around them."""
     def check(r):
         if r.knobs.step and r.knobs.step < 0.1 or r.knobs.nu < 0:
             return []
-        return [Finding("touches", 0.0 if float(numpy.max(r.history[f"{name}.deepest_penetration"])) > 0 else 1.0, 0.5)]
+        return [Finding("touches", 0.0 if touched(r, name) else 1.0, 0.5)]
     return check
 
 
 def meets(name):
     """What flies at a tool, or what a tool comes down on, is touched by it."""
     def check(r):
-        return [Finding("meets the tool", 0.0 if float(numpy.max(r.history[f"{name}.deepest_penetration"])) > 0 else 1.0, 0.5)]
+        return [Finding("meets the tool", 0.0 if touched(r, name) else 1.0, 0.5)]
     return check
 
 

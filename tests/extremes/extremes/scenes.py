@@ -41,7 +41,10 @@ class Knobs:
         unknown = set(changes) - set(KNOBS)
         if unknown:
             raise KeyError(f"unknown knobs {unknown}")
-        self.all = {**KNOBS, **changes}
+        self.chosen, self.all = dict(changes), {**KNOBS, **changes}
+
+    def but(self, changes):
+        return Knobs({**self.chosen, **changes})
 
     def __getattr__(self, name):
         return self.all[name.replace("_", " ")]
@@ -149,7 +152,8 @@ def plane(f, point, normal):
 
 
 def pair(k, f, **more):
-    p = {"Normal penalty": number(k.penalty)}
+    # What the program chooses by itself, unless a penalty is turned: in statics as much as contact needs.
+    p = {"Normal penalty": number(k.penalty)} if "penalty" in k.chosen else {}
     if k.tangential_penalty is not None:
         p["Tangential penalty"] = number(k.tangential_penalty)
     if k.augmentation is not None:
@@ -253,7 +257,7 @@ def stiff(k, height, facet):
         return k
     pressure = abs(k.strain) * math.exp(-(1 - 2 * k.nu) * k.strain)  # E, of a bar
     least = 100 * pressure * facet / (height * math.exp(k.strain) * min(1.0, abs(k.strain)))
-    return Knobs({**k.all, "penalty": max(k.penalty, 10.0 ** math.ceil(math.log10(least)))})
+    return k.but({"penalty": max(k.penalty, 10.0 ** math.ceil(math.log10(least)))})
 
 
 def upset(k):
@@ -344,7 +348,7 @@ def ball(k):
                   "ball": {"Surfaces": {"sphere": {"Shape": "sphere", "Centre": f.vector((0, 0, 0.7 + r), f.length),
                                                    "Radius": number(r * f.length), "Axis": f.vector((0, 0, 1))}},
                            "Motion": {"Translation": f.expressions(("0", "0", f"{number(-depth)}*{{t}}"), f.length)}}},
-        "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+        "Contact pairs": {"low": pair(k.but({"mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
                           "high": pair(k, f, Body="block", Tool="ball", **{"Boundary ids": 5})},
         **statics(k, f, end=reach(k, 1.0)),
     }
@@ -420,7 +424,7 @@ def place(k):
         "Tools": {"bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
                   "ram": {"Surfaces": features(f, k)[k.feature],
                           "Motion": {"Translation": f.expressions(("0", "0", f"{number(-k.press)}*{{t}}"), f.length)}}},
-        "Contact pairs": {"low": pair(Knobs({**k.all, "mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+        "Contact pairs": {"low": pair(k.but({"mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
                           "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **statics(k, f, end=reach(k, 1.0)),
     }
@@ -473,7 +477,7 @@ def stack(k):
 
 def touching(k):
     """The same two blocks, just touching, and nothing moves."""
-    setup = stack(Knobs({**k.all, "press": 0.0}))
+    setup = stack(k.but({"press": 0.0}))
     setup.checks = [must.finite, must.nothing_happens]
     return setup
 
@@ -630,7 +634,7 @@ def stretch(k, scheme):
 def bar(k, scheme):
     """A slender bar hits a plane: the force is ρ c v A until the wave is back."""
     f, n = frame_of(k), k.bricks or 16
-    k = Knobs({**k.all, "nu": 0.0} if k.nu == KNOBS["nu"] else k.all)
+    k = k.but({"nu": 0.0}) if k.nu == KNOBS["nu"] else k
     c = bar_speed(k.young, k.density)
     v = k.speed * c
     width = 1.0 / n
@@ -650,7 +654,7 @@ def bar(k, scheme):
 def bars(k, scheme):
     """A bar hits another one at rest, both free: momentum stays, and the force is that of the two impedances."""
     f, n = frame_of(k), k.bricks or 8
-    k = Knobs({**k.all, "nu": 0.0} if k.nu == KNOBS["nu"] else k.all)
+    k = k.but({"nu": 0.0}) if k.nu == KNOBS["nu"] else k
     young, density = (k.young, k.young * k.modulus_ratio), (k.density, k.density * k.density_ratio)
     speeds = [bar_speed(e, r) for e, r in zip(young, density)]
     v = k.speed * min(speeds)
@@ -719,7 +723,7 @@ def glide(k, scheme):
 
 def fold(k, scheme):
     """The open ring of `clip` in motion: its ends fly at each other, and touch."""
-    setup = clip(Knobs({**k.all, "density": 0.0}))
+    setup = clip(k.but({"density": 0.0}))
     f = setup.frame
     c = bar_speed(k.young, k.density)
     v = k.speed * c
