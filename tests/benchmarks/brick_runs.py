@@ -18,7 +18,7 @@ from billet_trade.records import read_records
 ELEMENTS = ("assumed strain", "mean dilatation", "one point")
 AS, MD, OP = ELEMENTS
 STIFF, SOFT = "element-too-stiff", "element-too-soft"
-ABOUT_ELEMENTS = {STIFF, SOFT, "plastic-bending-coarse", "inverted-corners", "inverted-at-end", "coarse-on-tool"}
+ABOUT_ELEMENTS = {STIFF, SOFT, "plastic-bending-coarse", "inverted-corners", "inverted-at-end", "coarse-on-tool", "lumped-inertia"}
 E, NU = 1e5, 0.3  # unless a scene says otherwise
 
 
