@@ -160,11 +160,12 @@ inline const DiagnosticKind penalty_reduced(
     "A penalty was reduced to 10 E/h, since Newton's method failed; augmentation enforces the constraint.",
     "");
 
-inline const DiagnosticKind
-    penalty_raised("penalty-raised", Severity::note,
-                   "A penalty was raised, since nodes penetrated by more than a tenth of a facet, or 0.4 of "
-                   "an element's thickness; the step was repeated. The message names the new value.",
-                   "Set 'Normal penalty' to that value from the start");
+inline const DiagnosticKind penalty_raised(
+    "penalty-raised", Severity::note,
+    "A penalty was raised. In statics nodes penetrated by more than a tenth of a facet, or 0.4 of "
+    "an element's thickness, and the step was repeated. In dynamics penetration took more "
+    "than 0.4 % of the deformation. The message names the new value.",
+    "Set 'Normal penalty' to that value from the start");
 
 inline const DiagnosticKind contact_dissipates(
     "contact-dissipates", Severity::warning,

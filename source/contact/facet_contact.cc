@@ -40,6 +40,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
       }
   }
   MPI_Allreduce(MPI_IN_PLACE, &largest_reach_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+  given_stiffness_ = stiffness_;
   touched_n_.resize(slaves_.size());
   pressed_n_.resize(slaves_.size());
   states_.resize(slaves_.size());
@@ -739,10 +740,10 @@ void FacetContact::augment() {
 
 void FacetContact::scale_penalties(const double normal, const double tangential) {
   stiffening_ *= normal;
-  for (auto &stiffness : stiffness_) {
-    stiffness.normal *= normal;
-    stiffness.tangential *= tangential;
-  }
+  tangential_stiffening_ *= tangential;
+  for (std::size_t s = 0; s < stiffness_.size(); ++s)
+    stiffness_[s] = {stiffening_ * given_stiffness_[s].normal,
+                     tangential_stiffening_ * given_stiffness_[s].tangential};
   for (auto &lift : lifts_)
     lift /= normal;
   for (auto &lift : lifts_n_)

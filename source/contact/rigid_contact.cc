@@ -77,6 +77,8 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
   friction_ = friction_n_;
   measure_tool();
   harden_springs();
+  for (auto &node : nodes_)
+    node.given = node.stiffness;
   remember_positions();
   remember_pressures();
   memory_.set(nodes_.size() * (sizeof(Node) + sizeof(NodeState)) + facets_.size() * sizeof(Facet));
@@ -955,11 +957,11 @@ void RigidContact::augment() {
 
 void RigidContact::scale_penalties(const double normal, const double tangential) {
   stiffening_ *= normal;
+  tangential_stiffening_ *= tangential;
   for (auto &node : nodes_) {
     if (node.is_fixed) // its force is that of its spring alone
       continue;
-    node.stiffness.normal *= normal;
-    node.stiffness.tangential *= tangential;
+    node.stiffness = {stiffening_ * node.given.normal, tangential_stiffening_ * node.given.tangential};
     node.lift /= normal;
     node.gap_n += node.lift_n * (1. - 1. / normal);
     node.lift_n /= normal;

@@ -206,9 +206,11 @@ public:
     for (const auto &pair : scene_.pairs)
       if (pair.edges == ContactPair::Edges::held && !scene_.is_explicit())
         refuse_entry({"Contact pairs", pair.name}, "Edges");
-      else if (scene_.is_explicit())
-        for (const std::string key : {"Penetration tolerance", "Initial penetration"})
-          refuse({"Contact pairs", pair.name}, key);
+      else if (scene_.is_explicit()) {
+        refuse({"Contact pairs", pair.name}, "Initial penetration");
+        if (pair.penetration_tolerance.value_or(0.) > 0.)
+          refuse_entry({"Contact pairs", pair.name}, "Penetration tolerance");
+      }
   }
 
 private:

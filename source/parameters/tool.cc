@@ -245,16 +245,18 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "per penetration.");
   prm.declare_entry("Normal penalty", "10", Patterns::Double(),
                     "k_n > 0: pressure = k_n times penetration. Unless it is set, h is the elements' "
-                    "thickness in dynamics where that is less. [1 or stress/length, see Penalty unit]");
+                    "thickness in dynamics where that is less, and see Penetration tolerance. [1 or "
+                    "stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
   prm.declare_entry(
       "Penetration tolerance", "automatic", Patterns::Anything(),
-      ">= 0, of implicit scenes. 0: penalties alone; else tractions are augmented in each step "
+      ">= 0. 0: penalties as they are; else, in implicit scenes, tractions are augmented in each step "
       "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
       "slipped elastically by more; where that takes long, or fails, penalties are adapted. "
-      "automatic: in statics, until penetration takes no more than 0.2 % of the force of the pair; "
-      "0 in dynamics, or, unless it is set, beside a Normal penalty. [facet sizes]");
+      "automatic: in statics, until penetration takes no more than 0.2 % of the force of the pair; in "
+      "dynamics penalties rise while it takes more than 0.4 % of the deformation; 0 beside a Normal "
+      "penalty, unless it is set. [facet sizes]");
   prm.declare_entry(
       "Allowed initial penetration", "1e-3", Patterns::Double(),
       "A body that starts deeper than this inside the tool, or another body, is refused. [facet "

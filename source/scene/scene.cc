@@ -328,6 +328,9 @@ void Scene::make_pairs() {
   const auto penetration_tolerance = [&](const parameters::ContactPair &pair) {
     return parameters_.is_dynamic() ? pair.penetration_tolerance.value_or(0.) : pair.penetration_tolerance;
   };
+  const auto is_raised = [&](const parameters::ContactPair &pair) {
+    return parameters_.is_dynamic() && !pair.penetration_tolerance;
+  };
   for (const auto &pair : parameters_.pairs) {
     const std::size_t body = parameters_.body_index(pair);
     const bool is_factor = pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
@@ -344,6 +347,7 @@ void Scene::make_pairs() {
                         pair.normal_penalty,
                         pair.tangential_penalty,
                         penetration_tolerance(pair),
+                        is_raised(pair),
                         {pair.may_overlap, pair.ramp_time, pair.closed_gap}});
       continue;
     }
@@ -375,6 +379,7 @@ void Scene::make_pairs() {
          pair.smoothing,
          pair.search_margin,
          penetration_tolerance(pair),
+         is_raised(pair),
          {pair.may_overlap, pair.ramp_time, pair.closed_gap},
          pair.correction});
     const auto &ids = body_pairs_.back().boundary_ids;

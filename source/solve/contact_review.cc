@@ -28,36 +28,6 @@ std::string print_part(const double part) {
 
 } // namespace
 
-void PathSoftness::add(const double time, const double penetration, const double deformation,
-                       const double all_energy) {
-  const Sample now = {time, penetration, deformation, all_energy};
-  if (last_.penetration > 0. || penetration > 0.) {
-    const double half = 0.5 * (time - last_.time);
-    penetration_ += half * (last_.penetration + penetration);
-    deformation_ += half * (last_.deformation + deformation);
-    all_ += half * (last_.all + all_energy);
-  }
-  last_ = now;
-}
-
-double PathSoftness::part() const {
-  constexpr double counts = 0.01; // of all energies: below that it does not matter for the motion
-  const double sum = penetration_ + deformation_;
-  return sum > 0. && penetration_ > counts * all_ ? penetration_ / sum : 0.;
-}
-
-void PathSoftness::save(std::vector<double> &numbers) const {
-  numbers.insert(numbers.end(), {last_.time, last_.penetration, last_.deformation, last_.all, penetration_,
-                                 deformation_, all_});
-}
-
-void PathSoftness::load(const double *numbers) {
-  last_ = {numbers[0], numbers[1], numbers[2], numbers[3]};
-  penetration_ = numbers[4];
-  deformation_ = numbers[5];
-  all_ = numbers[6];
-}
-
 bool ForceSpread::is_uniform() const {
   constexpr double alike = 0.9;
   return nodes >= 3. && pressures * pressures > alike * nodes * pressure_squares;
@@ -81,14 +51,6 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
     pairs_.push_back(
         {pair.name, {pair.bodies[0], pair.bodies[1]}, none, pair.is_self_contact, false, 0., 0., {}, {}, 0.});
   paths_ = find_load_paths(scene);
-  for (LoadPath &path : paths_)
-    path.bears_given_loads =
-        std::any_of(path.bodies.begin(), path.bodies.end(),
-                    [&](const std::size_t body) { return !scene.bodies()[body].loads.empty(); }) ||
-        (!scene.parameters().is_dynamic() && // else the tool's inertia drives
-         std::any_of(path.pairs.begin(), path.pairs.end(), [&](const std::size_t pair) {
-           return pairs_[pair].tool != none && scene.tools()[pairs_[pair].tool].is_driven();
-         }));
   softness_.resize(paths_.size());
 
   const double tolerance = 1e-8 * discretization.radius();

@@ -64,7 +64,7 @@ double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] 
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), parameters_(scene.parameters().explicit_dynamics),
-      nodes_(discretization), held_(scene, nodes_) {
+      nodes_(discretization), held_(scene, nodes_), penalties_(scene, discretization) {
   make_blocks();
   make_masses();
   for (std::size_t p = 0; p < scene.pairs().size(); ++p) {
@@ -81,6 +81,7 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
                                              [](const FreeTool &tool) { return tool.wants_load(); })) *
       sizeof(FreeTool));
   tool_loads_.resize(tools_.size());
+  spring_energies_.resize(contacts_.size());
   fading_forces_.resize(tools_.size());
   u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
   set_initial_motion();
@@ -267,6 +268,7 @@ void ExplicitDynamics::compute_contact_forces() {
       fail(contact.describe_thin_tool());
     const ContactLoad load = contact.add_forces(forces_, bounds_);
     tool_loads_[contact.tool()] += load;
+    spring_energies_[contact.pair()] = load.stored_energy;
     if (tool.inverse_inertia() > 0.)
       tool_stiffness_[contact.tool()] += contact.stiffness_against_tool();
     works_.friction += load.dissipation;
@@ -299,6 +301,44 @@ void ExplicitDynamics::remove_tools() {
     if (left > 0.)
       for (const unsigned int node : loaded_nodes_)
         add_vector(external_.data(), node, left * get_vector(fading_forces_[i]->data(), node));
+  }
+}
+
+void ExplicitDynamics::raise_penalties() {
+  if (!penalties_.is_used() || n_steps_ % steps_between_looks != 0)
+    return;
+  const MPI_Comm communicator = discretization_.communicator();
+  update_ledger();
+  PenaltyControl::Energies energies{time_, spring_energies_, {}, state_.energies};
+  std::vector<double> room;
+  for (const auto &contact : contacts_)
+    room.push_back(most_raise * contact.stiffening_left());
+  for (const auto &contact : body_contacts_)
+    room.push_back(most_raise * contact->stiffening_left());
+  dealii::Utilities::MPI::min(room, communicator, room);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    double deformation = 0.;
+    for (const ElementSummary &element : summarize(b))
+      deformation += element.elastic_energy + element.plastic_work + element.hourglass_energy;
+    energies.of_bodies.push_back(deformation);
+  }
+  dealii::Utilities::MPI::sum(energies.of_pairs, communicator, energies.of_pairs);
+  dealii::Utilities::MPI::sum(energies.of_bodies, communicator, energies.of_bodies);
+  for (const ContactLoad &load : state_.body_pair_loads)
+    energies.of_pairs.push_back(load.stored_energy);
+
+  constexpr double largest = 1.1; // so that nodes settle without a blow
+  const std::vector<double> factors = penalties_.raises(energies, room, largest);
+  for (std::size_t p = 0; p < factors.size(); ++p) {
+    if (!(factors[p] > 1.))
+      continue;
+    if (p < contacts_.size())
+      contacts_[p].stiffen(factors[p]);
+    else
+      body_contacts_[p - contacts_.size()]->stiffen(factors[p]);
+    // What the springs that are compressed now hold more is given to them.
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      works_.external += (factors[p] - 1.) * energies.of_pairs[p];
   }
 }
 
@@ -517,6 +557,7 @@ void ExplicitDynamics::prepare_step(const double event) {
   kick();
   if (n_steps_ > 0)
     add_works(v_before_, 0.5 * step_before_);
+  raise_penalties();
 }
 
 void ExplicitDynamics::finish_step() {
@@ -617,6 +658,7 @@ void ExplicitDynamics::update_ledger() {
 }
 
 DiagnosticList ExplicitDynamics::check_penalties() {
+  DiagnosticList messages = penalties_.take_diagnostics();
   // Of all ranks: the largest displacement, and for each pair how deep it is, in facet sizes and as length.
   std::vector<double> maxima(1);
   for (unsigned int node = 0; node < nodes_.size(); ++node)
@@ -630,7 +672,6 @@ DiagnosticList ExplicitDynamics::check_penalties() {
     add(contact->penetration());
   dealii::Utilities::MPI::max(maxima, discretization_.communicator(), maxima);
 
-  DiagnosticList messages;
   const EnergyLedger &energies = state_.energies;
   const double part = energies.total() > 0. ? energies.contact / energies.total() : 0.; // of all pairs
   auto next = maxima.begin() + 1;
@@ -668,7 +709,13 @@ DiagnosticList ExplicitDynamics::check_steps() const {
       room.push_back(contact->stiffening_left());
     dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
     const auto stiffest = std::min_element(room.begin(), room.end());
-    if (stiffest != room.end() && *stiffest < 1.) {
+    const auto is_of_scene = [this](const std::size_t i) {
+      const std::size_t n = contacts_.size();
+      return (i < n ? scene_.pairs()[contacts_[i].pair()].input : scene_.body_pairs()[i - n].input)
+          ->has_own_penalty;
+    };
+    if (stiffest != room.end() && *stiffest < 1. &&
+        is_of_scene(static_cast<std::size_t>(stiffest - room.begin()))) {
       const auto i = static_cast<std::size_t>(stiffest - room.begin());
       std::ostringstream text;
       text.precision(3);

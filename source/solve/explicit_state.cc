@@ -127,6 +127,7 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   writer.write("largest energy", {largest_energy_});
   writer.write("energy of steps", {energy_of_steps_});
   soft_penalties_.save(writer);
+  penalties_.save(writer);
   writer.write_rows("works", 4, {rank}, {own.begin(), own.begin() + 4});
 
   for (std::size_t b = 0; b < blocks_.size(); ++b)
@@ -209,6 +210,7 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
     largest_energy_ = reader.number("largest energy");
     energy_of_steps_ = reader.number("energy of steps");
     soft_penalties_.load(reader);
+    penalties_.load(reader);
   }
   report.time = time_;
   return report;

@@ -36,7 +36,16 @@ std::vector<LoadPath> find_load_paths(const Scene &scene) {
     bodies_of.push_back({pair.body});
   for (const auto &pair : scene.body_pairs())
     bodies_of.push_back({pair.bodies[0], pair.bodies[1]});
-  return find_load_paths(scene.bodies().size(), bodies_of);
+  std::vector<LoadPath> paths = find_load_paths(scene.bodies().size(), bodies_of);
+  for (LoadPath &path : paths)
+    path.bears_given_loads =
+        std::any_of(path.bodies.begin(), path.bodies.end(),
+                    [&](const std::size_t body) { return !scene.bodies()[body].loads.empty(); }) ||
+        (!scene.parameters().is_dynamic() && // else the tool's inertia drives
+         std::any_of(path.pairs.begin(), path.pairs.end(), [&](const std::size_t pair) {
+           return pair < scene.pairs().size() && scene.tools()[scene.pairs()[pair].tool].is_driven();
+         }));
+  return paths;
 }
 
 } // namespace billet

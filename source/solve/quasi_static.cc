@@ -49,7 +49,7 @@ NodalGeometry collect_geometry(const Discretization &discretization, const Const
 QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
       motions_(scene, supports_, discretization), internal_(scene, discretization),
-      tangent_(scene.contact_tangent()),
+      tangent_(scene.contact_tangent()), penalties_(scene, discretization),
       soft_penalties_(scene.parameters().is_dynamic() ? PenaltyWatch::Motion::sudden
                                                       : PenaltyWatch::Motion::slow) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
@@ -497,14 +497,15 @@ void QuasiStatic::start_step(const double t) {
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
-  DiagnosticList messages;
+  DiagnosticList messages = control_penalties();
   choose_contact_damping();
   // What stalls with stiff penalties may converge by way of softer ones.
   accepts_stalled_ = !has_stiff_contacts();
   NewtonReport report = attempt_step(t, previous_step);
   constexpr unsigned int max_raises = 6; // each by 2 at least, by less than 100 in all
   for (unsigned int n = 0; report.penetrates && n < max_raises; ++n) {
-    raise_penalties(raises_, report);
+    raise_penalties(raises_);
+    append(report.diagnostics, describe_raises(raises_));
     report.append_anew(attempt_step(t, previous_step));
   }
   if (report.makes_energy) { // once more, so that it does not
@@ -513,8 +514,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   }
   bool may_accept_stalled = report.is_stalled;
   // Steps of motion that have converged, and are too long, need shorter ones.
-  if (!report.converged && !(motion_ && report.is_explained) &&
-      !(messages = soften_augmented_contacts()).empty())
+  if (!report.converged && !(motion_ && report.is_explained) && soften_augmented_contacts(messages))
     report.append_anew(attempt_step(t, previous_step));
   if (!report.converged && !report.is_explained && !report.iterations.empty() && has_stiff_contacts()) {
     is_led_by_softer_ = true;

@@ -109,17 +109,18 @@ std::vector<double> QuasiStatic::stiffen_slow_contacts(const std::vector<double>
   return factors;
 }
 
-DiagnosticList QuasiStatic::soften_augmented_contacts() {
+bool QuasiStatic::soften_augmented_contacts(DiagnosticList &messages) {
   const std::vector<double> room = stiffening_left();
   const std::vector<std::string> names = of_contacts([](const auto &contact) { return contact.name(); });
   const std::vector<bool> is_augmented =
       of_contacts([](const auto &contact) { return contact.settings().is_augmented(); });
-  DiagnosticList messages;
+  bool has_softened = false;
   for (std::size_t i = 0; i < room.size(); ++i) {
     if (!(room[i] < 1.) || !is_augmented[i])
       continue;
     const double factor = whole_octaves(room[i]), penalty = enough_penalty / room[i] * factor;
     stiffen(i, factor);
+    has_softened = true;
     std::ostringstream text;
     text << "The penalty was reduced to " << penalty
          << " E/h, since Newton's method failed; augmentation makes up for that";
@@ -129,7 +130,7 @@ DiagnosticList QuasiStatic::soften_augmented_contacts() {
                            .value("penalty [E/h]", penalty));
   }
   spring_round_off_ = find_spring_round_off();
-  return messages;
+  return has_softened;
 }
 
 void QuasiStatic::augment_contacts() {

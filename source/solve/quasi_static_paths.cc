@@ -122,7 +122,6 @@ DiagnosticList QuasiStatic::check_motion(const double t) const {
 }
 
 std::vector<double> QuasiStatic::raises_of_penalties() const {
-  constexpr double most = 100.; // times 10 E/h
   constexpr double least_raise = 2., largest_raise = 8.;
   std::vector<double> factors =
       of_contacts([](const auto &contact) { return contact.excessive_penetration(); });
@@ -143,7 +142,8 @@ std::vector<double> QuasiStatic::raises_of_penalties() const {
     // where nodes are about to go deeper than contact follows them.
     const bool is_too_much =
         !motion_ && !has_tolerance[i] && factors[i] > (has_own_penalty[i] && !is_short ? deep : 1.);
-    const double raise = std::min(std::clamp(2. * factors[i], least_raise, largest_raise), most * room[i]);
+    const double raise =
+        std::min(std::clamp(2. * factors[i], least_raise, largest_raise), most_raise * room[i]);
     factors[i] = is_too_much && raise >= least_raise ? whole_octaves(raise) : 1.;
   }
   return factors;
@@ -183,21 +183,11 @@ void QuasiStatic::evaluate_start() {
   compute_residual(x, ignored);
 }
 
-void QuasiStatic::raise_penalties(const std::vector<double> &factors, NewtonReport &report) {
-  const auto stored_energies = [&] {
-    std::vector<double> energies;
-    for (auto &contact : contacts_)
-      energies.push_back(contact.compute_load().stored_energy);
-    for (auto &contact : body_contacts_)
-      energies.push_back(contact->compute_load().stored_energy);
-    return energies;
-  };
-  evaluate_start();
-  const std::vector<double> before = stored_energies();
+DiagnosticList QuasiStatic::describe_raises(const std::vector<double> &factors) const {
+  DiagnosticList messages;
   for (std::size_t i = 0; i < factors.size(); ++i) {
     if (!(factors[i] > 1.))
       continue;
-    stiffen(i, factors[i]);
     const bool is_tool = i < contacts_.size();
     const std::size_t n_tools = contacts_.size();
     const parameters::ContactPair &input =
@@ -209,12 +199,65 @@ void QuasiStatic::raise_penalties(const std::vector<double> &factors, NewtonRepo
     text.precision(3);
     text << "The penalty of the pair was raised " << factors[i] << " times, to " << penalty
          << (is_factor ? " E/h" : "") << ", since nodes penetrated too deep with it";
-    report.diagnostics.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
-                                     .pair(input.name)
-                                     .time(state_.time)
-                                     .value("factor", factors[i])
-                                     .measure(is_factor ? "penalty [E/h]" : "penalty", penalty));
+    messages.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
+                           .pair(input.name)
+                           .time(state_.time)
+                           .value("factor", factors[i])
+                           .measure(is_factor ? "penalty [E/h]" : "penalty", penalty));
   }
+  return messages;
+}
+
+DiagnosticList QuasiStatic::control_penalties() {
+  if (!motion_ || !penalties_.is_used())
+    return {};
+  PenaltyControl::Energies energies{state_.time, tool_pair_energies_, {}, state_.energies};
+  for (const ContactLoad &load : state_.body_pair_loads)
+    energies.of_pairs.push_back(load.stored_energy);
+  for (std::size_t b = 0; b < scene_.bodies().size(); ++b) {
+    double deformation = 0.;
+    for (const ElementSummary &element : summarize(b))
+      deformation += element.elastic_energy + element.plastic_work + element.hourglass_energy;
+    energies.of_bodies.push_back(deformation);
+  }
+  dealii::Utilities::MPI::sum(energies.of_bodies, discretization_.communicator(), energies.of_bodies);
+  std::vector<double> room = stiffening_left();
+  for (double &left : room)
+    left *= most_raise;
+  constexpr double largest = 4.;
+  const std::vector<double> factors = penalties_.raises(energies, room, largest);
+  // Forces at the start of the step are those of before, so that penalties grow within the step. What the
+  // springs that are compressed now hold more is given to them.
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (!(factors[i] > 1.))
+      continue;
+    stiffen(i, factors[i]);
+    const double given = (factors[i] - 1.) * energies.of_pairs[i];
+    state_.energies.contact += given;
+    state_.energies.external += given;
+    if (i < contacts_.size())
+      tool_pair_energies_[i] += given;
+    else
+      state_.body_pair_loads[i - contacts_.size()].stored_energy += given;
+  }
+  spring_round_off_ = find_spring_round_off();
+  return penalties_.take_diagnostics();
+}
+
+void QuasiStatic::raise_penalties(const std::vector<double> &factors) {
+  const auto stored_energies = [&] {
+    std::vector<double> energies;
+    for (auto &contact : contacts_)
+      energies.push_back(contact.compute_load().stored_energy);
+    for (auto &contact : body_contacts_)
+      energies.push_back(contact->compute_load().stored_energy);
+    return energies;
+  };
+  evaluate_start();
+  const std::vector<double> before = stored_energies();
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    if (factors[i] > 1.)
+      stiffen(i, factors[i]);
   spring_round_off_ = find_spring_round_off();
   evaluate_start();
   const std::vector<double> after = stored_energies();

@@ -31,6 +31,7 @@ void QuasiStatic::save(StateWriter &writer) const {
   writer.write("scales", {lasting_scale_, has_lost_pace_ ? 1. : 0.});
   writer.write_text("free body", body_failure_);
   soft_penalties_.save(writer);
+  penalties_.save(writer);
   if (softness_.is_used())
     writer.write("softness", softness_.save());
   writer.write("forces on bodies", body_forces_n_);
@@ -177,6 +178,7 @@ RestartReport QuasiStatic::load(StateReader &reader, const double release_time) 
         motion_->damp_contact(contact_forces_n_); // the next step begins with that anew
     }
     soft_penalties_.load(reader);
+    penalties_.load(reader);
     load_stabilisation(reader);
     if (report.is_exact && reader.has("forces on bodies")) {
       body_forces_n_ = reader.read("forces on bodies");

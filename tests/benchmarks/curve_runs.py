@@ -14,8 +14,8 @@ from billet_runs import PROGRAM, ROOT, read_scene, variant
 
 
 class CurveRun:
-    """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it `finished`, `times` and `curves` by name (forces of tools and pairs of bodies; of
-    explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit scenes
+    """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it `finished`, `times`, `forces` of tools and pairs of bodies by name and `curves`
+    (the same; of explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit scenes
     element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`."""
 
     def __init__(self, scene, changes, ranks=1):
@@ -46,14 +46,14 @@ class CurveRun:
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]
         self.times = [float(row["time"]) for row in rows]
         names = [key[:-len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
+        self.forces = {name: [tuple(float(row[f"{name}.force_{axis}"]) for axis in "xyz") for row in rows] for name in names}
         if self.is_explicit:
             self.curves = {"kinetic": [(float(row["kinetic_energy"]),) for row in rows],
                            "stored or dissipated": [
                                (float(row["elastic_energy"]) + float(row["plastic_work"])
                                 + float(row["friction_dissipation"]),) for row in rows]}
         else:
-            self.curves = {name: [tuple(float(row[f"{name}.force_{axis}"]) for axis in "xyz") for row in rows]
-                           for name in names}
+            self.curves = self.forces
         self.steps = int(rows[-1]["step"]) if rows else 0
         said_elements = [line for line in self.said.splitlines() if " elements, " in line and " dofs, " in line]
         self.elements = int(said_elements[0].split()[0]) if said_elements else 0

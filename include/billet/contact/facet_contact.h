@@ -380,7 +380,7 @@ private:
   double edge_stiffness(const EdgeContact::Crossing &crossing) const {
     double sum = 0.;
     for (const unsigned int node : crossing.nodes)
-      sum += edge_stiffness_[node];
+      sum += stiffening_ * edge_stiffness_[node];
     return 0.25 * sum;
   }
   void add_edges(FacetContactLoad &load) const;
@@ -391,9 +391,10 @@ private:
   FacetSearch search_;
   double largest_reach_ = 0.;
   std::vector<SlaveNode> slaves_;
-  std::vector<double> sizes_;               ///< of slaves
-  std::vector<ContactStiffness> stiffness_; ///< of slaves, in one of the passes
-  Positions positions_n_, positions_;       ///< with ghosts
+  std::vector<double> sizes_; ///< of slaves
+  std::vector<ContactStiffness> stiffness_,
+      given_stiffness_;               ///< of slaves, in one of the passes; at the start
+  Positions positions_n_, positions_; ///< with ghosts
   MovedFacets moved_{search_, positions_};
   std::vector<TouchedFacet> touched_n_;
   /// Of slaves at the start of the step, for compute_step_works().
@@ -418,8 +419,8 @@ private:
   struct Augmentation {
     double lift = 0., gap = 0.; ///< that it came from, and the gap that this left [length]
   };
-  std::vector<Augmentation> last_augmentations_; ///< of slaves, in this step
-  double stiffening_ = 1.;                       ///< of all penalties, by stiffen()
+  std::vector<Augmentation> last_augmentations_;        ///< of slaves, in this step
+  double stiffening_ = 1., tangential_stiffening_ = 1.; ///< of the penalties as given
   double start_weight_ = 0.5;
   bool is_static_ = false;
   /// Of slaves; empty if none is allowed and no gap is closed; < 0: a gap that counts as closed.

@@ -235,8 +235,8 @@ private:
   struct Node {
     std::array<DofIndex, 3> dofs;
     dealii::Point<3> reference;
-    ContactStiffness stiffness;
-    double size;             ///< of the facets around it
+    ContactStiffness stiffness, given; ///< now, and at the start
+    double size;                       ///< of the facets around it
     double reach;            ///< how deep it may be, as part of these facets and of the elements below them
     double spacing;          ///< of the parts of facets around it; the same where none is divided
     bool is_divided = false; ///< a facet around it is
@@ -497,7 +497,7 @@ private:
   double unresolved_length_ = 0.;      ///< of the longest facet that has too few parts, on any rank [length]
   double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]
   std::vector<dealii::Tensor<1, 3>> positions_on_thin_tool_; ///< of the nodes, at the start of the step
-  double stiffening_ = 1.;                                   ///< of all penalties, by stiffen()
+  double stiffening_ = 1., tangential_stiffening_ = 1.;      ///< of the penalties as given
   double most_stiffening_ = std::numeric_limits<double>::infinity();
   double most_tangential_stiffening_ = std::numeric_limits<double>::infinity(); ///< of the penalties as given
   bool is_removed_ = false;

@@ -16,6 +16,8 @@ enum class ContactStatus { open = 0, stick = 1, slip = 2 };
 
 /// Stiffer than this, relative to E/h, augmentation does not make penalties: each one leaves little then.
 constexpr double enough_penalty = 10.;
+/// By which those of the program may be raised beyond that.
+constexpr double most_raise = 100.;
 
 /// The largest power of 2 not above a factor of penalties: products of those are exact in any order, so that
 /// a run that goes on from a checkpoint has the same penalties to the last bit.

@@ -21,7 +21,7 @@ namespace billet {
 // a full disk would go unnoticed.
 
 /// Raised whenever what is stored, or how, changes.
-constexpr unsigned int checkpoint_format = 6;
+constexpr unsigned int checkpoint_format = 7;
 
 /// Writes a checkpoint from all ranks through the first one.
 class CheckpointWriter final : public StateWriter {

@@ -97,6 +97,7 @@ struct ContactPair {
   bool penalty_counts_thickness; ///< penalty_length()
   double normal_penalty, tangential_penalty;
   std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L5)
+  bool is_raised;                              ///< in dynamics, while penetration takes too much, (L7)
   InitialOverlap overlap;
 
   /// Augmented until penetration takes little of the deformation.
@@ -127,6 +128,7 @@ struct BodyPair {
   double smoothing;                            ///< ContactLimits::zone
   double search_margin;                        ///< [facet sizes]
   std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L5)
+  bool is_raised;                              ///< in dynamics, while penetration takes too much, (L7)
   InitialOverlap overlap;
   parameters::ContactPair::Correction correction;
 

@@ -5,6 +5,7 @@
 #include "billet/diagnostics.h"
 #include "billet/scene/scene.h"
 #include "billet/solve/load_paths.h"
+#include "billet/solve/path_softness.h"
 #include "billet/solve/solution.h"
 #include "billet/state.h"
 
@@ -13,28 +14,6 @@
 #include <vector>
 
 namespace billet {
-
-/// What penetration takes of the deformation along a load path, (L3) of doc/theory.md: over the time in
-/// which its pairs press, the energy ½ Σ p g A of pressures on penetrations beside that of the bodies'
-/// deformation.
-class PathSoftness {
-public:
-  /// At these times; `all_energy`: of all that counts, (L3).
-  void add(double time, double penetration, double deformation, double all_energy);
-  /// The part by which forces of driven tools are too small; 0 where contact is no matter for the scene.
-  double part() const;
-
-  static constexpr std::size_t n_numbers = 7;
-  void save(std::vector<double> &numbers) const;
-  void load(const double *numbers);
-
-private:
-  struct Sample {
-    double time = 0., penetration = 0., deformation = 0., all = 0.;
-  };
-  Sample last_;                                           ///< at time 0 nothing
-  double penetration_ = 0., deformation_ = 0., all_ = 0.; ///< integrals over time
-};
 
 /// How a pair's force is spread over nodes, each counted with its mirror images.
 struct ForceSpread {

@@ -8,6 +8,7 @@
 #include "billet/forces/external_loads.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/solve/free_tool.h"
+#include "billet/solve/penalty_control.h"
 #include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
@@ -95,6 +96,8 @@ private:
   void compute_internal_forces();
   void compute_contact_forces();
   void remove_tools();
+  /// Now and then, with the forces at hand. Collective.
+  void raise_penalties();
   double stable_step();
   /// The step in which nodes that come through surfaces make too large an error of energy; infinite if there
   /// is none. Collective.
@@ -129,6 +132,7 @@ private:
   std::vector<FreeTool> tools_;
   std::vector<ContactLoad> tool_loads_; ///< at t_n, of this rank
   std::vector<double> tool_stiffness_;  ///< against free tools, of this rank
+  std::vector<double> spring_energies_; ///< of pairs with tools at t_n, of this rank
   bool has_free_tools_ = false;
   std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools, of this rank, as they were
 
@@ -155,6 +159,7 @@ private:
   double mass_ = 0., added_mass_ = 0.;
   double largest_energy_ = 0.;
   double energy_of_steps_ = 0.; ///< the largest at every steps_between_looks steps
+  PenaltyControl penalties_;
   PenaltyWatch soft_penalties_{PenaltyWatch::Motion::sudden};
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
   struct Works {

@@ -11,6 +11,7 @@
 #include "billet/solve/implicit_motion.h"
 #include "billet/solve/motion_watch.h"
 #include "billet/solve/newton.h"
+#include "billet/solve/penalty_control.h"
 #include "billet/solve/penalty_watch.h"
 #include "billet/solve/restart.h"
 #include "billet/solve/rigid_body_support.h"
@@ -231,7 +232,10 @@ private:
   bool penetrates(NewtonReport &report);
   /// Does that, at the start of the step: the springs that are compressed there are given the energy that
   /// stiffer ones hold, and start the step with their forces.
-  void raise_penalties(const std::vector<double> &factors, NewtonReport &report);
+  void raise_penalties(const std::vector<double> &factors);
+  DiagnosticList describe_raises(const std::vector<double> &factors) const;
+  /// Of dynamic scenes, at the start of a step: raises those that are too low. Collective.
+  DiagnosticList control_penalties();
   /// Computes all forces at the start of the step.
   void evaluate_start();
   /// What of that is lost for good.
@@ -326,9 +330,9 @@ private:
   /// Returns the factors, all 1 if none is.
   std::vector<double> stiffen_slow_contacts(const std::vector<double> &before,
                                             const std::vector<double> &errors);
-  /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that. Returns a message
-  /// on each. Collective.
-  DiagnosticList soften_augmented_contacts();
+  /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that, with a message on
+  /// each; false if there is none. Collective.
+  bool soften_augmented_contacts(DiagnosticList &messages);
   /// The force that round-off in positions makes of the stiffest penalty. Collective.
   double find_spring_round_off() const;
   /// Whether a step that has converged has to fail, since contact's round-off leaves too much of the forces
@@ -491,6 +495,7 @@ private:
   bool measures_penetration_ = false, may_leave_penetration_ = false;
   double allowed_at_measurement_ = 0.; ///< part of the forces
   std::optional<OfPenetration> of_penetration_;
+  PenaltyControl penalties_; ///< of dynamic scenes
   PenaltyWatch soft_penalties_;
   SoftnessLimit softness_{{}};
   std::vector<double>

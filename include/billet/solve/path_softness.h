@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_PATH_SOFTNESS_H
+#define BILLET_SOLVE_PATH_SOFTNESS_H
+
+#include <cstddef>
+#include <vector>
+
+namespace billet {
+
+/// What penetration takes of the deformation along a load path, (L3) of doc/theory.md: over the time in
+/// which its pairs press, the energy of their penetrations beside that of the bodies' deformation.
+class PathSoftness {
+public:
+  /// At these times; `all_energy`: of all that counts, (L3).
+  void add(double time, double penetration, double deformation, double all_energy);
+  /// The part by which forces of driven tools are too small; 0 where penetration holds less than the part
+  /// `counts` of all energy, and so is no matter for the scene.
+  double part(double counts = 0.01) const;
+  /// Time in which pairs pressed.
+  double duration() const { return duration_; }
+  /// Forgets all but the last energies.
+  void restart() { penetration_ = deformation_ = all_ = duration_ = 0.; }
+
+  static constexpr std::size_t n_numbers = 8;
+  void save(std::vector<double> &numbers) const;
+  void load(const double *numbers);
+
+private:
+  struct Sample {
+    double time = 0., penetration = 0., deformation = 0., all = 0.;
+  };
+  Sample last_;                                           ///< at time 0 nothing
+  double penetration_ = 0., deformation_ = 0., all_ = 0.; ///< integrals over time
+  double duration_ = 0.;
+};
+
+} // namespace billet
+
+#endif

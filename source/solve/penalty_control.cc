@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/penalty_control.h"
+
+#include "billet/contact/traction.h"
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+/// (L7): the part that penetration may take, the part to which raises lead, and what is no matter.
+constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
+constexpr double slow = 0.01;         ///< kinetic energy beside that of deformation, of motion without waves
+constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
+constexpr double largest_target = 4.; ///< at which softness is measured anew
+
+double largest_extent(const Discretization &discretization, const std::size_t body) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> box(6, -infinity); // −low, high
+  for (const auto &element : discretization.elements(body))
+    for (const unsigned int v : element.cell->vertex_indices())
+      for (unsigned int i = 0; i < 3; ++i) {
+        box[i] = std::max(box[i], -element.cell->vertex(v)[i]);
+        box[3 + i] = std::max(box[3 + i], element.cell->vertex(v)[i]);
+      }
+  dealii::Utilities::MPI::max(box, discretization.communicator(), box);
+  return std::max({box[0] + box[3], box[1] + box[4], box[2] + box[5]});
+}
+
+std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
+  std::vector<PenaltyControl::Pair> pairs;
+  for (const auto &pair : scene.pairs())
+    pairs.push_back({pair.name, pair.is_raised});
+  for (const auto &pair : scene.body_pairs())
+    pairs.push_back({pair.name, pair.is_raised});
+  return pairs;
+}
+
+std::vector<PenaltyControl::Path> paths_of(const Scene &scene, const Discretization &discretization) {
+  std::vector<PenaltyControl::Path> paths;
+  if (!scene.parameters().is_dynamic())
+    return paths;
+  for (LoadPath &parts : find_load_paths(scene)) {
+    double crossing = 0.;
+    for (const std::size_t b : parts.bodies) {
+      const Body &body = scene.bodies()[b];
+      crossing = std::max(crossing,
+                          largest_extent(discretization, b) * std::sqrt(body.density / body.largest_modulus));
+    }
+    // Implicit steps would follow each node that is pushed out while bodies move fast.
+    constexpr double never = std::numeric_limits<double>::infinity();
+    paths.push_back({std::move(parts), scene.parameters().is_explicit() ? crossing : never});
+  }
+  return paths;
+}
+
+} // namespace
+
+PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<Path> &paths)
+    : pairs_(std::move(pairs)) {
+  constexpr double crossings = 2.; // until bodies deform as a whole
+  if (is_used())
+    for (const Path &path : paths)
+      paths_.push_back({path, crossings * path.crossing_time, 1., {}});
+}
+
+PenaltyControl::PenaltyControl(const Scene &scene, const Discretization &discretization)
+    : PenaltyControl(pairs_of(scene), paths_of(scene, discretization)) {}
+
+bool PenaltyControl::is_used() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.may_be_raised; });
+}
+
+void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<double> &room) {
+  const EnergyLedger &all = energies.all;
+  const bool is_slow = all.kinetic < slow * (all.of_elements() + all.contact);
+  if (!is_slow && !(path.softness.duration() > path.wait))
+    return;
+  const double part = path.softness.part(counts);
+  if (!(part > allowed))
+    return;
+  const double raise = std::min(part / aim, largest_target);
+  for (const std::size_t pair : path.path.parts.pairs) {
+    if (!pairs_[pair].may_be_raised || !(energies.of_pairs[pair] > 0.) || !(room[pair] > 1.))
+      continue;
+    path.left = raise;
+    constexpr double percent = 100.;
+    std::ostringstream text;
+    text.precision(3);
+    text << "The penalty of the pair is raised to "
+         << enough_penalty * most_raise / room[pair] * std::min(raise, room[pair])
+         << " E/h, since penetration takes " << percent * part << " % of the deformation along its load path";
+    diagnostics_.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
+                               .pair(pairs_[pair].name)
+                               .time(energies.time)
+                               .value("factor", raise)
+                               .advice("Nothing has to be done. Time steps may be shorter from now on; "
+                                       "'Penetration tolerance = 0' keeps the penalty"));
+  }
+}
+
+std::vector<double> PenaltyControl::raises(const Energies &energies, const std::vector<double> &room,
+                                           const double largest) {
+  std::vector<double> factors(pairs_.size(), 1.);
+  if (!(energies.time > time_))
+    return factors;
+  time_ = energies.time;
+  for (Controlled &path : paths_) {
+    double penetration = 0., deformation = 0.;
+    for (const std::size_t pair : path.path.parts.pairs)
+      penetration += energies.of_pairs[pair];
+    for (const std::size_t body : path.path.parts.bodies)
+      deformation += energies.of_bodies[body];
+    const EnergyLedger &all = energies.all;
+    path.softness.add(energies.time, penetration, deformation,
+                      path.path.parts.bears_given_loads ? all.total() : all.of_elements() + all.contact);
+    if (!(penetration > 0.))
+      continue;
+    if (path.left == 1.)
+      judge(path, energies, room);
+    if (path.left == 1.)
+      continue;
+    const double factor = std::min(path.left, largest);
+    path.left /= factor;
+    for (const std::size_t pair : path.path.parts.pairs)
+      if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > notable_pair * penetration)
+        factors[pair] = std::max(1., std::min(factor, room[pair]));
+    path.softness.restart();
+    path.wait = path.path.crossing_time;
+  }
+  return factors;
+}
+
+DiagnosticList PenaltyControl::take_diagnostics() {
+  DiagnosticList result;
+  std::swap(result, diagnostics_);
+  return result;
+}
+
+void PenaltyControl::save(StateWriter &writer) const {
+  std::vector<double> numbers{time_};
+  for (const Controlled &path : paths_) {
+    numbers.insert(numbers.end(), {path.wait, path.left});
+    path.softness.save(numbers);
+  }
+  writer.write("penalty control", numbers);
+}
+
+void PenaltyControl::load(const StateReader &reader) {
+  constexpr std::size_t of_path = 2 + PathSoftness::n_numbers;
+  if (!reader.has("penalty control"))
+    return;
+  const std::vector<double> numbers = reader.read("penalty control");
+  if (numbers.size() != 1 + of_path * paths_.size())
+    return; // of other pairs
+  time_ = numbers[0];
+  const double *next = numbers.data() + 1;
+  for (Controlled &path : paths_) {
+    path.wait = next[0];
+    path.left = next[1];
+    path.softness.load(next + 2);
+    next += of_path;
+  }
+}
+
+} // namespace billet

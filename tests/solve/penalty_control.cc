@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Penalties that rise until contact is hard enough.
+#include "billet/solve/penalty_control.h"
+#include "../testing.h"
+
+#include <cmath>
+
+using namespace billet;
+using billet::testing::check;
+
+namespace {
+
+/// A bar and the contact at its end, springs in series, that a constant force presses, and a pair that does
+/// not touch.
+struct Press {
+  double body = 1., contact = 10., force = 1., room = 100., kinetic = 1.;
+
+  PenaltyControl::Energies at(const double time) const {
+    PenaltyControl::Energies energies;
+    energies.time = time;
+    energies.of_pairs = {0.5 * force * force / contact, 0.};
+    energies.of_bodies = {0.5 * force * force / body};
+    energies.all.elastic = energies.of_bodies[0];
+    energies.all.contact = energies.of_pairs[0];
+    energies.all.kinetic = kinetic * energies.of_bodies[0];
+    return energies;
+  }
+  double softness() const { return 1. / (1. + contact / body); }
+
+  /// Until `end`; the largest factor at a time.
+  double run(PenaltyControl &control, const double from, const double end) {
+    double largest = 1.;
+    for (double time = from; time < end; time += 0.25) {
+      const auto factors = control.raises(at(time), {room, room}, 1.1);
+      contact *= factors[0];
+      room /= factors[0];
+      largest = std::max({largest, factors[0], factors[1]});
+    }
+    return largest;
+  }
+};
+
+PenaltyControl control(const bool may_be_raised) {
+  LoadPath path;
+  path.bodies = {0};
+  path.pairs = {0, 1};
+  return PenaltyControl({{"end", may_be_raised}, {"other", true}}, {{path, 2.}});
+}
+
+void check_raises() {
+  auto penalties = control(true);
+  Press press;
+  check("nothing before waves have crossed twice", press.run(penalties, 0.25, 4.) == 1.);
+  check("not at once", press.run(penalties, 4., 100.) == 1.1);
+  check("until penetration takes 0.3 to 0.4 %", press.softness() < 0.004 && press.softness() > 0.0025);
+  const DiagnosticList messages = penalties.take_diagnostics();
+  check("a note on each raise, of the pair that presses alone", messages.size() >= 2 && messages.size() <= 4);
+  check("and no more", penalties.take_diagnostics().empty());
+  auto slow = control(true);
+  Press quiet;
+  quiet.kinetic = 1e-3;
+  check("at once in slow motion", quiet.run(slow, 0.25, 1.) == 1.1);
+  check("then it stays", press.run(penalties, 100., 200.) == 1.);
+  press.body *= 4.; // as a strip that is pressed flat
+  press.run(penalties, 200., 400.);
+  check("and rises again where the body becomes stiffer", press.softness() < 0.0045);
+}
+
+void check_limits() {
+  auto penalties = control(true);
+  Press stiff;
+  stiff.body = 1e3;
+  stiff.run(penalties, 0.25, 400.);
+  check("by a hundred times", std::abs(stiff.contact / 1000. - 1.) < 1e-12);
+  auto own = control(false);
+  Press given;
+  check("what the scene sets stays", given.run(own, 0.25, 100.) == 1.);
+  auto light = control(true);
+  Press small;
+  PenaltyControl::Energies energies = small.at(1.);
+  double largest = 1.;
+  for (double time = 0.25; time < 50.; time += 0.25) {
+    energies.time = time;
+    energies.all.elastic = 1e3 * energies.of_bodies[0]; // of other bodies
+    largest = std::max(largest, light.raises(energies, {100., 100.}, 1.1)[0]);
+  }
+  check("not where it is no matter for the scene", largest == 1.);
+  auto twice = control(true);
+  Press once;
+  once.run(twice, 0.25, 8.);
+  const double before = once.contact;
+  once.contact *= twice.raises(once.at(7.75), {once.room, once.room}, 1.1)[0];
+  check("once at a time", once.contact == before);
+}
+
+} // namespace
+
+int main() {
+  check_raises();
+  check_limits();
+}
