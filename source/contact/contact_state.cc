@@ -109,7 +109,7 @@ void RigidContact::save_areas(StateWriter &writer, const std::string &name, cons
 void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   writer.write("removed", {is_removed_ ? 1. : 0.});
   writer.write("allowed part", {allowed_part_});
-  writer.write("stiffening", {stiffening_});
+  writer.write("stiffening", {stiffening_, tangential_stiffening_});
   save_nodes(writer, mesh_nodes(keys));
   if (has_divided_facets_)
     save_nodes(writer, interior_points());
@@ -193,8 +193,10 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
     remove_tool();
   allowed_part_ = allowed_part_n_ = reader.number("allowed part");
   positions_on_thin_tool_.clear();
-  if (reader.has("stiffening"))
-    stiffen(reader.number("stiffening") / stiffening_);
+  if (reader.has("stiffening")) {
+    const std::vector<double> factors = reader.read("stiffening");
+    scale_penalties(factors.at(0) / stiffening_, factors.at(1) / tangential_stiffening_);
+  }
   knows_pressures_ = !is_explicit_ && reader.has("pressed");
   load_nodes(reader, mesh_nodes(keys));
   if (has_divided_facets_ && reader.has("interior gaps"))
@@ -313,7 +315,7 @@ void FacetContact::save(StateWriter &writer) const {
   }
   writer.write("start",
                {has_started_ ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0., allowed_part_});
-  writer.write("stiffening", {stiffening_});
+  writer.write("stiffening", {stiffening_, tangential_stiffening_});
   writer.write_rows("touched", touch_width, keys, touches);
   std::vector<double> pressed;
   for (const auto &slave : pressed_n_)
@@ -366,8 +368,10 @@ void FacetContact::load(const StateReader &reader) {
   has_started_ = start.at(0) != 0.;
   has_lifts_ = is_augmented || has_depths;
   allowed_part_ = allowed_part_n_ = start.at(3);
-  if (reader.has("stiffening"))
-    stiffen(reader.number("stiffening") / stiffening_);
+  if (reader.has("stiffening")) {
+    const std::vector<double> factors = reader.read("stiffening");
+    scale_penalties(factors.at(0) / stiffening_, factors.at(1) / tangential_stiffening_);
+  }
   lifts_n_.assign(is_augmented ? slaves_.size() : 0, 0.);
   initial_depths_.assign(has_depths ? slaves_.size() : 0, 0.);
   if (has_lifts_) {

@@ -81,7 +81,6 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
                                              [](const FreeTool &tool) { return tool.wants_load(); })) *
       sizeof(FreeTool));
   tool_loads_.resize(tools_.size());
-  spring_energies_.resize(contacts_.size());
   fading_forces_.resize(tools_.size());
   u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
   set_initial_motion();
@@ -268,7 +267,6 @@ void ExplicitDynamics::compute_contact_forces() {
       fail(contact.describe_thin_tool());
     const ContactLoad load = contact.add_forces(forces_, bounds_);
     tool_loads_[contact.tool()] += load;
-    spring_energies_[contact.pair()] = load.stored_energy;
     if (tool.inverse_inertia() > 0.)
       tool_stiffness_[contact.tool()] += contact.stiffness_against_tool();
     works_.friction += load.dissipation;
@@ -309,7 +307,7 @@ void ExplicitDynamics::raise_penalties() {
     return;
   const MPI_Comm communicator = discretization_.communicator();
   update_ledger();
-  PenaltyControl::Energies energies{time_, spring_energies_, {}, state_.energies};
+  PenaltyControl::Energies energies{time_, energies_of_penetration(*this), {}, state_.energies};
   std::vector<double> room;
   for (const auto &contact : contacts_)
     room.push_back(most_raise * contact.stiffening_left());
@@ -324,8 +322,6 @@ void ExplicitDynamics::raise_penalties() {
   }
   dealii::Utilities::MPI::sum(energies.of_pairs, communicator, energies.of_pairs);
   dealii::Utilities::MPI::sum(energies.of_bodies, communicator, energies.of_bodies);
-  for (const ContactLoad &load : state_.body_pair_loads)
-    energies.of_pairs.push_back(load.stored_energy);
 
   constexpr double largest = 1.1; // so that nodes settle without a blow
   const std::vector<double> factors = penalties_.raises(energies, room, largest);
@@ -333,9 +329,9 @@ void ExplicitDynamics::raise_penalties() {
     if (!(factors[p] > 1.))
       continue;
     if (p < contacts_.size())
-      contacts_[p].stiffen(factors[p]);
+      contacts_[p].scale_penalties(factors[p], 1.);
     else
-      body_contacts_[p - contacts_.size()]->stiffen(factors[p]);
+      body_contacts_[p - contacts_.size()]->scale_penalties(factors[p], 1.);
     // What the springs that are compressed now hold more is given to them.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       works_.external += (factors[p] - 1.) * energies.of_pairs[p];

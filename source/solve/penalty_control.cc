@@ -61,6 +61,16 @@ std::vector<PenaltyControl::Path> paths_of(const Scene &scene, const Discretizat
 
 } // namespace
 
+std::vector<double> energies_of_penetration(const Solution &solution) {
+  std::vector<double> energies;
+  for (const auto &reports : solution.report_contacts()) {
+    energies.push_back(0.);
+    for (const auto &node : reports)
+      energies.back() += 0.5 * node.pressure * node.penetration * node.area;
+  }
+  return energies;
+}
+
 PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<Path> &paths)
     : pairs_(std::move(pairs)) {
   constexpr double crossings = 2.; // until bodies deform as a whole

@@ -211,9 +211,8 @@ DiagnosticList QuasiStatic::describe_raises(const std::vector<double> &factors) 
 DiagnosticList QuasiStatic::control_penalties() {
   if (!motion_ || !penalties_.is_used())
     return {};
-  PenaltyControl::Energies energies{state_.time, tool_pair_energies_, {}, state_.energies};
-  for (const ContactLoad &load : state_.body_pair_loads)
-    energies.of_pairs.push_back(load.stored_energy);
+  PenaltyControl::Energies energies{state_.time, energies_of_penetration(*this), {}, state_.energies};
+  dealii::Utilities::MPI::sum(energies.of_pairs, discretization_.communicator(), energies.of_pairs);
   for (std::size_t b = 0; b < scene_.bodies().size(); ++b) {
     double deformation = 0.;
     for (const ElementSummary &element : summarize(b))
@@ -231,7 +230,10 @@ DiagnosticList QuasiStatic::control_penalties() {
   for (std::size_t i = 0; i < factors.size(); ++i) {
     if (!(factors[i] > 1.))
       continue;
-    stiffen(i, factors[i]);
+    if (i < contacts_.size())
+      contacts_[i].scale_penalties(factors[i], 1.);
+    else
+      body_contacts_[i - contacts_.size()]->scale_penalties(factors[i], 1.);
     const double given = (factors[i] - 1.) * energies.of_pairs[i];
     state_.energies.contact += given;
     state_.energies.external += given;

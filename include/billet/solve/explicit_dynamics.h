@@ -132,7 +132,6 @@ private:
   std::vector<FreeTool> tools_;
   std::vector<ContactLoad> tool_loads_; ///< at t_n, of this rank
   std::vector<double> tool_stiffness_;  ///< against free tools, of this rank
-  std::vector<double> spring_energies_; ///< of pairs with tools at t_n, of this rank
   bool has_free_tools_ = false;
   std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools, of this rank, as they were
 

@@ -15,8 +15,11 @@
 
 namespace billet {
 
-/// Raises the penalties of dynamic scenes, of pairs that leave them to the program, while penetration takes
-/// more than a small part of the deformation along their load path, (L7) of doc/theory.md.
+/// ½ Σ p g A of each pair on this rank, pairs with tools first [energy].
+std::vector<double> energies_of_penetration(const Solution &solution);
+
+/// Raises the normal penalties of dynamic scenes, of pairs that leave them to the program, while penetration
+/// takes more than a small part of the deformation along their load path, (L7) of doc/theory.md.
 class PenaltyControl {
 public:
   struct Pair {
@@ -39,7 +42,7 @@ public:
   /// What all ranks know at a time.
   struct Energies {
     double time = 0.;
-    std::vector<double> of_pairs;  ///< in their penalty springs, pairs with tools first
+    std::vector<double> of_pairs;  ///< of penetration, pairs with tools first
     std::vector<double> of_bodies; ///< elastic and plastic
     EnergyLedger all;
   };
