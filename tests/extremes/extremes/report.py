@@ -232,9 +232,8 @@ def write(records, folder, planned=0, program=""):
              "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
              "alone is right or told, and not soft, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. "
              "Scenes that are soft as they are" + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "") + " count as soft for penalties, strains and shapes only, and so do those that are told. "
-             "Static scenes leave contact to the program, which augments it, unless they turn a penalty. In motion blocks are strained as named only under penalties that do not give way: "
-             "where a strain or a shape is turned they are raised to what that takes, up to 1e5 E/h (the default of 10 E/h lets an elastic block that is pressed to ln -1 give way at -0.76, "
-             "and one pressed to ln -3 at -1.3: soft, and the log says so). "
+             "Blocks are strained as named only under penalties that do not give way: where a strain or a shape is turned they are raised to what that takes, "
+             "up to 1e5 E/h (the default of 10 E/h lets an elastic block that is pressed to ln -1 give way at -0.76, and one pressed to ln -3 at -1.3: soft, and the log says so). "
              "*In pairs*: it is never turned alone, and all its scenes count; soft ones are so by the other parameter. Empty: not tried. Counts are of all scenes, those in pairs with it included. Scenes of "
              "fixed steps below a hundredth of the load end after twenty of them."]
     names = []

@@ -251,8 +251,8 @@ def shaped(k, n):
 
 
 def stiff(k, height, facet):
-    """In motion: with penalties that give way by less than a fiftieth of what is left of the height, or of its change, if the block is
-    to be `strained` as named; else as it is."""
+    """With penalties that give way by less than a fiftieth of what is left of the height, or of its change, if the block is to be
+    `strained` as named; else as it is."""
     if not k.strained:
         return k
     pressure = abs(k.strain) * math.exp(-(1 - 2 * k.nu) * k.strain)  # E, of a bar
@@ -263,6 +263,7 @@ def stiff(k, height, facet):
 def upset(k):
     """A block between two plane tools, held in two planes of symmetry: a bar in compression."""
     f, n, h = frame_of(k), k.bricks or 2, k.aspect
+    k = stiff(k, h, 1 / n)
     travel = h * (1 - math.exp(k.strain))
     pushed = {"Force": f.expression(f"{number(k.force * k.young)}*{{t}}", number(f.force) + "*"), "Force direction": f.vector((0, 0, -1))} if k.force else None
     mesh = box((n, n, n), (0, 0, 0), (1, 1, 1 if k.grading != 1 or k.distortion else h))
