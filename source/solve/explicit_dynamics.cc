@@ -64,7 +64,7 @@ double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] 
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), parameters_(scene.parameters().explicit_dynamics),
-      nodes_(discretization), held_(scene, nodes_), penalties_(scene, discretization) {
+      nodes_(discretization), held_(scene, nodes_), penalties_(scene) {
   make_blocks();
   make_masses();
   for (std::size_t p = 0; p < scene.pairs().size(); ++p) {

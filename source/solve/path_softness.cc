@@ -11,7 +11,6 @@ void PathSoftness::add(const double time, const double penetration, const double
     penetration_ += half * (last_.penetration + penetration);
     deformation_ += half * (last_.deformation + deformation);
     all_ += half * (last_.all + all_energy);
-    duration_ += 2. * half;
   }
   last_ = now;
 }
@@ -23,7 +22,7 @@ double PathSoftness::part(const double counts) const {
 
 void PathSoftness::save(std::vector<double> &numbers) const {
   numbers.insert(numbers.end(), {last_.time, last_.penetration, last_.deformation, last_.all, penetration_,
-                                 deformation_, all_, duration_});
+                                 deformation_, all_});
 }
 
 void PathSoftness::load(const double *numbers) {
@@ -31,7 +30,6 @@ void PathSoftness::load(const double *numbers) {
   penetration_ = numbers[4];
   deformation_ = numbers[5];
   all_ = numbers[6];
-  duration_ = numbers[7];
 }
 
 } // namespace billet

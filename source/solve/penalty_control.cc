@@ -19,19 +19,6 @@ constexpr double slow = 0.01;         ///< kinetic energy beside that of deforma
 constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
 constexpr double largest_target = 4.; ///< at which softness is measured anew
 
-double largest_extent(const Discretization &discretization, const std::size_t body) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> box(6, -infinity); // −low, high
-  for (const auto &element : discretization.elements(body))
-    for (const unsigned int v : element.cell->vertex_indices())
-      for (unsigned int i = 0; i < 3; ++i) {
-        box[i] = std::max(box[i], -element.cell->vertex(v)[i]);
-        box[3 + i] = std::max(box[3 + i], element.cell->vertex(v)[i]);
-      }
-  dealii::Utilities::MPI::max(box, discretization.communicator(), box);
-  return std::max({box[0] + box[3], box[1] + box[4], box[2] + box[5]});
-}
-
 std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
   std::vector<PenaltyControl::Pair> pairs;
   for (const auto &pair : scene.pairs())
@@ -39,24 +26,6 @@ std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
   for (const auto &pair : scene.body_pairs())
     pairs.push_back({pair.name, pair.is_raised});
   return pairs;
-}
-
-std::vector<PenaltyControl::Path> paths_of(const Scene &scene, const Discretization &discretization) {
-  std::vector<PenaltyControl::Path> paths;
-  if (!scene.parameters().is_dynamic())
-    return paths;
-  for (LoadPath &parts : find_load_paths(scene)) {
-    double crossing = 0.;
-    for (const std::size_t b : parts.bodies) {
-      const Body &body = scene.bodies()[b];
-      crossing = std::max(crossing,
-                          largest_extent(discretization, b) * std::sqrt(body.density / body.largest_modulus));
-    }
-    // Implicit steps would follow each node that is pushed out while bodies move fast.
-    constexpr double never = std::numeric_limits<double>::infinity();
-    paths.push_back({std::move(parts), scene.parameters().is_explicit() ? crossing : never});
-  }
-  return paths;
 }
 
 } // namespace
@@ -71,31 +40,26 @@ std::vector<double> energies_of_penetration(const Solution &solution) {
   return energies;
 }
 
-PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<Path> &paths)
+PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths)
     : pairs_(std::move(pairs)) {
-  constexpr double crossings = 2.; // until bodies deform as a whole
-  if (is_used())
-    for (const Path &path : paths)
-      paths_.push_back({path, crossings * path.crossing_time, 1., {}});
+  for (const LoadPath &path : paths)
+    if (!path.bears_given_loads)
+      paths_.push_back({path, 1., {}});
 }
 
-PenaltyControl::PenaltyControl(const Scene &scene, const Discretization &discretization)
-    : PenaltyControl(pairs_of(scene), paths_of(scene, discretization)) {}
+PenaltyControl::PenaltyControl(const Scene &scene)
+    : PenaltyControl(pairs_of(scene), find_load_paths(scene)) {}
 
 bool PenaltyControl::is_used() const {
   return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.may_be_raised; });
 }
 
 void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<double> &room) {
-  const EnergyLedger &all = energies.all;
-  const bool is_slow = all.kinetic < slow * (all.of_elements() + all.contact);
-  if (!is_slow && !(path.softness.duration() > path.wait))
-    return;
   const double part = path.softness.part(counts);
   if (!(part > allowed))
     return;
   const double raise = std::min(part / aim, largest_target);
-  for (const std::size_t pair : path.path.parts.pairs) {
+  for (const std::size_t pair : path.parts.pairs) {
     if (!pairs_[pair].may_be_raised || !(energies.of_pairs[pair] > 0.) || !(room[pair] > 1.))
       continue;
     path.left = raise;
@@ -122,14 +86,14 @@ std::vector<double> PenaltyControl::raises(const Energies &energies, const std::
   time_ = energies.time;
   for (Controlled &path : paths_) {
     double penetration = 0., deformation = 0.;
-    for (const std::size_t pair : path.path.parts.pairs)
+    for (const std::size_t pair : path.parts.pairs)
       penetration += energies.of_pairs[pair];
-    for (const std::size_t body : path.path.parts.bodies)
+    for (const std::size_t body : path.parts.bodies)
       deformation += energies.of_bodies[body];
     const EnergyLedger &all = energies.all;
-    path.softness.add(energies.time, penetration, deformation,
-                      path.path.parts.bears_given_loads ? all.total() : all.of_elements() + all.contact);
-    if (!(penetration > 0.))
+    path.softness.add(energies.time, penetration, deformation, all.of_elements() + all.contact);
+    const bool is_slow = all.kinetic < slow * (all.of_elements() + all.contact);
+    if (!is_slow || !(penetration > 0.))
       continue;
     if (path.left == 1.)
       judge(path, energies, room);
@@ -137,11 +101,10 @@ std::vector<double> PenaltyControl::raises(const Energies &energies, const std::
       continue;
     const double factor = std::min(path.left, largest);
     path.left /= factor;
-    for (const std::size_t pair : path.path.parts.pairs)
+    for (const std::size_t pair : path.parts.pairs)
       if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > notable_pair * penetration)
         factors[pair] = std::max(1., std::min(factor, room[pair]));
     path.softness.restart();
-    path.wait = path.path.crossing_time;
   }
   return factors;
 }
@@ -155,14 +118,14 @@ DiagnosticList PenaltyControl::take_diagnostics() {
 void PenaltyControl::save(StateWriter &writer) const {
   std::vector<double> numbers{time_};
   for (const Controlled &path : paths_) {
-    numbers.insert(numbers.end(), {path.wait, path.left});
+    numbers.push_back(path.left);
     path.softness.save(numbers);
   }
   writer.write("penalty control", numbers);
 }
 
 void PenaltyControl::load(const StateReader &reader) {
-  constexpr std::size_t of_path = 2 + PathSoftness::n_numbers;
+  constexpr std::size_t of_path = 1 + PathSoftness::n_numbers;
   if (!reader.has("penalty control"))
     return;
   const std::vector<double> numbers = reader.read("penalty control");
@@ -171,9 +134,8 @@ void PenaltyControl::load(const StateReader &reader) {
   time_ = numbers[0];
   const double *next = numbers.data() + 1;
   for (Controlled &path : paths_) {
-    path.wait = next[0];
-    path.left = next[1];
-    path.softness.load(next + 2);
+    path.left = next[0];
+    path.softness.load(next + 1);
     next += of_path;
   }
 }

@@ -16,12 +16,10 @@ public:
   /// The part by which forces of driven tools are too small; 0 where penetration holds less than the part
   /// `counts` of all energy, and so is no matter for the scene.
   double part(double counts = 0.01) const;
-  /// Time in which pairs pressed.
-  double duration() const { return duration_; }
   /// Forgets all but the last energies.
-  void restart() { penetration_ = deformation_ = all_ = duration_ = 0.; }
+  void restart() { penetration_ = deformation_ = all_ = 0.; }
 
-  static constexpr std::size_t n_numbers = 8;
+  static constexpr std::size_t n_numbers = 7;
   void save(std::vector<double> &numbers) const;
   void load(const double *numbers);
 
@@ -31,7 +29,6 @@ private:
   };
   Sample last_;                                           ///< at time 0 nothing
   double penetration_ = 0., deformation_ = 0., all_ = 0.; ///< integrals over time
-  double duration_ = 0.;
 };
 
 } // namespace billet

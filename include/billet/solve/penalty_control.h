@@ -3,7 +3,6 @@
 #define BILLET_SOLVE_PENALTY_CONTROL_H
 
 #include "billet/diagnostics.h"
-#include "billet/discretization/discretization.h"
 #include "billet/scene/scene.h"
 #include "billet/solve/load_paths.h"
 #include "billet/solve/path_softness.h"
@@ -26,15 +25,9 @@ public:
     std::string name;
     bool may_be_raised;
   };
-  struct Path {
-    LoadPath parts;
-    /// Of a wave through its largest body: how long fast motion has to be watched; infinite: it is not
-    /// judged.
-    double crossing_time;
-  };
   /// Pairs with tools first.
-  PenaltyControl(std::vector<Pair> pairs, const std::vector<Path> &paths);
-  PenaltyControl(const Scene &scene, const Discretization &discretization);
+  PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths);
+  explicit PenaltyControl(const Scene &scene);
 
   /// Whether there is a pair that leaves its penalty to the program.
   bool is_used() const;
@@ -57,8 +50,7 @@ public:
 
 private:
   struct Controlled {
-    Path path;
-    double wait;           ///< time in contact after which it is judged
+    LoadPath parts;
     double left = 1.;      ///< factor by which penalties are still to be raised
     PathSoftness softness; ///< since the last raise
   };
