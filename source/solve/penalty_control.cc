@@ -51,7 +51,11 @@ PenaltyControl::PenaltyControl(const Scene &scene)
     : PenaltyControl(pairs_of(scene), find_load_paths(scene)) {}
 
 bool PenaltyControl::is_used() const {
-  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.may_be_raised; });
+  return std::any_of(paths_.begin(), paths_.end(), [this](const Controlled &path) {
+    const auto &pairs = path.parts.pairs;
+    return std::any_of(pairs.begin(), pairs.end(),
+                       [this](const std::size_t pair) { return pairs_[pair].may_be_raised; });
+  });
 }
 
 void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<double> &room) {
