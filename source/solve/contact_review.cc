@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/scene/plausibility.h"
+#include "billet/solve/solution_energies.h"
 
 #include <algorithm>
 #include <array>
@@ -207,9 +208,7 @@ void ContactReview::add(const Solution &solution) {
     if (paths_[i].bodies.size() < scene_.bodies().size()) {
       deformation = 0.;
       for (const std::size_t body : paths_[i].bodies)
-        for (const auto &element : solution.summarize(body))
-          deformation += element.elastic_energy + element.plastic_work + element.hourglass_energy;
-      deformation = dealii::Utilities::MPI::sum(deformation, discretization_.communicator());
+        deformation += energy_of_body(solution, body, discretization_.communicator());
     }
     const double all = paths_[i].bears_given_loads ? ledger.total() : ledger.of_elements() + ledger.contact;
     if (std::isfinite(penetration + deformation + all))

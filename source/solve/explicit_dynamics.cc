@@ -307,21 +307,13 @@ void ExplicitDynamics::raise_penalties() {
     return;
   const MPI_Comm communicator = discretization_.communicator();
   update_ledger();
-  PenaltyControl::Energies energies{time_, energies_of_penetration(*this), {}, state_.energies};
+  const PenaltyControl::Energies energies = PenaltyControl::measure(*this, scene_, time_, communicator);
   std::vector<double> room;
   for (const auto &contact : contacts_)
     room.push_back(most_raise * contact.stiffening_left());
   for (const auto &contact : body_contacts_)
     room.push_back(most_raise * contact->stiffening_left());
   dealii::Utilities::MPI::min(room, communicator, room);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    double deformation = 0.;
-    for (const ElementSummary &element : summarize(b))
-      deformation += element.elastic_energy + element.plastic_work + element.hourglass_energy;
-    energies.of_bodies.push_back(deformation);
-  }
-  dealii::Utilities::MPI::sum(energies.of_pairs, communicator, energies.of_pairs);
-  dealii::Utilities::MPI::sum(energies.of_bodies, communicator, energies.of_bodies);
 
   constexpr double largest = 1.1; // so that nodes settle without a blow
   const std::vector<double> factors = penalties_.raises(energies, room, largest);

@@ -3,6 +3,7 @@
 
 #include "billet/contact/traction.h"
 #include "billet/diagnostic_kinds.h"
+#include "billet/solve/solution_energies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,16 +30,6 @@ std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
 }
 
 } // namespace
-
-std::vector<double> energies_of_penetration(const Solution &solution) {
-  std::vector<double> energies;
-  for (const auto &reports : solution.report_contacts()) {
-    energies.push_back(0.);
-    for (const auto &node : reports)
-      energies.back() += 0.5 * node.pressure * node.penetration * node.area;
-  }
-  return energies;
-}
 
 PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths)
     : pairs_(std::move(pairs)) {
@@ -80,6 +71,14 @@ void PenaltyControl::judge(Controlled &path, const Energies &energies, const std
                                .advice("Nothing has to be done. Time steps may be shorter from now on; "
                                        "'Penetration tolerance = 0' keeps the penalty"));
   }
+}
+
+PenaltyControl::Energies PenaltyControl::measure(const Solution &solution, const Scene &scene,
+                                                 const double time, const MPI_Comm communicator) {
+  Energies energies{time, energies_of_penetration(solution, communicator), {}, solution.state().energies};
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
+    energies.of_bodies.push_back(energy_of_body(solution, body, communicator));
+  return energies;
 }
 
 std::vector<double> PenaltyControl::raises(const Energies &energies, const std::vector<double> &room,

@@ -540,6 +540,8 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
         report.failure += contact->describe_restless();
       report.failure += describe_slipping_tools() + describe_sliding() + describe_residual();
     }
+    if (state_.time < loss_.time && report.failure != loss_.text && !report.is_lost_in_round_off)
+      report.failure += "; a step that goes further failed since " + loss_.text;
   }
   report.linear_iterations = linear_->take_iterations();
   append(report.diagnostics, std::move(messages));

@@ -211,15 +211,8 @@ DiagnosticList QuasiStatic::describe_raises(const std::vector<double> &factors) 
 DiagnosticList QuasiStatic::control_penalties() {
   if (!motion_ || !penalties_.is_used())
     return {};
-  PenaltyControl::Energies energies{state_.time, energies_of_penetration(*this), {}, state_.energies};
-  dealii::Utilities::MPI::sum(energies.of_pairs, discretization_.communicator(), energies.of_pairs);
-  for (std::size_t b = 0; b < scene_.bodies().size(); ++b) {
-    double deformation = 0.;
-    for (const ElementSummary &element : summarize(b))
-      deformation += element.elastic_energy + element.plastic_work + element.hourglass_energy;
-    energies.of_bodies.push_back(deformation);
-  }
-  dealii::Utilities::MPI::sum(energies.of_bodies, discretization_.communicator(), energies.of_bodies);
+  const PenaltyControl::Energies energies =
+      PenaltyControl::measure(*this, scene_, state_.time, discretization_.communicator());
   std::vector<double> room = stiffening_left();
   for (double &left : room)
     left *= most_raise;

@@ -179,6 +179,7 @@ bool QuasiStatic::loses_bodies(const double t, NewtonReport &report) {
       throw SolutionFailure(scene_.parameters().file_name + ": " + text.str() +
                             ". What was computed until then is in '" +
                             scene_.parameters().output.folder.value + "'");
+    loss_ = {t, text.str()};
     report.converged = false;
     report.failure = text.str();
     report.is_explained = true;

@@ -27,7 +27,7 @@ SCENES = [  # label, file, changes
     ("drop hammer", scene("drop_hammer"), {}),
     ("thin slab", SLAB, {SCHEME: "explicit", "Time stepping/Initial step": None, **IN_MOTION}), ("stacked plates", PLATES, {SCHEME: "explicit"}),
     ("Taylor's bar", scene("taylor_bar"), {}), ("tubes", scene("tube_impact"), {}), ("tube crush, to 1 ms", scene("tube_crush"), {"Time stepping/End time": "1e-3"}),
-    ("cartridge", scene("cartridge"), {})]
+    ("cartridge, to 0.3 ms", scene("cartridge"), {"Time stepping/End time": "3e-4"})]
 if options.quick:
     SCENES = [row for row in SCENES if row[1] in (SLAB, PLATES)]
 

@@ -14,9 +14,6 @@
 
 namespace billet {
 
-/// ½ Σ p g A of each pair on this rank, pairs with tools first [energy].
-std::vector<double> energies_of_penetration(const Solution &solution);
-
 /// Raises the normal penalties of dynamic scenes, of pairs that leave them to the program, while penetration
 /// takes more than a small part of the deformation along their load path, (L7) of doc/theory.md.
 class PenaltyControl {
@@ -39,6 +36,8 @@ public:
     std::vector<double> of_bodies; ///< elastic and plastic
     EnergyLedger all;
   };
+  /// Those of a solution whose ledger is that of this time. Collective.
+  static Energies measure(const Solution &solution, const Scene &scene, double time, MPI_Comm communicator);
   /// By which factor the penalty of each pair is to be raised now, by at most `room` in all; 1: it stays.
   /// `largest`: at most so much at a time. Of a time that it knows nothing is raised again.
   std::vector<double> raises(const Energies &energies, const std::vector<double> &room, double largest);

@@ -525,6 +525,11 @@ private:
   std::vector<SupportedNode> supported_nodes_;
   /// contact_forces_on_bodies() at the end of the last step, and the largest so far.
   std::vector<double> body_forces_n_, largest_forces_;
+  struct Loss {
+    double time = -1.;
+    std::string text;
+  };
+  Loss loss_; ///< the earliest of a body that a step failed for; explains what steps before it fail for
   std::vector<RigidBodySupport::Mode> let_go_;          ///< bodies that this step has begun to hold
   std::unique_ptr<ContactStabilisation> stabilisation_; ///< of static scenes with such bodies
   std::vector<bool> needs_no_stabilisation_;            ///< of bodies that supports hold; or empty

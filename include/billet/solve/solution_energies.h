@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_SOLUTION_ENERGIES_H
+#define BILLET_SOLVE_SOLUTION_ENERGIES_H
+
+#include "billet/solve/solution.h"
+
+#include <vector>
+
+namespace billet {
+
+/// ½ Σ p g A of each pair, pairs with tools first [energy]. Collective; the same on all ranks.
+std::vector<double> energies_of_penetration(const Solution &solution, MPI_Comm communicator);
+
+/// What a body's elements have taken [energy]: stored, and dissipated by yielding. Collective.
+double energy_of_body(const Solution &solution, std::size_t body, MPI_Comm communicator);
+
+} // namespace billet
+
+#endif

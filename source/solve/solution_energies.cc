@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/solution_energies.h"
+
+#include <deal.II/base/mpi.h>
+
+namespace billet {
+
+std::vector<double> energies_of_penetration(const Solution &solution, const MPI_Comm communicator) {
+  std::vector<double> energies;
+  for (const auto &reports : solution.report_contacts()) {
+    energies.push_back(0.);
+    for (const auto &node : reports)
+      energies.back() += 0.5 * node.pressure * node.penetration * node.area;
+  }
+  dealii::Utilities::MPI::sum(energies, communicator, energies);
+  return energies;
+}
+
+double energy_of_body(const Solution &solution, const std::size_t body, const MPI_Comm communicator) {
+  double energy = 0.;
+  for (const ElementSummary &element : solution.summarize(body))
+    energy += element.elastic_energy + element.plastic_work + element.hourglass_energy;
+  return dealii::Utilities::MPI::sum(energy, communicator);
+}
+
+} // namespace billet
