@@ -16,7 +16,8 @@ namespace {
 
 /// (L7): the part that penetration may take, the part to which raises lead, and what is no matter.
 constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
-constexpr double slow = 0.01;         ///< kinetic energy beside that of deformation, of motion without waves
+constexpr double slow =
+    0.01; ///< largest kinetic energy so far beside that of deformation now, of motion without blows
 constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
 constexpr double largest_target = 4.; ///< at which softness is measured anew
 
@@ -84,6 +85,7 @@ PenaltyControl::Energies PenaltyControl::measure(const Solution &solution, const
 std::vector<double> PenaltyControl::raises(const Energies &energies, const std::vector<double> &room,
                                            const double largest) {
   std::vector<double> factors(pairs_.size(), 1.);
+  largest_kinetic_ = std::max(largest_kinetic_, energies.all.kinetic);
   if (!(energies.time > time_))
     return factors;
   time_ = energies.time;
@@ -95,7 +97,7 @@ std::vector<double> PenaltyControl::raises(const Energies &energies, const std::
       deformation += energies.of_bodies[body];
     const EnergyLedger &all = energies.all;
     path.softness.add(energies.time, penetration, deformation, all.of_elements() + all.contact);
-    const bool is_slow = all.kinetic < slow * (all.of_elements() + all.contact);
+    const bool is_slow = largest_kinetic_ < slow * (all.of_elements() + all.contact);
     if (!is_slow || !(penetration > 0.))
       continue;
     if (path.left == 1.)
@@ -119,7 +121,7 @@ DiagnosticList PenaltyControl::take_diagnostics() {
 }
 
 void PenaltyControl::save(StateWriter &writer) const {
-  std::vector<double> numbers{time_};
+  std::vector<double> numbers{time_, largest_kinetic_};
   for (const Controlled &path : paths_) {
     numbers.push_back(path.left);
     path.softness.save(numbers);
@@ -132,10 +134,11 @@ void PenaltyControl::load(const StateReader &reader) {
   if (!reader.has("penalty control"))
     return;
   const std::vector<double> numbers = reader.read("penalty control");
-  if (numbers.size() != 1 + of_path * paths_.size())
+  if (numbers.size() != 2 + of_path * paths_.size())
     return; // of other pairs
   time_ = numbers[0];
-  const double *next = numbers.data() + 1;
+  largest_kinetic_ = numbers[1];
+  const double *next = numbers.data() + 2;
   for (Controlled &path : paths_) {
     path.left = next[0];
     path.softness.load(next + 1);

@@ -2,6 +2,9 @@
 """Runs of any scene, their cost, and the errors of their curves: what benchmarks of profiles and target errors share."""
 
 import csv
+import functools
+import hashlib
+import json
 import os
 import subprocess
 import sys
@@ -13,17 +16,40 @@ from pathlib import Path
 from billet_runs import PROGRAM, ROOT, read_scene, variant
 
 
+KEPT = ROOT / "results/runs"
+
+
+@functools.lru_cache(maxsize=1)
+def program_hash():
+    return hashlib.sha256(Path(PROGRAM).read_bytes()).hexdigest()
+
+
 class CurveRun:
     """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it `finished`, `times`, `forces` of tools and pairs of bodies by name and `curves`
     (the same; of explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit scenes
-    element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`."""
+    element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`. Kept in results/runs, where the
+    same run of the same program is found again."""
 
     def __init__(self, scene, changes, ranks=1):
+        left_out = {key for key, value in changes.items() if value is None}
+        changes = {key: value for key, value in changes.items() if value is not None}
+        text = variant(without(absolute_files(read_scene(scene), scene.parent), left_out),
+                       {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes})
+        kept = KEPT / (hashlib.sha256(f"{program_hash()} {ranks} {text}".encode()).hexdigest()[:24] + ".json")
+        if kept.exists():
+            self.__dict__.update(json.loads(kept.read_text()))
+        else:
+            self._run(text, ranks)
+            KEPT.mkdir(parents=True, exist_ok=True)
+            unfinished = kept.with_suffix(f".{os.getpid()}")
+            unfinished.write_text(json.dumps(self.__dict__))
+            unfinished.replace(kept)
+        print(f"[{scene.stem}: " + ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in changes.items())
+              + f"] {self.steps} steps, {self.work}, {self.seconds:.3g} s" + ("" if self.finished else ", failed"),
+              file=sys.stderr, flush=True)
+
+    def _run(self, text, ranks):
         with tempfile.TemporaryDirectory() as place:
-            left_out = {key for key, value in changes.items() if value is None}
-            changes = {key: value for key, value in changes.items() if value is not None}
-            text = variant(without(absolute_files(read_scene(scene), scene.parent), left_out),
-                           {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes})
             (Path(place) / "scene.prm").write_text(text)
             command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
             # Of this process and its own, since others may run beside it.
@@ -59,9 +85,6 @@ class CurveRun:
         self.elements = int(said_elements[0].split()[0]) if said_elements else 0
         self.work = self.steps * self.elements if self.is_explicit else (
             int(rows[-1]["total_iterations"]) if rows else 0)
-        print(f"[{scene.stem}: " + ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in changes.items())
-              + f"] {self.steps} steps, {self.work}, {self.seconds:.3g} s" + ("" if self.finished else ", failed"),
-              file=sys.stderr, flush=True)
 
     def at(self, name, time):
         """The curve's value, straight lines between the rows, from zero at time 0."""

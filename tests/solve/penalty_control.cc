@@ -50,9 +50,14 @@ PenaltyControl control(const bool may_be_raised) {
 void check_raises() {
   auto penalties = control(true);
   Press press;
-  press.kinetic = 0.1;
-  check("nothing in fast motion", press.run(penalties, 0.25, 4.) == 1.);
-  press.kinetic = 1e-3;
+  auto blow = control(true);
+  Press impact;
+  impact.kinetic = 0.1;
+  check("nothing in fast motion", impact.run(blow, 0.25, 4.) == 1.);
+  impact.kinetic = 1e-6;
+  check("nor where that turns round", impact.run(blow, 4., 20.) == 1.);
+  impact.force = 10.;
+  check("but once it is pressed much harder", impact.run(blow, 20., 40.) == 1.1);
   check("not at once in slow motion", press.run(penalties, 4., 100.) == 1.1);
   check("until penetration takes 0.3 to 0.4 %", press.softness() < 0.004 && press.softness() > 0.0025);
   const DiagnosticList messages = penalties.take_diagnostics();

@@ -55,7 +55,8 @@ private:
   };
   void judge(Controlled &path, const Energies &energies, const std::vector<double> &room);
 
-  double time_ = 0.; ///< of the last raises()
+  double time_ = 0.;            ///< of the last raises()
+  double largest_kinetic_ = 0.; ///< so far
   std::vector<Pair> pairs_;
   std::vector<Controlled> paths_;
   DiagnosticList diagnostics_;

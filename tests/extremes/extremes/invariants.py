@@ -254,8 +254,8 @@ GAUSS = numpy.array([[(1 + s * g) / 2 for s in (-1, 1)] for g in (-1 / math.sqrt
 CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
 
 
-def determinants(points):
-    """At the 2 x 2 x 2 points of hexahedra; points: (elements, 8, 3), in VTK's order."""
+def jacobi_matrices(points):
+    """At the 2 x 2 x 2 points of hexahedra: (elements, 8, 3, 3); points: (elements, 8, 3), in VTK's order."""
     result = []
     for q in range(8):
         at = [(1 + (2 * ((q >> d) & 1) - 1) / math.sqrt(3)) / 2 for d in range(3)]
@@ -264,14 +264,29 @@ def determinants(points):
             values = [at[d] if corner[d] else 1 - at[d] for d in range(3)]
             for d in range(3):
                 gradients[a, d] = (1 if corner[d] else -1) * values[(d + 1) % 3] * values[(d + 2) % 3]
-        result.append(numpy.linalg.det(numpy.einsum("eai,aj->eij", points, gradients)))
-    return numpy.array(result).T
+        result.append(numpy.einsum("eai,aj->eij", points, gradients))
+    return numpy.array(result).transpose(1, 0, 2, 3)
+
+
+def determinants(points):
+    return numpy.linalg.det(jacobi_matrices(points))
 
 
 def volume_ratio(r):
     cells = r.fields["cells"]
     x = r.fields["places"]
     return determinants((x + r.fields["displacement"])[cells]).sum(axis=1) / determinants(x[cells]).sum(axis=1)
+
+
+def volume_ratio_of_law(r):
+    """det of the mean deformation gradient, but of mean dilatation the ratio of the volumes."""
+    if r.knobs.element == "mean dilatation":
+        return volume_ratio(r)
+    x, cells = r.fields["places"], r.fields["cells"]
+    before, now = jacobi_matrices(x[cells]), jacobi_matrices((x + r.fields["displacement"])[cells])
+    weights = numpy.linalg.det(before)
+    mean = numpy.einsum("eq,eqij->eij", weights, now @ numpy.linalg.inv(before)) / weights.sum(axis=1)[:, None, None]
+    return numpy.linalg.det(mean)
 
 
 def jacobians(r):
@@ -282,7 +297,7 @@ def jacobians(r):
 
 
 def yields(r):
-    """q(τ) <= σ_y(α): von Mises' stress times J."""
+    """q(τ) <= σ_y(α): von Mises' stress times J, the one by which the element divides τ."""
     k = r.knobs
     if k.law != "elastoplastic" or "equivalent_plastic_strain" not in r.fields:
         return []
@@ -290,7 +305,7 @@ def yields(r):
     first = r.fields["cells"][:, 0]
     stress, plastic = r.fields["von_mises_stress"][first], r.fields["equivalent_plastic_strain"][first]
     body = r.fields["body"][first]
-    j = volume_ratio(r)
+    j = volume_ratio_of_law(r)
     limit = numpy.array([yield_stress(k, float(a), k.young * (k.modulus_ratio if b == 1 else 1.0)) for a, b in zip(plastic, body)])
     loose = 3e-2 if k.hardening != "linear" else 3e-3
     gentle = (k.penalty < 10 or abs(k.strain) < 0.05 or k.press < 0.02 or k.slide < 0.2 or k.speed < 0.01 or k.step is not None or k.force or k.moment
@@ -578,8 +593,8 @@ def impact_force(name, force, begin, end):
     """ρ c v A, in the mean, until the wave is back."""
     def check(r):
         k = r.knobs
-        stiffest = k.penalty * max(k.modulus_ratio, 1 / k.modulus_ratio)  # beyond 1e3 nodes rattle, and rows of the history are samples of blows
-        if k.mass_scaling or k.speed > 0.03 or k.law != "elastic" or k.penalty < 3 or stiffest > 1e3 or k.nu != 0.0 or (k.bricks or 8) < 8:
+        stiffest = k.penalty * max(k.modulus_ratio, 1 / k.modulus_ratio)  # from 1e3 on nodes rattle, and rows of the history are samples of blows
+        if k.mass_scaling or k.speed > 0.03 or k.law != "elastic" or k.penalty < 3 or stiffest >= 1e3 or k.nu != 0.0 or (k.bricks or 8) < 8:
             return []
         t, f = r.history["time"], numpy.abs(r.force(name)[:, 2])
         window = (t > begin) & (t < end)

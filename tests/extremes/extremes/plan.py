@@ -39,6 +39,9 @@ DYNAMIC = tuple(f"{b}.implicit" for b in ("drop", "bar", "bars", "skid", "fold")
 STATICS = IMPLICIT_TOOLS + BODIES
 CONTACT = STATICS + EXPLICIT + DYNAMIC
 ALL = ("upset", "pull") + STATICS[1:] + EXPLICIT + DYNAMIC
+# Statics augments until penetration takes less than 0.005 of the forces. One augmentation more or less along the way, which
+# round-off may decide, stays in the friction: 1.7e-4 where springs alone agree to 1e-13.
+AUGMENTED = 5e-4
 FRICTIONAL = ("upset", "slide", "ball", "twist", "place", "drag", "clip", "drop.explicit", "skid.explicit", "drop.implicit", "skid.implicit")
 ELEMENTS = ("assumed strain", "mean dilatation", "one point")
 LAWS = ("Hencky", "neo-Hookean", "hypoelastic")
@@ -266,7 +269,7 @@ def everything():  # noqa: C901
                 if base.startswith("skid"):
                     more = {**more, "duration": 0.1}
                 yield Case(base, {**more, "turned": degrees}, ("turned",), (degrees,), like=dict(more), count="",
-                           loose=1e-3 if base.endswith(("implicit", "explicit")) else 2e-5)
+                           loose=1e-3 if base.endswith(("implicit", "explicit")) else AUGMENTED if base in FRICTIONAL else 2e-5)
     for base in ("upset", "slide", "stack", "drop.explicit"):
         for law in LAWS:
             for element in ELEMENTS:
