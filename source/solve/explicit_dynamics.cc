@@ -315,8 +315,7 @@ void ExplicitDynamics::raise_penalties() {
     room.push_back(most_raise * contact->stiffening_left());
   dealii::Utilities::MPI::min(room, communicator, room);
 
-  constexpr double largest = 1.1; // so that nodes settle without a blow
-  const std::vector<double> factors = penalties_.raises(energies, room, largest);
+  const std::vector<double> factors = penalties_.raises(energies, room);
   for (std::size_t p = 0; p < factors.size(); ++p) {
     if (!(factors[p] > 1.))
       continue;

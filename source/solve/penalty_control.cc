@@ -20,6 +20,7 @@ constexpr double slow =
     0.01; ///< largest kinetic energy so far beside that of deformation now, of motion without blows
 constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
 constexpr double largest_target = 4.; ///< at which softness is measured anew
+constexpr double largest_raise = 1.1; ///< at a time, so that nodes settle without a blow
 
 std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
   std::vector<PenaltyControl::Pair> pairs;
@@ -82,8 +83,7 @@ PenaltyControl::Energies PenaltyControl::measure(const Solution &solution, const
   return energies;
 }
 
-std::vector<double> PenaltyControl::raises(const Energies &energies, const std::vector<double> &room,
-                                           const double largest) {
+std::vector<double> PenaltyControl::raises(const Energies &energies, const std::vector<double> &room) {
   std::vector<double> factors(pairs_.size(), 1.);
   largest_kinetic_ = std::max(largest_kinetic_, energies.all.kinetic);
   if (!(energies.time > time_))
@@ -104,7 +104,7 @@ std::vector<double> PenaltyControl::raises(const Energies &energies, const std::
       judge(path, energies, room);
     if (path.left == 1.)
       continue;
-    const double factor = std::min(path.left, largest);
+    const double factor = std::min(path.left, largest_raise);
     path.left /= factor;
     for (const std::size_t pair : path.parts.pairs)
       if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > notable_pair * penetration)

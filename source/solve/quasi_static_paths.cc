@@ -216,8 +216,7 @@ DiagnosticList QuasiStatic::control_penalties() {
   std::vector<double> room = stiffening_left();
   for (double &left : room)
     left *= most_raise;
-  constexpr double largest = 4.;
-  const std::vector<double> factors = penalties_.raises(energies, room, largest);
+  const std::vector<double> factors = penalties_.raises(energies, room);
   // Forces at the start of the step are those of before, so that penalties grow within the step. What the
   // springs that are compressed now hold more is given to them.
   for (std::size_t i = 0; i < factors.size(); ++i) {

@@ -31,7 +31,7 @@ struct Press {
   double run(PenaltyControl &control, const double from, const double end) {
     double largest = 1.;
     for (double time = from; time < end; time += 0.25) {
-      const auto factors = control.raises(at(time), {room, room}, 1.1);
+      const auto factors = control.raises(at(time), {room, room});
       contact *= factors[0];
       room /= factors[0];
       largest = std::max({largest, factors[0], factors[1]});
@@ -85,7 +85,7 @@ void check_limits() {
   for (double time = 0.25; time < 50.; time += 0.25) {
     energies.time = time;
     energies.all.elastic = 1e3 * energies.of_bodies[0]; // of other bodies
-    largest = std::max(largest, light.raises(energies, {100., 100.}, 1.1)[0]);
+    largest = std::max(largest, light.raises(energies, {100., 100.})[0]);
   }
   check("not where it is no matter for the scene", largest == 1.);
   LoadPath loaded;
@@ -99,7 +99,7 @@ void check_limits() {
   Press once;
   once.run(twice, 0.25, 8.);
   const double before = once.contact;
-  once.contact *= twice.raises(once.at(7.75), {once.room, once.room}, 1.1)[0];
+  once.contact *= twice.raises(once.at(7.75), {once.room, once.room})[0];
   check("once at a time", once.contact == before);
 }
 

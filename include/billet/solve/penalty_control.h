@@ -38,9 +38,9 @@ public:
   };
   /// Those of a solution whose ledger is that of this time. Collective.
   static Energies measure(const Solution &solution, const Scene &scene, double time, MPI_Comm communicator);
-  /// By which factor the penalty of each pair is to be raised now, by at most `room` in all; 1: it stays.
-  /// `largest`: at most so much at a time. Of a time that it knows nothing is raised again.
-  std::vector<double> raises(const Energies &energies, const std::vector<double> &room, double largest);
+  /// By which factor the penalty of each pair is to be raised now, by at most `room` in all and a tenth at a
+  /// time; 1: it stays. Of a time that it knows nothing is raised again.
+  std::vector<double> raises(const Energies &energies, const std::vector<double> &room);
   /// What the last raises() began.
   DiagnosticList take_diagnostics();
 
