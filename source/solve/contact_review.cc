@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <type_traits>
 
@@ -206,9 +207,8 @@ void ContactReview::add(const Solution &solution) {
     for (const std::size_t pair : paths_[i].pairs)
       penetration += sums[n_sums * pair];
     if (paths_[i].bodies.size() < scene_.bodies().size()) {
-      deformation = 0.;
-      for (const std::size_t body : paths_[i].bodies)
-        deformation += energy_of_body(solution, body, discretization_.communicator());
+      const auto energies = energies_of_bodies(solution, paths_[i].bodies, discretization_.communicator());
+      deformation = std::accumulate(energies.begin(), energies.end(), 0.);
     }
     const double all = paths_[i].bears_given_loads ? ledger.total() : ledger.of_elements() + ledger.contact;
     if (std::isfinite(penetration + deformation + all))

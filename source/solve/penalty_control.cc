@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace billet {
@@ -16,8 +17,7 @@ namespace {
 
 /// (L7): the part that penetration may take, the part to which raises lead, and what is no matter.
 constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
-constexpr double slow =
-    0.01; ///< largest kinetic energy so far beside that of deformation now, of motion without blows
+constexpr double slow = 0.01;         ///< largest kinetic energy so far beside what deformation takes now
 constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
 constexpr double largest_target = 4.; ///< at which softness is measured anew
 constexpr double largest_raise = 1.1; ///< at a time, so that nodes settle without a blow
@@ -77,10 +77,10 @@ void PenaltyControl::judge(Controlled &path, const Energies &energies, const std
 
 PenaltyControl::Energies PenaltyControl::measure(const Solution &solution, const Scene &scene,
                                                  const double time, const MPI_Comm communicator) {
-  Energies energies{time, energies_of_penetration(solution, communicator), {}, solution.state().energies};
-  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
-    energies.of_bodies.push_back(energy_of_body(solution, body, communicator));
-  return energies;
+  std::vector<std::size_t> bodies(scene.bodies().size());
+  std::iota(bodies.begin(), bodies.end(), std::size_t(0));
+  return {time, energies_of_penetration(solution, communicator),
+          energies_of_bodies(solution, bodies, communicator), solution.state().energies};
 }
 
 std::vector<double> PenaltyControl::raises(const Energies &energies, const std::vector<double> &room) {

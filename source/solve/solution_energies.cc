@@ -16,11 +16,16 @@ std::vector<double> energies_of_penetration(const Solution &solution, const MPI_
   return energies;
 }
 
-double energy_of_body(const Solution &solution, const std::size_t body, const MPI_Comm communicator) {
-  double energy = 0.;
-  for (const ElementSummary &element : solution.summarize(body))
-    energy += element.elastic_energy + element.plastic_work + element.hourglass_energy;
-  return dealii::Utilities::MPI::sum(energy, communicator);
+std::vector<double> energies_of_bodies(const Solution &solution, const std::vector<std::size_t> &bodies,
+                                       const MPI_Comm communicator) {
+  std::vector<double> energies;
+  for (const std::size_t body : bodies) {
+    energies.push_back(0.);
+    for (const ElementSummary &element : solution.summarize(body))
+      energies.back() += element.elastic_energy + element.plastic_work + element.hourglass_energy;
+  }
+  dealii::Utilities::MPI::sum(energies, communicator, energies);
+  return energies;
 }
 
 } // namespace billet

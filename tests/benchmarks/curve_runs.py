@@ -4,19 +4,20 @@
 import csv
 import functools
 import hashlib
-import json
 import os
 import subprocess
 import sys
 import tempfile
 from bisect import bisect_right
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from billet_runs import PROGRAM, ROOT, read_scene, variant
-
+from billet_runs import PROGRAM, ROOT, read_scene, variant  # finds billet_trade, too
+from billet_trade.runs import read_json, write_json
 
 KEPT = ROOT / "results/runs"
+_asked = Counter()  # what this process runs several times, to time it, runs as often
 
 
 @functools.lru_cache(maxsize=1)
@@ -35,15 +36,16 @@ class CurveRun:
         changes = {key: value for key, value in changes.items() if value is not None}
         text = variant(without(absolute_files(read_scene(scene), scene.parent), left_out),
                        {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes})
-        kept = KEPT / (hashlib.sha256(f"{program_hash()} {ranks} {text}".encode()).hexdigest()[:24] + ".json")
-        if kept.exists():
-            self.__dict__.update(json.loads(kept.read_text()))
-        else:
+        key = hashlib.sha256(f"{program_hash()} {ranks} {text}".encode()).hexdigest()[:24]
+        _asked[key] += 1
+        file = KEPT / f"{key}-{_asked[key]}.json"
+        kept = read_json(file)
+        if kept is None:
             self._run(text, ranks)
             KEPT.mkdir(parents=True, exist_ok=True)
-            unfinished = kept.with_suffix(f".{os.getpid()}")
-            unfinished.write_text(json.dumps(self.__dict__))
-            unfinished.replace(kept)
+            write_json(file, self.__dict__)
+        else:
+            self.__dict__.update(kept)
         print(f"[{scene.stem}: " + ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in changes.items())
               + f"] {self.steps} steps, {self.work}, {self.seconds:.3g} s" + ("" if self.finished else ", failed"),
               file=sys.stderr, flush=True)

@@ -11,8 +11,10 @@ namespace billet {
 /// ½ Σ p g A of each pair, pairs with tools first [energy]. Collective; the same on all ranks.
 std::vector<double> energies_of_penetration(const Solution &solution, MPI_Comm communicator);
 
-/// What a body's elements have taken [energy]: stored, and dissipated by yielding. Collective.
-double energy_of_body(const Solution &solution, std::size_t body, MPI_Comm communicator);
+/// What the elements of each of these bodies have taken [energy]: stored, and dissipated by yielding.
+/// Collective; the same on all ranks.
+std::vector<double> energies_of_bodies(const Solution &solution, const std::vector<std::size_t> &bodies,
+                                       MPI_Comm communicator);
 
 } // namespace billet
 
