@@ -751,6 +751,19 @@ void FacetContact::scale_penalties(const double normal, const double tangential)
   last_augmentations_.assign(last_augmentations_.size(), Augmentation());
 }
 
+void FacetContact::stiffen_under_load(const double factor) {
+  scale_penalties(factor, 1.);
+  has_lifts_ = true;
+  initial_depths_.resize(slaves_.size());
+  for (std::size_t s = 0; s < slaves_.size(); ++s) {
+    if (!states_[s].presses() || !(states_[s].traction.pressure > 0.))
+      continue;
+    initial_depths_[s] -= (1. - 1. / factor) * states_[s].contact.gap;
+    states_[s].contact.gap /= factor;
+    pressed_n_[s].depth /= factor;
+  }
+}
+
 double FacetContact::pace_of_augmentation(const std::size_t s, const double gap) const {
   const auto [lift_before, gap_before] = last_augmentations_[s];
   const double lifted = lifts_[s] - lift_before, closed = gap - gap_before;

@@ -968,6 +968,20 @@ void RigidContact::scale_penalties(const double normal, const double tangential)
   }
 }
 
+void RigidContact::stiffen_under_load(const double factor) {
+  scale_penalties(factor, 1.);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node &node = nodes_[i];
+    if (node.is_fixed || !(states_[i].pressure > 0.))
+      continue;
+    node.initial_depth -= (1. - 1. / factor) * states_[i].gap;
+    states_[i].gap /= factor;
+    node.gap_n /= factor;
+    if (knows_pressures_)
+      pressed_n_[i].depth /= factor;
+  }
+}
+
 double RigidContact::stiffening_left() const { return most_stiffening_ / stiffening_; }
 
 double RigidContact::tangential_stiffening_left() const { return most_tangential_stiffening_ / stiffening_; }

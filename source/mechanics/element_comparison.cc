@@ -115,8 +115,11 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
       const double bending = (back * modes[between] - reference.modes[between]) * along / length,
                    taper = reference.modes[between] * along / thickness;
       const double wanted = -bending * taper * length / thickness;
+      if (wanted == 0.)
+        continue;
       const double stress = lame * trace(strain) + 2. * shear * (through * (strain * through));
-      energy += 0.5 * reference.volume * std::clamp(stress * wanted, 0., young * wanted * wanted);
+      const double locked = std::clamp(stress * wanted, 0., young * wanted * wanted);
+      energy += 0.5 * reference.volume * locked * (1. + 3. * locked / (young * bending * bending));
     }
   return energy;
 }
@@ -144,11 +147,9 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
   if (!add_one_point(positions, displacements, one_point) ||
       !add_points(AssumedStrainElement<>(elastic_, formulation_), own.accurate))
     return false;
-  // A body that yields stores less of all its strains. Nothing bends by taper alone.
-  constexpr double most = 0.95;
-  own.tapered =
-      elastic > 0. ? own.accurate * std::min(most, energy_of_taper(positions, displacements) / elastic) : 0.;
-  own.one_point = std::max(0., one_point.used - own.tapered);
+  // A body that yields stores less of all its strains.
+  own.tapered = elastic > 0. ? own.accurate * energy_of_taper(positions, displacements) / elastic : 0.;
+  own.one_point = one_point.used;
   switch (formulation_.element) {
   case ElementFormulation::Element::assumed_strain:
     own.used = own.accurate;
@@ -161,7 +162,6 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
     own += one_point;
     break;
   }
-  own.accurate -= own.tapered;
   if (!std::isfinite(own.used + own.one_point + own.accurate))
     return false;
   energies += own;

@@ -314,6 +314,8 @@ void ContactPair::parse(Reader &reader) {
   penalty_unit = reader.text("Penalty unit") == "factor" ? PenaltyUnit::factor : PenaltyUnit::absolute;
   normal_penalty = reader.positive("Normal penalty");
   has_own_penalty = reader.is_set("Normal penalty");
+  if (penalty_unit == PenaltyUnit::absolute && !has_own_penalty)
+    reader.reject("Penalty unit", "factor, as long as there is no 'Normal penalty'");
   if (reader.text("Tangential penalty").empty())
     tangential_penalty = normal_penalty;
   else {

@@ -13,11 +13,14 @@ namespace {
 
 using ElementType = ElementFormulation::Element;
 
+bool is_of_taper(const ElementEnergies &energies) {
+  constexpr double much = 0.5;
+  return energies.tapered > much * (energies.used + energies.tapered - energies.accurate);
+}
+
 /// What helps a body whose elements are too stiff: never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
-  constexpr double much = 0.5;
-  const bool is_of_taper = energies.tapered > much * (energies.used - energies.accurate);
-  return is_of_taper || formulation.element != ElementType::mean_dilatation
+  return is_of_taper(energies) || formulation.element != ElementType::mean_dilatation
              ? "Use bricks with edges along the normal of the surface, or shorter ones"
              : "Use 'Element = assumed strain'";
 }
@@ -109,7 +112,10 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     if (is_stiff)
       text << "are " << factor
            << " times too stiff for this deformation: forces are too large, or displacements too small, by "
-           << (has_yield ? "up to" : "at least") << " this factor";
+           << (has_yield                   ? "up to"
+               : is_of_taper(energies_[b]) ? "about"
+                                           : "at least")
+           << " this factor";
     else // no bound, and no direction: in skewed bricks they are too stiff all the same
       text << "store " << 1. / factor
            << " times less energy in this deformation than they should: forces or displacements may be off "

@@ -55,6 +55,8 @@ void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
     std::fill_n(&vectors[std::size_t{nodal_stride} * node], nodal_stride, 0.);
 }
 
+constexpr double largest_raise = 1.1; // of penalties at a time, so that nodes settle without a blow
+
 constexpr const char *flat_element_advice =
     "try a mesh that is finer, or of better shape, where it deforms most, or a material that hardens";
 
@@ -64,7 +66,7 @@ double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] 
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), parameters_(scene.parameters().explicit_dynamics),
-      nodes_(discretization), held_(scene, nodes_), penalties_(scene) {
+      nodes_(discretization), held_(scene, nodes_), penalties_(scene, largest_raise) {
   make_blocks();
   make_masses();
   for (std::size_t p = 0; p < scene.pairs().size(); ++p) {

@@ -19,8 +19,6 @@ namespace {
 constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
 constexpr double slow = 0.01;         ///< largest kinetic energy so far beside what deformation takes now
 constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
-constexpr double largest_target = 4.; ///< at which softness is measured anew
-constexpr double largest_raise = 1.1; ///< at a time, so that nodes settle without a blow
 
 std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
   std::vector<PenaltyControl::Pair> pairs;
@@ -33,15 +31,16 @@ std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
 
 } // namespace
 
-PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths)
-    : pairs_(std::move(pairs)) {
+PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths,
+                               const double largest_raise)
+    : largest_raise_(largest_raise), pairs_(std::move(pairs)) {
   for (const LoadPath &path : paths)
     if (!path.bears_given_loads)
       paths_.push_back({path, 1., {}});
 }
 
-PenaltyControl::PenaltyControl(const Scene &scene)
-    : PenaltyControl(pairs_of(scene), find_load_paths(scene)) {}
+PenaltyControl::PenaltyControl(const Scene &scene, const double largest_raise)
+    : PenaltyControl(pairs_of(scene), find_load_paths(scene), largest_raise) {}
 
 bool PenaltyControl::is_used() const {
   return std::any_of(paths_.begin(), paths_.end(), [this](const Controlled &path) {
@@ -104,7 +103,7 @@ std::vector<double> PenaltyControl::raises(const Energies &energies, const std::
       judge(path, energies, room);
     if (path.left == 1.)
       continue;
-    const double factor = std::min(path.left, largest_raise);
+    const double factor = std::min(path.left, largest_raise_);
     path.left /= factor;
     for (const std::size_t pair : path.parts.pairs)
       if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > notable_pair * penetration)

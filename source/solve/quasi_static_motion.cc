@@ -104,11 +104,13 @@ bool QuasiStatic::may_be_cut(const double t) const {
          t - state_.time > stepping.smallest_step * (1. + rounding);
 }
 
+double QuasiStatic::largest_energy_of_trial() const {
+  return std::max(largest_energy_, std::abs(trial_energies_.total()));
+}
+
 double QuasiStatic::energy_error(const double imbalance) const {
   constexpr double of_run = 0.02, of_rest = 0.05, always = 1e-4; // of the largest energy; of what is left
-  const double of_elements = trial_energies_.total();
-  const double largest =
-      std::max({largest_energy_, 0.5 * std::abs(state_.energies.total()), std::abs(of_elements)});
+  const double largest = std::max(largest_energy_of_trial(), 0.5 * std::abs(state_.energies.total()));
   const double allowed =
       std::max(always * largest, of_rest * (of_run * largest - std::abs(element_balance_)));
   return allowed > 0. ? std::abs(imbalance) / allowed : 0.;
@@ -193,20 +195,20 @@ void QuasiStatic::damp_contact() {
 }
 
 double QuasiStatic::taken_by_contact(const ContactLoss &loss) const {
-  return std::max(0., motion_->damps_contact() ? loss.total
-                                               : contact_balance_ + loss.total - may_make * largest_energy_);
+  return std::max(0., motion_->damps_contact()
+                          ? loss.total
+                          : contact_balance_ + loss.total - may_make * largest_energy_of_trial());
 }
 
 bool QuasiStatic::contact_is_out_of_balance(const double t, NewtonReport &report) {
   if (!motion_)
     return false;
   update_largest_energy();
+  const double largest = largest_energy_of_trial(); // in the first step there has been none before
   const ContactLoss loss = contact_loss(t);
-  report.makes_energy =
-      !motion_->damps_contact() && contact_balance_ + loss.total < -may_make * largest_energy_;
+  report.makes_energy = !motion_->damps_contact() && contact_balance_ + loss.total < -may_make * largest;
   // So long a step that bodies meet in it, rather than at its end.
-  const bool takes_too_much =
-      taken_by_contact(loss) - loss.friction > may_take * largest_energy_ && may_be_cut(t);
+  const bool takes_too_much = taken_by_contact(loss) - loss.friction > may_take * largest && may_be_cut(t);
   if (!report.makes_energy && !takes_too_much)
     return false;
   report.converged = false;

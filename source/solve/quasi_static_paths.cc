@@ -217,22 +217,23 @@ DiagnosticList QuasiStatic::control_penalties() {
   for (double &left : room)
     left *= most_raise;
   const std::vector<double> factors = penalties_.raises(energies, room);
-  // Forces at the start of the step are those of before, so that penalties grow within the step. What the
-  // springs that are compressed now hold more is given to them.
+  if (std::none_of(factors.begin(), factors.end(), [](const double factor) { return factor > 1.; }))
+    return {};
+  evaluate_start();
   for (std::size_t i = 0; i < factors.size(); ++i) {
     if (!(factors[i] > 1.))
       continue;
-    if (i < contacts_.size())
-      contacts_[i].scale_penalties(factors[i], 1.);
-    else
-      body_contacts_[i - contacts_.size()]->scale_penalties(factors[i], 1.);
-    const double given = (factors[i] - 1.) * energies.of_pairs[i];
-    state_.energies.contact += given;
-    state_.energies.external += given;
-    if (i < contacts_.size())
-      tool_pair_energies_[i] += given;
-    else
-      state_.body_pair_loads[i - contacts_.size()].stored_energy += given;
+    // With the same force a stiffer spring holds less: the rest stays in the penetration that is allowed now.
+    const double lost = (1. - 1. / factors[i]) * energies.of_pairs[i];
+    state_.energies.contact -= lost;
+    state_.energies.numerical += lost;
+    if (i < contacts_.size()) {
+      contacts_[i].stiffen_under_load(factors[i]);
+      tool_pair_energies_[i] -= lost;
+    } else {
+      body_contacts_[i - contacts_.size()]->stiffen_under_load(factors[i]);
+      state_.body_pair_loads[i - contacts_.size()].stored_energy -= lost;
+    }
   }
   spring_round_off_ = find_spring_round_off();
   return penalties_.take_diagnostics();

@@ -10,6 +10,8 @@ using billet::testing::check;
 
 namespace {
 
+constexpr double largest_raise = 1.1;
+
 /// A bar and the contact at its end, springs in series, that a constant force presses, and a pair that does
 /// not touch.
 struct Press {
@@ -44,7 +46,7 @@ PenaltyControl control(const bool may_be_raised) {
   LoadPath path;
   path.bodies = {0};
   path.pairs = {0, 1};
-  return PenaltyControl({{"end", may_be_raised}, {"other", true}}, {path});
+  return PenaltyControl({{"end", may_be_raised}, {"other", true}}, {path}, largest_raise);
 }
 
 void check_raises() {
@@ -92,7 +94,7 @@ void check_limits() {
   loaded.bodies = {0};
   loaded.pairs = {0, 1};
   loaded.bears_given_loads = true;
-  PenaltyControl support({{"end", true}, {"other", true}}, {loaded});
+  PenaltyControl support({{"end", true}, {"other", true}}, {loaded}, largest_raise);
   Press heavy;
   check("nor where loads are given, whose forces are right", heavy.run(support, 0.25, 100.) == 1.);
   auto twice = control(true);

@@ -210,6 +210,8 @@ public:
   void stiffen(const double factor) { scale_penalties(factor, factor); }
   /// The same, with a factor of their own for the tangential ones.
   void scale_penalties(double normal, double tangential);
+  /// As RigidContact's.
+  void stiffen_under_load(double factor);
   double stiffening() const { return stiffening_; } ///< so far
   /// How deep this rank's nodes are.
   Penetration penetration() const;

@@ -12,13 +12,13 @@ namespace billet {
 struct ElementEnergies {
   double used = 0.;      ///< the element of the body
   double one_point = 0.; ///< the one-point element
-  double accurate = 0.;  ///< AssumedStrainElement, but for `tapered`
-  double tapered = 0.;   ///< what every element has too much where bricks are tapered, (L6)
+  double accurate = 0.;  ///< AssumedStrainElement
+  double tapered = 0.; ///< what bricks would store more under the same forces if they were not tapered, (L6)
   double hourglass = 0.; ///< of `used`: what a one-point element has by its stabilisation alone
   double plastic = 0.;   ///< of `used`, of one-point elements: what is dissipated
 
   /// How many times as stiff the element is as it should be, (L1): at least.
-  double factor() const { return accurate > 0. ? used / accurate : 1.; }
+  double factor() const { return accurate > 0. ? (used + tapered) / accurate : 1.; }
   ElementEnergies &operator+=(const ElementEnergies &other) {
     used += other.used;
     one_point += other.one_point;

@@ -22,9 +22,12 @@ public:
     std::string name;
     bool may_be_raised;
   };
-  /// Pairs with tools first.
-  PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths);
-  explicit PenaltyControl(const Scene &scene);
+  /// `largest_raise`: at a time, at most; pairs with tools first.
+  PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths, double largest_raise);
+  PenaltyControl(const Scene &scene, double largest_raise);
+
+  /// Factor of a raise, after which softness is measured anew.
+  static constexpr double largest_target = 4.;
 
   /// Whether there is a pair that leaves its penalty to the program.
   bool is_used() const;
@@ -38,8 +41,8 @@ public:
   };
   /// Those of a solution whose ledger is that of this time. Collective.
   static Energies measure(const Solution &solution, const Scene &scene, double time, MPI_Comm communicator);
-  /// By which factor the penalty of each pair is to be raised now, by at most `room` in all and a tenth at a
-  /// time; 1: it stays. Of a time that it knows nothing is raised again.
+  /// By which factor the penalty of each pair is to be raised now, by at most `room` in all; 1: it
+  /// stays. Of a time that it knows nothing is raised again.
   std::vector<double> raises(const Energies &energies, const std::vector<double> &room);
   /// What the last raises() began.
   DiagnosticList take_diagnostics();
@@ -55,6 +58,7 @@ private:
   };
   void judge(Controlled &path, const Energies &energies, const std::vector<double> &room);
 
+  double largest_raise_;
   double time_ = 0.;            ///< of the last raises()
   double largest_kinetic_ = 0.; ///< so far
   std::vector<Pair> pairs_;

@@ -189,6 +189,8 @@ private:
     double unexplained; ///< [energy]
   };
   ElementImbalance element_imbalance() const;
+  /// So far, the step's elements included.
+  double largest_energy_of_trial() const;
   /// That as part of what is allowed, (I9).
   double energy_error(double imbalance) const;
   /// Of contact's forces in the residual.
