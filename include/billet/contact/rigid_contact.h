@@ -143,8 +143,8 @@ public:
   void stiffen(const double factor) { scale_penalties(factor, factor); }
   /// The same, with a factor of their own for the tangential ones.
   void scale_penalties(double normal, double tangential);
-  /// Makes normal penalties so many times as stiff, and leaves pressures as they are: what of the penetrations
-  /// would press more is allowed from now on. After update() without augmentation.
+  /// Makes normal penalties so many times as stiff, and leaves pressures as they are: what of the
+  /// penetrations would press more is allowed from now on. After update() without augmentation.
   void stiffen_under_load(double factor);
   /// How many times as stiff penalties may become until those of a node of this rank are 10 E/h; below 1
   /// where one is stiffer.
