@@ -497,7 +497,7 @@ void QuasiStatic::start_step(const double t) {
 NewtonReport QuasiStatic::step(const double t, const double previous_step) {
   if (!body_failure_.empty())
     throw SolutionFailure(body_failure_);
-  DiagnosticList messages = control_penalties();
+  DiagnosticList messages;
   choose_contact_damping();
   // What stalls with stiff penalties may converge by way of softer ones.
   accepts_stalled_ = !has_stiff_contacts();
@@ -554,6 +554,7 @@ NewtonReport QuasiStatic::step(const double t, const double previous_step) {
     else
       append(report.diagnostics, check_round_off(report.force));
     append(report.diagnostics, contact_losses_.watch(largest_energy_, state_.time));
+    append(report.diagnostics, control_penalties());
   }
   return report;
 }

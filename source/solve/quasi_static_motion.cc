@@ -37,6 +37,7 @@ void QuasiStatic::start_motion() {
   }
   motion_->update_state(state_);
   state_.energies.initial = state_.energies.total();
+  control_penalties(); // learns of the motion at the start, and raises nothing yet
 }
 
 void QuasiStatic::update_accelerations() {

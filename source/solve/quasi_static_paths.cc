@@ -121,6 +121,14 @@ DiagnosticList QuasiStatic::check_motion(const double t) const {
   return {Diagnostic(diagnostic::unseen_motion, unseen + goes_unseen).time(t)};
 }
 
+namespace {
+
+bool raises_any(const std::vector<double> &factors) {
+  return std::any_of(factors.begin(), factors.end(), [](const double factor) { return factor > 1.; });
+}
+
+} // namespace
+
 std::vector<double> QuasiStatic::raises_of_penalties() const {
   constexpr double least_raise = 2., largest_raise = 8.;
   std::vector<double> factors =
@@ -153,7 +161,7 @@ bool QuasiStatic::penetrates(NewtonReport &report) {
   if (is_probing_)
     return false;
   raises_ = raises_of_penalties();
-  if (std::none_of(raises_.begin(), raises_.end(), [](const double raise) { return raise > 1.; }))
+  if (!raises_any(raises_))
     return false;
   report.converged = false;
   report.penetrates = true;
@@ -217,26 +225,30 @@ DiagnosticList QuasiStatic::control_penalties() {
   for (double &left : room)
     left *= most_raise;
   const std::vector<double> factors = penalties_.raises(energies, room);
-  if (std::none_of(factors.begin(), factors.end(), [](const double factor) { return factor > 1.; }))
+  if (!raises_any(factors))
     return {};
-  evaluate_start();
   for (std::size_t i = 0; i < factors.size(); ++i) {
     if (!(factors[i] > 1.))
       continue;
+    if (i < contacts_.size())
+      contacts_[i].stiffen_under_load(factors[i]);
+    else
+      body_contacts_[i - contacts_.size()]->stiffen_under_load(factors[i]);
     // With the same force a stiffer spring holds less: the rest stays in the penetration that is allowed now.
     const double lost = (1. - 1. / factors[i]) * energies.of_pairs[i];
-    state_.energies.contact -= lost;
+    book_in_springs(i, -lost);
     state_.energies.numerical += lost;
-    if (i < contacts_.size()) {
-      contacts_[i].stiffen_under_load(factors[i]);
-      tool_pair_energies_[i] -= lost;
-    } else {
-      body_contacts_[i - contacts_.size()]->stiffen_under_load(factors[i]);
-      state_.body_pair_loads[i - contacts_.size()].stored_energy -= lost;
-    }
   }
   spring_round_off_ = find_spring_round_off();
   return penalties_.take_diagnostics();
+}
+
+void QuasiStatic::book_in_springs(const std::size_t contact, const double energy) {
+  state_.energies.contact += energy;
+  if (contact < contacts_.size())
+    tool_pair_energies_[contact] += energy;
+  else
+    state_.body_pair_loads[contact - contacts_.size()].stored_energy += energy;
 }
 
 void QuasiStatic::raise_penalties(const std::vector<double> &factors) {
@@ -258,17 +270,15 @@ void QuasiStatic::raise_penalties(const std::vector<double> &factors) {
   const std::vector<double> after = stored_energies();
   for (std::size_t i = 0; i < factors.size(); ++i) {
     const double given = after[i] - before[i];
-    state_.energies.contact += given;
+    book_in_springs(i, given);
     state_.energies.external += given;
     if (i < contacts_.size()) {
-      tool_pair_energies_[i] += given;
       const std::size_t tool = contacts_[i].tool();
       state_.tool_loads[tool] = ContactLoad();
       for (const auto &contact : contacts_)
         if (contact.tool() == tool)
           state_.tool_loads[tool] += contact.compute_load();
-    } else
-      state_.body_pair_loads[i - contacts_.size()].stored_energy += given;
+    }
   }
   support_forces_n_ = support_forces_;
   contact_forces_n_ = contact_forces_;

@@ -38,6 +38,16 @@ int main(int argc, char *argv[]) {
         [](auto &run, const double time, History &history) { run.run(time, history); });
   }
   {
+    parameters::Scene scene = testing::read_test_scene("raised_penalties.prm"); // in the first steps
+    scene.solver.force_tolerance = 1e-11;
+    scene.time_stepping.end_time = 1e-4;
+    scene.implicit_dynamics.error_tolerance = 0.; // steps are fixed
+    testing::set_fixed_steps(scene, 20);
+    testing::test_going_on<testing::QuasiStaticRun>(
+        "Raises", scene, {0.1e-4, 0.15e-4},
+        [](auto &run, const double time, History &history) { run.run(time, history); });
+  }
+  {
     parameters::Scene scene = testing::read_test_scene("explicit_ranks.prm");
     scene.time_stepping.end_time = 0.1e-3;
     scene.tools[0].motion.removal_time.value = 0.06e-3;

@@ -236,8 +236,11 @@ private:
   /// stiffer ones hold, and start the step with their forces.
   void raise_penalties(const std::vector<double> &factors);
   DiagnosticList describe_raises(const std::vector<double> &factors) const;
-  /// Of dynamic scenes, at the start of a step: raises those that are too low. Collective.
+  /// Of dynamic scenes, after a step, whose contacts are as they were accepted: raises those that are too
+  /// low, so that a checkpoint knows them raised. Collective.
   DiagnosticList control_penalties();
+  /// Books a change of what the springs of a contact hold [energy].
+  void book_in_springs(std::size_t contact, double energy);
   /// Computes all forces at the start of the step.
   void evaluate_start();
   /// What of that is lost for good.
