@@ -162,7 +162,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
     own += one_point;
     break;
   }
-  if (!std::isfinite(own.used + own.one_point + own.accurate))
+  if (!std::isfinite(own.used + own.one_point + own.accurate + own.tapered))
     return false;
   energies += own;
   return true;

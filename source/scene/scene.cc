@@ -328,12 +328,9 @@ void Scene::make_pairs() {
   const auto penetration_tolerance = [&](const parameters::ContactPair &pair) {
     return parameters_.is_dynamic() ? pair.penetration_tolerance.value_or(0.) : pair.penetration_tolerance;
   };
-  const bool is_implicit =
-      parameters_.time_stepping.scheme != parameters::TimeStepping::Scheme::explicit_dynamics;
   const auto is_raised = [&](const parameters::ContactPair &pair) {
-    // Implicit raises allow penetrations as overlaps are allowed, and what is allowed there would fade with
-    // them.
-    const bool may_grow = !is_implicit || !(pair.ramp_time > 0.);
+    // Implicit raises allow penetrations as overlaps are allowed: with fading ones they would fade.
+    const bool may_grow = parameters_.is_explicit() || !(pair.ramp_time > 0.);
     return parameters_.is_dynamic() && !pair.penetration_tolerance && may_grow;
   };
   for (const auto &pair : parameters_.pairs) {

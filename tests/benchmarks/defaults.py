@@ -68,13 +68,12 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
     bare = numerical(entries)
     if path.stem in ENDS:
         bare |= {"Time stepping/End time": ENDS[path.stem], "Time stepping/Stops": None}
-    left = {key: value for key, value in {**entries, **bare}.items() if value is not None}
-    of_motion = {key: value for key, value in entries.items() if key.startswith("Implicit dynamics/")}
+    shortened = {**entries, **{key: value for key, value in bare.items() if value is not None}}
     coarser = COARSER.get(path.stem)
     finer = {} if coarser or path.stem in SAME else make_mesh(Scene(read_scene(path), parameters), "2")
     run = CurveRun(path, {**bare, **(coarser or {})}, options.ranks)
     for depth in (1e-3, None):
-        exact = CurveRun(path, {**bare, **finer, **tight({**left, **of_motion}, depth)}, options.ranks)
+        exact = CurveRun(path, {**bare, **finer, **tight(shortened, depth)}, options.ranks)
         if exact.finished or exact.is_explicit:
             break
     off = error(run, exact) if run.finished and exact.finished else math.nan

@@ -17,7 +17,7 @@ struct ElementEnergies {
   double hourglass = 0.; ///< of `used`: what a one-point element has by its stabilisation alone
   double plastic = 0.;   ///< of `used`, of one-point elements: what is dissipated
 
-  /// How many times as stiff the element is as it should be, (L1): at least.
+  /// How many times as stiff the element is as it should be, (L1): at least; of tapered bricks about.
   double factor() const { return accurate > 0. ? (used + tapered) / accurate : 1.; }
   ElementEnergies &operator+=(const ElementEnergies &other) {
     used += other.used;
