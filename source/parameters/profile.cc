@@ -70,7 +70,7 @@ constexpr std::array<Row, 34> rows = {{
     {implicit, "Solver", "Linear tolerance", "1e-4", "", "0.03 E 1e-3"},
     // Contact: augmented where accuracy counts, but in dynamics, where nodes that have come in would have to
     // stop within a step; in explicit scenes stiffer, and better resolved in time.
-    {statics, "Contact pairs", "Penetration tolerance", "0", "1e-5", "1e-5"},
+    {statics, "Contact pairs", "Penetration tolerance", "0", "automatic", "1e-5"},
     // Of bodies that fold onto themselves, in few places and late.
     {statics, "Contact pairs", "Facets", "planed", "", ""},
     {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "40", "0.09 / E"},

@@ -250,13 +250,13 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
   prm.declare_entry(
-      "Penetration tolerance", "automatic", Patterns::Anything(),
+      "Penetration tolerance", "", Patterns::Anything(),
       ">= 0. 0: penalties as they are; else, in implicit scenes, tractions are augmented in each step "
       "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
       "slipped elastically by more; where that takes long, or fails, penalties are adapted. "
       "automatic: in statics, until penetration takes no more than 0.2 % of the force of the pair; in "
-      "dynamics penalties rise while it takes more than 0.4 % of the deformation; 0 beside a Normal "
-      "penalty, unless it is set. [facet sizes]");
+      "dynamics penalties rise while it takes more than 0.4 % of the deformation. Empty: 0 beside a Normal "
+      "penalty, else automatic. [facet sizes]");
   prm.declare_entry(
       "Allowed initial penetration", "1e-3", Patterns::Double(),
       "A body that starts deeper than this inside the tool, or another body, is refused. [facet "
@@ -291,11 +291,13 @@ void refuse_twice(const Reader &reader, const std::string &key, const std::vecto
 void ContactPair::parse_penetration_tolerance(Reader &reader) {
   const std::string key = "Penetration tolerance";
   penetration_tolerance.reset();
-  if (reader.text(key) == "automatic") {
-    if (has_own_penalty && !reader.is_set(key))
+  if (reader.text(key).empty()) {
+    if (has_own_penalty)
       penetration_tolerance = 0.;
     return;
   }
+  if (reader.text(key) == "automatic")
+    return;
   const auto values = reader.numbers(key);
   if (values.size() != 1 || !(values[0] >= 0.))
     reader.reject(key, "a number >= 0, or automatic");

@@ -216,7 +216,7 @@ check "the profile $_->[0] is told, and what the scene sets stays", sub {
   return $said =~ /^Profile $profile: .*$tells/m && $said !~ /Initial step =/
     ? near('force', force($folder, 'die'), force($reference, 'die'), 0.05) : "says $said";
 } for ['fast', 'Time stepping \/ Largest step = 0\.1, .*Solver \/ Linear tolerance = 1e-4'],
-      ['accurate', 'Time stepping \/ Largest step = 0\.1, Time stepping \/ Error tolerance = 1e-3, .*Solver \/ Force tolerance = 1e-8, .*Contact pairs \/ top on die \/ Penetration tolerance = 1e-3'];
+      ['accurate', 'Time stepping \/ Largest step = 0\.1, Time stepping \/ Error tolerance = 1e-3, .*Solver \/ Force tolerance = 1e-8, .*Contact pairs \/ top on die \/ Penetration tolerance = automatic'];
 check "a target error is kept and told on $_ ranks", sub {
   my $folder = billet("Target error = 3 percent & $open", ranks => $_);
   my $told = $said;
@@ -665,7 +665,7 @@ check '--check tells what a profile sets, and what the scene requires', sub {
   my ($scene) = edit($base, 'Profile = accurate & Time stepping: - Largest step & top on die: Friction coefficient = 0 & Solver: - Contact tangent');
   write_text('scene.prm', $scene);
   my ($code, $output, $errors) = run($billet, '--check', 'scene.prm');
-  for my $line ('Profile        accurate', '               Contact pairs / top on die / Penetration tolerance = 1e-3',
+  for my $line ('Profile        accurate', '               Contact pairs / top on die / Penetration tolerance = automatic',
     'Plasticity     yes: history of 1 of 1 bodies', 'Friction       no (neither allocated nor run)', 'Augmentation   yes: 1 of 1 pairs',
     'Self-contact   no (neither allocated nor run)', 'Matrix         yes: symmetric; MUMPS, which factorises half, above 10000 unknowns CG with multigrid')
   {
