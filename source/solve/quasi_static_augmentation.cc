@@ -224,6 +224,7 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
   std::vector<double> before, stiffer(contacts_.size() + body_contacts_.size(), 1.);
   std::unique_ptr<Vector> soft;
   std::vector<double> soft_offsets;
+  const std::size_t hardest = report.hardest;
   Pace pace;
   softness_.begin();
   std::vector<ContactSprings> springs = contact_springs();
@@ -278,7 +279,10 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
       take_back_augmentation();
       displacements = *soft;
       offsets = soft_offsets;
-      report.append(iterate(offsets, displacements));
+      const NewtonReport again = iterate(offsets, displacements);
+      report.append(again);
+      // What found no end in a short step finds none in a shorter one.
+      report.hardest = std::max(hardest, again.hardest);
       break;
     }
     if (const auto after = contact_springs(); report.converged && !after.empty()) {

@@ -50,12 +50,17 @@ def finite(r):
 
 def residual(r):
     """No step of statics is accepted with more than 'Force tolerance' asks for (in motion there may be no forces); what chooses
-    tolerances by itself is looked at by its errors."""
+    tolerances by itself is looked at by its errors. Beside that the last bits of positions may stay, times the springs of a face of
+    unit size."""
     if "residual" not in r.history or "kinetic_energy" in r.history or r.knobs.profile or r.knobs.target_error:
         return []
     # Of the first three steps, in which loads may begin, the program accepts what round-off leaves, however much; the last one counts.
-    after = numpy.concatenate((r.history["residual"][3:], r.history["residual"][-1:]))
-    return [Finding("residual of steps", float(numpy.max(after, initial=0.0)), 1.001 * float(r.knobs.tolerance or 1e-6))]
+    after = numpy.r_[3:max(3, len(r.history["residual"])), -1]
+    forces = numpy.max([numpy.abs(r.history[name][after]) for name in r.history if name.endswith(".force_z")] or [0 * after], axis=0)
+    springs = float(r.knobs.penalty) * float(r.knobs.young) * (r.knobs.bricks or 2)
+    bits = numpy.divide(3 * numpy.finfo(float).eps * springs, forces, out=numpy.zeros(len(after)), where=forces > 0)
+    return [Finding("residual of steps", float(numpy.max(r.history["residual"][after] - bits, initial=0.0)),
+                    1.001 * float(r.knobs.tolerance or 1e-6))]
 
 
 def deepest(r):
