@@ -131,7 +131,7 @@ inline const DiagnosticKind few_contact_nodes(
 
 inline const DiagnosticKind coarse_on_tool(
     "coarse-on-tool", Severity::warning,
-    "Facets are large beside the radius of the tool that they touch: fewer than four along a quarter turn.",
+    "Facets are large beside the radius of the tool that they touch: fewer than five along a quarter turn.",
     "Use a finer mesh where the pair touches");
 
 inline const DiagnosticKind pair_never_touched(

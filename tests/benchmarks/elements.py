@@ -38,7 +38,7 @@ def count_instructions(what):
                               text=True, check=True).stdout
     counts = {}
     for line in said.splitlines():
-        found = re.match(r"\s*([\d,]+) .*LawBlock<billet::(\w+), billet::(\w+)<.*>::evaluate\(", line)
+        found = re.match(r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::(\w+)<.*>::evaluate\(", line)
         if found and found.group(2) in CLASSES:
             key = CLASSES[found.group(2)], CLASSES[found.group(3)]
             counts[key] = max(counts.get(key, 0), int(found.group(1).replace(",", "")) / n)

@@ -19,7 +19,7 @@ namespace billet {
 struct ForceSpread {
   double force = 0., squares = 0.;                          ///< Σ m F, Σ m F²
   double nodes = 0., pressures = 0., pressure_squares = 0.; ///< Σ 1, Σ p, Σ p² of the nodes themselves
-  double on_coarse_curves = 0.; ///< force of nodes with fewer than four facets on a quarter of the radius
+  double on_coarse_curves = 0.; ///< force of nodes with fewer than five facets on a quarter turn
   double coarsest = 0.;         ///< facet size / radius of the tool, largest
   /// Of the indentations of single nodes, Σ F²/(2 E h), and all that bodies and contacts have taken by then
   /// [energy].
