@@ -85,18 +85,24 @@ void QuasiStatic::stiffen(const std::size_t contact, const double factor) {
 }
 
 std::vector<double> QuasiStatic::stiffen_slow_contacts(const std::vector<double> &before,
-                                                       const std::vector<double> &errors) {
+                                                       const std::vector<double> &errors,
+                                                       const std::vector<double> &added) {
   // An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's.
   constexpr double slow = 0.25, wanted = 0.1; // Bertsekas, Constrained Optimization, 1982, sec. 2.2.5
-  // Tools alone: stiff springs between facets that do not fit hold more than their mean gaps.
-  constexpr double more_of_soft_tools = 100.;
+  // Where softness is what counts. Stiff springs between facets that do not fit hold more than their mean
+  // gaps: pairs of bodies are as stiff only where an augmentation adds nearly all that springs hold to the
+  // force, as where bodies are confined.
+  constexpr double nearly_all = 0.98, much = 100., more_of_tools = 100., more_of_confined = 1e4;
   std::vector<double> room = stiffening_left(), factors(errors.size(), 1.);
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (contacts_[i].settings().limits_softness())
-      room[i] *= more_of_soft_tools;
+  const std::vector<bool> limits =
+      of_contacts([](const auto &contact) { return contact.settings().limits_softness(); });
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double left = errors[i] / before[i];
+    if (limits[i])
+      room[i] *= added[i] > nearly_all && errors[i] > much ? more_of_confined
+                 : i < contacts_.size()                    ? more_of_tools
+                                                           : 1.;
     if (!(errors[i] > 1. && left > slow && room[i] >= 2.))
       continue;
     factors[i] =
@@ -221,7 +227,8 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
   constexpr double slow = 0.5, smaller = 0.1, smallest = 0.01;
   const double accuracy = accuracy_;
   double last_error = std::numeric_limits<double>::infinity();
-  std::vector<double> before, stiffer(contacts_.size() + body_contacts_.size(), 1.);
+  std::vector<double> before, stiffer(contacts_.size() + body_contacts_.size(), 1.),
+      added(stiffer.size(), 0.);
   std::unique_ptr<Vector> soft;
   std::vector<double> soft_offsets;
   const std::size_t hardest = report.hardest;
@@ -266,7 +273,7 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
     }
     augment_where_asked();
     if (n > 0) {
-      const std::vector<double> factors = stiffen_slow_contacts(before, demands.of_contacts);
+      const std::vector<double> factors = stiffen_slow_contacts(before, demands.of_contacts, added);
       for (std::size_t i = 0; i < factors.size(); ++i)
         stiffer[i] *= factors[i];
     }
@@ -286,7 +293,10 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
       break;
     }
     if (const auto after = contact_springs(); report.converged && !after.empty()) {
-      softness_.learn(springs, changes_of(springs, after));
+      const auto changes = changes_of(springs, after);
+      softness_.learn(springs, changes);
+      for (std::size_t i = 0; i < added.size(); ++i)
+        added[i] = springs[i].normal.held > 0. ? changes[i][0].in_all / springs[i].normal.held : 0.;
       springs = after;
     }
   }

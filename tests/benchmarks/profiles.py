@@ -137,8 +137,8 @@ publish(
     "penalties stay); those marked cut with less time or a coarser mesh, as in the script. Work: Newton iterations with those of failed steps and of estimates, of explicit scenes element "
     "updates. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of explicit scenes of "
     "kinetic energy and of what is stored or dissipated, against a reference on the same mesh: 400 steps (implicit dynamics: an "
-    "error tolerance of 1e-6, and the penalties of the scene, whose error is not in it), augmented to 1e-6 of a facet, residuals below 1e-10; explicit: mean "
-    "dilatation, the scene's law, a penalty factor of 100 where penalties are factors, a safety factor of 0.3 and a contact "
+    "error tolerance of 1e-6, and the penalties of the scene, whose error is not in it), augmented to 1e-6 of a facet, residuals below 1e-10; explicit: assumed "
+    "strains, the scene's law, a penalty factor of 100 where penalties are factors, a safety factor of 0.3 and a contact "
     "resolution of 4. What the mesh makes is not in it. The last column: CPU seconds / work of accurate over fast, "
     "the seconds without those of setting up, which are those of a run of 1e-5 of the time (the less of two; none where that fails; at least 0.01 s are left of each, so that the largest ratios are rough). Each run once.",
     f"fast takes a quarter of accurate's CPU seconds or less in {cheaper} of {shown} scenes in which both end. " + " ".join(filter(None, (

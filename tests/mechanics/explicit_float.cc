@@ -373,6 +373,24 @@ void test_failure(const Formulation &formulation) {
   }
 }
 
+/// Displacements ahead of a wave, of 1e-41 of an element: below the normal numbers of a float, which take
+/// long.
+void test_subnormals(const Formulation &formulation) {
+  Random random;
+  const Mesh mesh = make_mesh({3, 1, 1}, 0.2, random);
+  const Path path = make_path(mesh, {1e-41, 1e-41}, 0.);
+  const MaterialLaw material{steel, voce};
+  Body exact(mesh, material, formulation), rounded(mesh, material, in_float(formulation));
+  WorstError left;
+  bool has_forces = true;
+  for (const NodalArray &u : path.displacements) {
+    has_forces = has_forces && norm(exact.advance(u, path.dt)) > 0.;
+    left.add(norm(rounded.advance(u, path.dt)));
+  }
+  check(name_of(formulation) + ", forces below the normal numbers are none", has_forces ? left.value() : 1.,
+        0.);
+}
+
 } // namespace
 
 int main() {
@@ -385,6 +403,7 @@ int main() {
     test_history(formulation);
     test_failure(formulation);
     test_slow_loading(formulation);
+    test_subnormals(formulation);
   });
   return exit_code();
 }

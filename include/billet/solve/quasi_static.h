@@ -330,11 +330,12 @@ private:
   std::vector<double> stiffening_left() const;
   /// The penalties of one of these contacts.
   void stiffen(std::size_t contact, double factor);
-  /// Makes the penalties of contacts stiffer whose errors, above 1, fell by little since `before`.
-  /// Collective.
+  /// Makes the penalties of contacts stiffer whose errors, above 1, fell by little since `before`. `added` is
+  /// what the last augmentation added to the normal force, as part of what springs held. Collective.
   /// Returns the factors, all 1 if none is.
   std::vector<double> stiffen_slow_contacts(const std::vector<double> &before,
-                                            const std::vector<double> &errors);
+                                            const std::vector<double> &errors,
+                                            const std::vector<double> &added);
   /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that, with a message on
   /// each; false if there is none. Collective.
   bool soften_augmented_contacts(DiagnosticList &messages);

@@ -346,7 +346,7 @@ FIXED = (
     "pull/kinematics=Hencky,strain=2", "slide/penalty=10000,mu=0.3", "slide/mu=10", "slide/mu=0.3,step=1", "slide/friction law=shear limited,mu=0.6",
     "slide/mu=0.2,turned=137 like mu=0.2", "ball/radius=0.001", "twist/turns=10,mu=0.2", "place/feature=seams", "place/feature=rectangle",
     "upset/tangent=numerical,first step=1,largest step=10,strain=-1,mu=0.2", "rest/penalty=1000",
-    "stack/modulus ratio=1e+06", "stack/facets=planed,penalty=10", "drag/mu=0.3", "touching/mu=0.1", "clip/penalty=100",
+    "stack/modulus ratio=1e+06", "stack/nu=0.4999", "drag/mu=0.2,tangential penalty=1e+07", "stack/facets=planed,penalty=10", "drag/mu=0.3", "touching/mu=0.1", "clip/penalty=100",
     "drop.explicit/speed=0.3", "bar.explicit/safety=0.99", "bars.explicit/density ratio=100", "bars.explicit/turned=90 like the base",
     "skid.explicit/mu=0.3", "fold.explicit/speed=0.01", "lying.explicit/penalty=1000", "drop.implicit/nu=0.45", "bar.implicit/penalty=1",
     "bars.implicit/modulus ratio=10", "skid.implicit/mu=0.01", "fold.implicit/nu=0", "lying.implicit/mu=0.1",
