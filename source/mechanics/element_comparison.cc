@@ -109,16 +109,22 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
     for (unsigned int j = 0; j < 3; ++j) { // through its thickness
       if (i == j)
         continue;
-      const unsigned int between = 3 + (3 - i - j);
-      const double length = reference.modes[i].norm(), thickness = reference.modes[j].norm();
-      const Tensor<1, 3> along = reference.modes[i] / length, through = reference.modes[j] / thickness;
-      const double bending = (back * modes[between] - reference.modes[between]) * along / length,
-                   taper = reference.modes[between] * along / thickness;
-      const double wanted = -bending * taper * length / thickness;
-      if (wanted == 0.)
+      const unsigned int k = 3 - i - j, between = 3 + k;
+      const double length = reference.modes[i].norm(), thickness = reference.modes[j].norm(),
+                   width = reference.modes[k].norm();
+      const Tensor<1, 3> along = reference.modes[i] / length, through = reference.modes[j] / thickness,
+                         across = reference.modes[k] / width;
+      const double bending = (back * modes[between] - reference.modes[between]) * along / length;
+      if (bending == 0.)
         continue;
-      const double stress = lame * trace(strain) + 2. * shear * (through * (strain * through));
-      const double locked = std::clamp(stress * wanted, 0., young * wanted * wanted);
+      const auto tapered = [&](const unsigned int mode, const double other) { // that of a_i and the other
+        return -bending * reference.modes[mode] * along / other * length / thickness;
+      };
+      const double wanted = tapered(between, thickness), sheared = tapered(3 + j, width);
+      const double stress = lame * trace(strain) + 2. * shear * (through * (strain * through)),
+                   shear_stress = 2. * shear * (across * (strain * through));
+      const double locked = std::clamp(stress * wanted, 0., young * wanted * wanted) +
+                            std::clamp(shear_stress * sheared, 0., shear * sheared * sheared);
       energy += 0.5 * reference.volume * locked * (1. + 3. * locked / (young * bending * bending));
     }
   return energy;

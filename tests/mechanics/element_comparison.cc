@@ -158,6 +158,22 @@ int main() {
             relative(bend_tapered(taper, Element::assumed_strain).factor(), exact), 0.02);
       check("with one point, too", relative(bend_tapered(taper, Element::one_point).factor(), exact), 0.05);
     }
+    // Tapered across the plane in which it bends: ends that are not square to it tilt.
+    const auto bend_across = [&](const double taper, const Element element) {
+      auto x = brick(l);
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        x[3 * a] += taper * (x[3 * a] > 0.5 * l[0] ? 1. : -1.) * (x[3 * a + 1] - 0.5 * l[1]);
+      return compare(elastic(0.), element, x, move(x, [&](const dealii::Tensor<1, 3> &p) {
+                       const double along = p[0] - 0.5 * l[0], up = p[2] - 0.5 * l[2];
+                       return curvature * dealii::Tensor<1, 3>({along * up, 0., -0.5 * along * along});
+                     }));
+    };
+    for (const double taper : {0.02, 0.05, 0.1}) {
+      const double exact = 1. + 1.5 * std::pow(l[0] * taper / l[2], 2); // 3 G/E
+      check("tapered across by " + std::to_string(taper).substr(0, 4) + " it is too stiff",
+            relative(bend_across(taper, Element::assumed_strain).factor(), exact), 0.02);
+      check("with one point, too", relative(bend_across(taper, Element::one_point).factor(), exact), 0.05);
+    }
   }
   {
     const double yield = 2., modulus = 50.;
