@@ -55,7 +55,7 @@ private:
   double energy(const Strains &strains) const {
     return energy(strains.volumetric, strains.deviatoric_energy);
   }
-  /// (L6), of elastic bricks.
+  /// (L6) with (L8), of elastic bricks.
   double energy_of_taper(const ElementVectors &positions, const ElementVectors &displacements) const;
   /// α of (L2).
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
