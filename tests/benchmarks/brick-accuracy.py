@@ -534,6 +534,6 @@ publish(
     "## What is wanted of assumed strains\n\n" + table(["limit", "found", "holds"], claims),
     *sections,
     "## Off by more than 5 %, and no warning\n\nThe run compares its element with the assumed strains on the same mesh. So it does not know of what "
-    "all elements leave out: too few bricks, trapezoids in thin layers, chords of a curved wall. Warnings that name the wrong direction count as "
+    "all elements leave out: too few bricks, chords of a curved wall. Warnings that name the wrong direction count as "
     "none.\n\n" +
     table(["scene", "case", "element", "error", "warnings"], unwarned))
