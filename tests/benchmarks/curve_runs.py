@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs of any scene, their cost, and the errors of their curves: what benchmarks of profiles and target errors share."""
 
+import copy
 import csv
 import functools
 import hashlib
@@ -161,6 +162,24 @@ def error(run, reference):
         return sum(0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], run.times, run.times[1:]))
 
     return integral(off) / integral(size) if integral(size) > 0 else float("nan")
+
+
+def impulses(run):
+    """∫F dt of each tool and pair until each of the run's times, by the trapezoidal rule."""
+    result = {}
+    for name, forces in run.forces.items():
+        sums = [(0.0, 0.0, 0.0)]
+        for s, t, a, b in zip(run.times, run.times[1:], forces, forces[1:]):
+            sums.append(tuple(total + 0.5 * (t - s) * (x + y) for total, x, y in zip(sums[-1], a, b)))
+        result[name] = sums
+    return result
+
+
+def with_impulses(run):
+    """The run with its impulses as curves, for error(): forces of different schemes vibrate differently."""
+    run = copy.copy(run)
+    run.curves = impulses(run)
+    return run
 
 
 def write_csv(name, head, rows):

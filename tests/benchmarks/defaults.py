@@ -6,13 +6,11 @@ import math
 import re
 import subprocess
 
-import numpy
-
 from billet_runs import PROGRAM, ROOT, arguments, number, percent, publish, read_scene, table  # finds billet_trade, too
 from billet_trade.knobs import make_mesh
 from billet_trade.report import short as first_sentence
 from billet_trade.scene import Scene
-from curve_runs import CurveRun, error, read_entries, write_csv
+from curve_runs import CurveRun, error, read_entries, with_impulses, write_csv
 
 options = arguments("defaults")
 LIMIT = 0.03  # of the force
@@ -62,18 +60,6 @@ def tight(entries, depth):
             **({f"Contact pairs/{name}/Penetration tolerance": depth for name in names} if depth else {})}
 
 
-def impulse_error(run, exact, n=100):
-    """∫Σ|J − J*| dt over ∫Σ|J*| dt of the impulses J = ∫F dt: forces of different schemes vibrate differently."""
-    def impulses(of, name, times):
-        steps = numpy.diff([0.0, *of.times])
-        sums = numpy.cumsum(steps[:, None] * numpy.array(of.forces[name]), axis=0)
-        return numpy.array([numpy.interp(times, [0.0, *of.times], [0.0, *sums[:, c]]) for c in range(3)])
-
-    times = numpy.linspace(0, exact.times[-1], n + 1)[1:]
-    pairs = [(impulses(run, name, times), impulses(exact, name, times)) for name in run.forces]
-    return sum(numpy.linalg.norm(a - b, axis=0).sum() for a, b in pairs) / sum(numpy.linalg.norm(b, axis=0).sum() for _, b in pairs)
-
-
 parameters = subprocess.run([PROGRAM, "--print-parameters"], check=True, capture_output=True, text=True).stdout
 rows, csv_rows, within, told, missed = [], [], [], [], []
 for path in sorted((ROOT / "prm").glob("*.prm")):
@@ -91,7 +77,8 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
         exact = CurveRun(path, {**bare, **finer, **tight(shortened, depth)}, options.ranks)
         if exact.finished or exact.is_explicit:
             break
-    off = math.nan if not (run.finished and exact.finished) else error(run, exact) if run.is_explicit == exact.is_explicit else impulse_error(run, exact)
+    seen, right = (run, exact) if run.is_explicit == exact.is_explicit else (with_impulses(run), with_impulses(exact))
+    off = error(seen, right) if run.finished and exact.finished else math.nan
     warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", run.said + run.failure)))
     verdict = "no reference" if run.finished and not exact.finished else "stops: " + first_sentence(run.failure) if not run.finished else \
         "within" if off <= LIMIT else "told" if warnings else "missed"

@@ -5,7 +5,7 @@ import math
 import re
 
 from billet_runs import ROOT, arguments, number, percent, publish, table
-from curve_runs import CurveRun, read_entries
+from curve_runs import CurveRun, impulses, read_entries
 from curve_runs import error as curve_error
 
 options = arguments("penetration")
@@ -32,21 +32,10 @@ if options.quick:
     SCENES = [row for row in SCENES if row[1] in (SLAB, PLATES)]
 
 
-def impulse(run):
-    """∫ F dt of each tool and pair by the trapezoidal rule."""
-    result = {}
-    for name, forces in run.forces.items():
-        sums = [0.0, 0.0, 0.0]
-        for (s, a), (t, b) in zip(zip(run.times, forces), list(zip(run.times, forces))[1:]):
-            sums = [total + 0.5 * (t - s) * (x + y) for total, x, y in zip(sums, a, b)]
-        result[name] = sums
-    return result
-
-
 def impulse_error(run, exact):
     if not run.finished or not exact.finished:
         return math.nan
-    found, right = impulse(run), impulse(exact)
+    found, right = ({name: sums[-1] for name, sums in impulses(of).items()} for of in (run, exact))
     return sum(math.dist(found[name], right[name]) for name in right) / sum(math.hypot(*right[name]) for name in right)
 
 
