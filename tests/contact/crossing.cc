@@ -64,6 +64,16 @@ SurfaceSide edge(const Point &x, const double along_z) {
   return {gaps[nearest] < 0. ? Side::behind : Side::front, std::abs(gaps[nearest]), normals[nearest], false};
 }
 
+/// The crease of a fold: one flank is z = 0, above its body; the other, beneath its own, slopes down to the
+/// first.
+SurfaceSide crease(const Point &x, const double depth) {
+  const Point normals[2] = {at(0., 0., 1.), at(-0.6, 0., -0.8)};
+  const double gaps[2] = {x[2], normals[1] * x};
+  const std::size_t nearest = std::abs(gaps[0]) < std::abs(gaps[1]) ? 0 : 1;
+  return {gaps[nearest] < 0. ? Side::behind : Side::front, std::abs(gaps[nearest]), normals[nearest],
+          gaps[nearest] < -depth};
+}
+
 template <class Surface>
 double free_part(const Point &from, const Point &to, const Surface &surface,
                  unsigned int *n_evaluations = nullptr) {
@@ -111,6 +121,14 @@ void check_formulas() {
       std::abs(free_part(at(-0.05, 0., 1.), at(-0.05, 0., -1.), [c](const Point &x) { return edge(x, c); }) -
                (1. + middle) / 2.),
       tolerance(2.));
+
+  // Into the crease at 0.05 below one flank, to where the other is nearer; and on through the other, until
+  // the first is nearer again: 0.6 x - 0.04 = 0.05.
+  const auto fold = [](const Point &x) { return crease(x, 0.2); };
+  check("crease, between its flanks", free_part(at(-0.5, 0., -0.05), at(0.06, 0., -0.05), fold) == 1.);
+  check("crease, through the other flank",
+        std::abs(free_part(at(-0.5, 0., -0.05), at(1.5, 0., -0.05), fold) - (0.5 + 0.15) / 2.),
+        tolerance(2.));
 
   const auto half = [](const Point &x) { return half_plane(x, 0.2); };
   check("border, through", std::abs(free_part(at(-0.5, 0., 1.), at(-0.5, 0., -3.), half) - 1.2 / 4.),

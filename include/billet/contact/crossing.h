@@ -34,6 +34,9 @@ struct SurfaceSide {
 ///
 /// The signed distance is continuous where a node goes through the surface, and jumps where it comes in from
 /// beyond the border: only the first counts. A node that is too deep at the start has no limit here.
+///
+/// Inside a wall a node changes from behind one face to behind the opposite one. Where it comes to the front
+/// of the opposite one instead, the surface is folded, and the node is between the flanks of the fold.
 template <class Locate>
 double find_free_part(const Locate &locate, const double length, const double finest) {
   constexpr double most_places = 1e4;
@@ -70,7 +73,12 @@ double find_free_part(const Locate &locate, const double length, const double fi
         const double middle = 0.5 * (free + through);
         (is_through(locate(middle)) ? through : free) = middle;
       }
-      return free;
+      here = locate(through);
+      if (here.side == Side::behind)
+        return free;
+      s = through; // the other flank of a fold
+      state = State::outside;
+      continue;
     }
     if (there.side != Side::behind)
       state = State::outside;
