@@ -27,8 +27,8 @@ def program_hash():
 
 
 class CurveRun:
-    """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it `finished`, `times`, `forces` of tools and pairs of bodies by name and `curves`
-    (the same; of explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit scenes
+    """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it `finished`, `times`, `forces` of
+    tools and pairs of bodies by name, `energies` and `curves` (forces; of explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit scenes
     element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`. Kept in results/runs, where the
     same run of the same program is found again."""
 
@@ -76,13 +76,11 @@ class CurveRun:
         self.times = [float(row["time"]) for row in rows]
         names = [key[:-len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
         self.forces = {name: [tuple(float(row[f"{name}.force_{axis}"]) for axis in "xyz") for row in rows] for name in names}
-        if self.is_explicit:
-            self.curves = {"kinetic": [(float(row["kinetic_energy"]),) for row in rows],
-                           "stored or dissipated": [
-                               (float(row["elastic_energy"]) + float(row["plastic_work"])
-                                + float(row["friction_dissipation"]),) for row in rows]}
-        else:
-            self.curves = self.forces
+        self.energies = {"kinetic": [(float(row.get("kinetic_energy", 0.0)),) for row in rows],
+                         "stored or dissipated": [
+                             (float(row["elastic_energy"]) + float(row["plastic_work"])
+                              + float(row["friction_dissipation"]),) for row in rows]}
+        self.curves = self.energies if self.is_explicit else self.forces
         self.steps = int(rows[-1]["step"]) if rows else 0
         said_elements = [line for line in self.said.splitlines() if " elements, " in line and " dofs, " in line]
         self.elements = int(said_elements[0].split()[0]) if said_elements else 0
@@ -179,6 +177,13 @@ def with_impulses(run):
     """The run with its impulses as curves, for error(): forces of different schemes vibrate differently."""
     run = copy.copy(run)
     run.curves = impulses(run)
+    return run
+
+
+def with_energies(run):
+    """The run with its energies as curves, for error(): supports that move share the load with tools."""
+    run = copy.copy(run)
+    run.curves = run.energies
     return run
 
 
