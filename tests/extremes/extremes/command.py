@@ -42,6 +42,7 @@ def parse(arguments):
     p.add_argument("--part", metavar="I/N", help="every N-th scene from the I-th on, to share the work: 1/2 and 2/2")
     p.add_argument("--kept", action="store_true", help="run nothing: report what is kept")
     p.add_argument("--report", metavar="FOLDER", help="write extremes.md to FOLDER/results and pictures to FOLDER/images")
+    p.add_argument("--before", metavar="FOLDER", help="where runs of an older version are kept: the report lists the scenes with another outcome")
     return p.parse_args(arguments)
 
 
@@ -106,7 +107,9 @@ def perform(options):
     counts = Counter(record["outcome"] for record in records)
     print(", ".join(f"{counts[outcome]} {outcome}" for outcome in OUTCOMES if counts[outcome]) + f"; {len(records)} scenes")
     if options.report:
-        report.write(records, Path(options.report), len(cases), runner.program_hash)
+        older = Runner(runner.program, Path(options.before).resolve(), False) if options.before else None
+        before = [record for record in map(older.kept, cases) if record] if older else []
+        report.write(records, Path(options.report), len(cases), runner.program_hash, before)
     if options.fixed:
         return 1 if any(counts[outcome] for outcome in UNEXPECTED) else 0
     return 0

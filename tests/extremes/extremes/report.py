@@ -206,7 +206,24 @@ def forgetful(records):
                 f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:5]) + ".")
 
 
-def write(records, folder, planned=0, program=""):
+def changed(records, before):
+    """A section on the scenes that have come out otherwise than an older version's."""
+    then = {r["name"]: r for r in before}
+    both = [(then[r["name"]], r) for r in records if r["name"] in then]
+    other = sorted(((a, b) for a, b in both if a["outcome"] != b["outcome"]), key=lambda pair: (pair[0]["outcome"], pair[1]["outcome"], pair[1]["name"]))
+    if not both:
+        return []
+
+    def said(older, newer):
+        words = " ".join((newer["reason"] or older["reason"]).split())
+        return re.sub(r"^scene\.prm(:\d+)?: ", "", words)[:200].replace("|", "\\|")
+
+    return ["## Another outcome than before", f"{len(both)} of these scenes ran with an older version, too; {len(other)} came out otherwise. "
+            "Said: now, or before where nothing is now.",
+            table(["before", "now", "scene", "said"], [[a["outcome"], b["outcome"], f"`{b['name']}`", said(a, b)] for a, b in other])]
+
+
+def write(records, folder, planned=0, program="", before=()):
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
     soft = soft_by_default(records)
@@ -258,6 +275,7 @@ def write(records, folder, planned=0, program=""):
     if bad:
         parts += ["## What must not be", table(["", "scene", "why"], [
             [r["outcome"], f"`{r['name']}`", " ".join(r["reason"].split())[:240].replace("|", "\\|")] for r in sorted(bad, key=lambda r: (r["outcome"], r["name"]))])]
+    parts += changed(records, before)
     (folder / "results/extremes.md").write_text("\n\n".join(parts) + "\n")
 
 
