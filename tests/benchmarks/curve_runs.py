@@ -173,17 +173,10 @@ def impulses(run):
     return result
 
 
-def with_impulses(run):
-    """The run with its impulses as curves, for error(): forces of different schemes vibrate differently."""
+def with_curves(run, curves):
+    """The run with other curves, for error()."""
     run = copy.copy(run)
-    run.curves = impulses(run)
-    return run
-
-
-def with_energies(run):
-    """The run with its energies as curves, for error(): supports that move share the load with tools."""
-    run = copy.copy(run)
-    run.curves = run.energies
+    run.curves = curves
     return run
 
 

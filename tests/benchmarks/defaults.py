@@ -10,7 +10,7 @@ from billet_runs import PROGRAM, ROOT, arguments, number, percent, publish, read
 from billet_trade.knobs import make_mesh
 from billet_trade.report import short as first_sentence
 from billet_trade.scene import Scene
-from curve_runs import CurveRun, error, read_entries, with_energies, with_impulses, write_csv
+from curve_runs import CurveRun, error, impulses, read_entries, with_curves, write_csv
 
 options = arguments("defaults")
 LIMIT = 0.03  # of the force
@@ -79,10 +79,11 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
         exact = CurveRun(path, {**bare, **finer, **tight(shortened, depth)}, options.ranks)
         if exact.finished or exact.is_explicit:
             break
-    seen, right = (run, exact)
-    if path.stem in OF_ENERGY or run.is_explicit != exact.is_explicit:
-        compared = with_energies if path.stem in OF_ENERGY else with_impulses
-        seen, right = compared(run), compared(exact)
+    seen, right = run, exact
+    if path.stem in OF_ENERGY:
+        seen, right = (with_curves(of, of.energies) for of in (run, exact))
+    elif run.is_explicit != exact.is_explicit:  # forces of different schemes vibrate differently
+        seen, right = (with_curves(of, impulses(of)) for of in (run, exact))
     off = error(seen, right) if run.finished and exact.finished else math.nan
     warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", run.said + run.failure)))
     verdict = "no reference" if run.finished and not exact.finished else "stops: " + first_sentence(run.failure) if not run.finished else \

@@ -12,7 +12,7 @@ from collections import Counter
 from pathlib import Path
 
 from . import ExtremesError, plan, report
-from .runner import OUTCOMES, Runner
+from .runner import OUTCOMES, Runner, read_kept
 
 BAD = ("wrong", "crashed", "hung", "unhelpful")
 UNEXPECTED = (*BAD, "doubtful", "failed")  # of the fixed scenes, which run, or are refused
@@ -107,8 +107,7 @@ def perform(options):
     counts = Counter(record["outcome"] for record in records)
     print(", ".join(f"{counts[outcome]} {outcome}" for outcome in OUTCOMES if counts[outcome]) + f"; {len(records)} scenes")
     if options.report:
-        older = Runner(runner.program, Path(options.before).resolve(), False) if options.before else None
-        before = [record for record in map(older.kept, cases) if record] if older else []
+        before = [record for record in (read_kept(Path(options.before), case) for case in cases) if record] if options.before else []
         report.write(records, Path(options.report), len(cases), runner.program_hash, before)
     if options.fixed:
         return 1 if any(counts[outcome] for outcome in UNEXPECTED) else 0

@@ -71,6 +71,14 @@ def rows(history):
     return max(history.read_text().count("\n") - 1, 0) if history.exists() else 0
 
 
+def read_kept(folder, case):
+    """Its outcome, as a Runner of this folder has kept it, or None."""
+    try:
+        return json.loads((folder / "kept" / (slug(case.name) + ".json")).read_text())
+    except (OSError, ValueError):
+        return None
+
+
 class Runner:
     """`folder`: kept/ has a JSON file for each case; work/ is where a scene runs; scenes/ has those that are not right."""
 
@@ -84,10 +92,7 @@ class Runner:
         self._references = {}
 
     def kept(self, case):
-        try:
-            return json.loads((self.folder / "kept" / (slug(case.name) + ".json")).read_text())
-        except (OSError, ValueError):
-            return None
+        return read_kept(self.folder, case)
 
     def stale(self, record):
         """Whether this outcome is of another program than ours, or was judged by other checks."""
