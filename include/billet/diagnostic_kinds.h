@@ -121,7 +121,8 @@ inline const DiagnosticKind tangential_penalty_too_low(
     "tangential-penalty-too-low", Severity::warning,
     "Nodes stick to elastic tangential springs that are soft beside the bodies: friction that sticks is too "
     "small by more than 3 %.",
-    "Increase 'Tangential penalty', or leave it out: it is that of the normal direction then");
+    "Increase 'Tangential penalty', or leave it out: it is that of the normal direction then, and rises in "
+    "slow motion");
 
 inline const DiagnosticKind few_contact_nodes(
     "few-contact-nodes", Severity::warning,

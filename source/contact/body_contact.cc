@@ -474,7 +474,8 @@ std::vector<ContactNodeReport> BodyContact::report() const {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double area = nodes_.is_owned(local_nodes_[i]) ? states[i].area : 0.;
     reports.push_back({nodes_.dofs(local_nodes_[i]), states[i].status, states[i].pressure, states[i].gap,
-                       states[i].slip, area, states[i].traction, states[i].penetration, sizes_[i]});
+                       states[i].slip, area, states[i].traction, states[i].penetration, sizes_[i],
+                       states[i].tangential_stiffness});
   }
   return reports;
 }

@@ -751,16 +751,16 @@ void FacetContact::scale_penalties(const double normal, const double tangential)
   last_augmentations_.assign(last_augmentations_.size(), Augmentation());
 }
 
-void FacetContact::stiffen_under_load(const double factor) {
-  scale_penalties(factor, 1.);
+void FacetContact::stiffen_under_load(const double normal, const double tangential) {
+  scale_penalties(normal, tangential);
   has_lifts_ = true;
   initial_depths_.resize(slaves_.size());
   for (std::size_t s = 0; s < slaves_.size(); ++s) {
     if (!states_[s].presses() || !(states_[s].traction.pressure > 0.))
       continue;
-    initial_depths_[s] -= (1. - 1. / factor) * states_[s].contact.gap;
-    states_[s].contact.gap /= factor;
-    pressed_n_[s].depth /= factor;
+    initial_depths_[s] -= (1. - 1. / normal) * states_[s].contact.gap;
+    states_[s].contact.gap /= normal;
+    pressed_n_[s].depth /= normal;
   }
 }
 
@@ -851,7 +851,8 @@ std::vector<FacetContact::NodeReport> FacetContact::report() const {
         history_.empty() ? 0. : history_[s].slip,
         touches ? state.area : 0.,
         state.traction.traction,
-        touches && state.traction.pressure > 0. ? std::abs(state.contact.gap + augmentation(s)) : 0.};
+        touches && state.traction.pressure > 0. ? std::abs(state.contact.gap + augmentation(s)) : 0.,
+        history_.empty() ? 0. : stiffness_[s].tangential};
   }
   return reports;
 }

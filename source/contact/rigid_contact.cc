@@ -968,23 +968,25 @@ void RigidContact::scale_penalties(const double normal, const double tangential)
   }
 }
 
-void RigidContact::stiffen_under_load(const double factor) {
-  scale_penalties(factor, 1.);
+void RigidContact::stiffen_under_load(const double normal, const double tangential) {
+  scale_penalties(normal, tangential);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Node &node = nodes_[i];
     if (node.is_fixed || !(states_[i].pressure > 0.))
       continue;
-    node.initial_depth -= (1. - 1. / factor) * states_[i].gap;
-    states_[i].gap /= factor;
-    node.gap_n /= factor;
+    node.initial_depth -= (1. - 1. / normal) * states_[i].gap;
+    states_[i].gap /= normal;
+    node.gap_n /= normal;
     if (knows_pressures_)
-      pressed_n_[i].depth /= factor;
+      pressed_n_[i].depth /= normal;
   }
 }
 
 double RigidContact::stiffening_left() const { return most_stiffening_ / stiffening_; }
 
-double RigidContact::tangential_stiffening_left() const { return most_tangential_stiffening_ / stiffening_; }
+double RigidContact::tangential_stiffening_left() const {
+  return most_tangential_stiffening_ / tangential_stiffening_;
+}
 
 Penetration RigidContact::penetration() const {
   Penetration deepest;
@@ -1210,6 +1212,7 @@ std::vector<ContactNodeReport> RigidContact::report() const {
     reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap + lift_of(nodes_[i]),
                        friction_.empty() ? 0. : friction_[i].slip, 0., state.traction,
                        state.pressure > 0. ? std::abs(state.gap + nodes_[i].lift) : 0., nodes_[i].size,
+                       friction_.empty() ? 0. : nodes_[i].stiffness.tangential,
                        state.pressure > 0. ? largest_curvature(state.turning) : 0.});
   }
   for_each_counted_area([&](const unsigned int i, const double area) {

@@ -318,7 +318,8 @@ void ContactPair::parse(Reader &reader) {
   has_own_penalty = reader.is_set("Normal penalty");
   if (penalty_unit == PenaltyUnit::absolute && !has_own_penalty)
     reader.reject("Penalty unit", "factor, as long as there is no 'Normal penalty'");
-  if (reader.text("Tangential penalty").empty())
+  has_own_tangential_penalty = !reader.text("Tangential penalty").empty();
+  if (!has_own_tangential_penalty)
     tangential_penalty = normal_penalty;
   else {
     const auto values = reader.numbers("Tangential penalty");

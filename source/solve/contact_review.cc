@@ -46,12 +46,22 @@ bool ForceSpread::is_coarse_on_curves() const {
 }
 
 ContactReview::ContactReview(const Scene &scene, const Discretization &discretization)
-    : scene_(scene), discretization_(discretization), tool_forces_(scene.tools().size()) {
+    : scene_(scene), discretization_(discretization), tool_forces_(scene.tools().size()),
+      stick_springs_(scene, discretization) {
+  const auto add = [this](const auto &pair, const std::vector<std::size_t> &bodies, const std::size_t tool,
+                          const bool is_self_contact) {
+    Pair added;
+    added.name = pair.name;
+    added.bodies = bodies;
+    added.tool = tool;
+    added.is_self_contact = is_self_contact;
+    added.is_augmented = pair.is_augmented();
+    pairs_.push_back(added);
+  };
   for (const auto &pair : scene.pairs())
-    pairs_.push_back({pair.name, {pair.body}, pair.tool, false, false, 0., 0., {}, {}, 0.});
+    add(pair, {pair.body}, pair.tool, false);
   for (const auto &pair : scene.body_pairs())
-    pairs_.push_back(
-        {pair.name, {pair.bodies[0], pair.bodies[1]}, none, pair.is_self_contact, false, 0., 0., {}, {}, 0.});
+    add(pair, {pair.bodies[0], pair.bodies[1]}, none, pair.is_self_contact);
   paths_ = find_load_paths(scene);
   softness_.resize(paths_.size());
 
@@ -78,7 +88,6 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
       extents[i] = box[i] + box[3 + i];
     std::sort(extents.begin(), extents.end());
     sections_.push_back(extents[1] * extents[2]);
-    lengths_.push_back(extents[2]);
   }
 }
 
@@ -128,40 +137,6 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
           own[6]};
 }
 
-ContactReview::Friction ContactReview::friction_of(const std::size_t p,
-                                                   const std::vector<ContactNodeReport> &reports) const {
-  const bool is_with_tool = p < scene_.pairs().size();
-  const parameters::ContactPair &input =
-      is_with_tool ? *scene_.pairs()[p].input : *scene_.body_pairs()[p - scene_.pairs().size()].input;
-  // Augmentation makes the springs stiffer. Where both are soft, contact is told to be too soft.
-  const bool is_augmented = is_with_tool ? scene_.pairs()[p].is_augmented()
-                                         : scene_.body_pairs()[p - scene_.pairs().size()].is_augmented();
-  if (input.friction_coefficient == 0. || is_augmented || input.tangential_penalty >= input.normal_penalty)
-    return {};
-  double stiffness = std::numeric_limits<double>::infinity(), modulus = 0.;
-  for (const std::size_t body : pairs_[p].bodies) {
-    stiffness = std::min(stiffness, scene_.bodies()[body].material.elastic.shear / lengths_[body]);
-    modulus = std::max(modulus, scene_.bodies()[body].young_modulus);
-  }
-  Friction friction;
-  for (const auto &node : reports) {
-    if (!(node.pressure > 0.) || !(node.facet_size > 0.))
-      continue;
-    const double traction =
-        std::sqrt(std::max(0., node.traction.norm_square() - node.pressure * node.pressure));
-    friction.force += traction * node.area;
-    if (node.status != ContactStatus::stick)
-      continue;
-    const double spring = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor
-                              ? input.tangential_penalty * modulus / node.facet_size
-                              : input.tangential_penalty;
-    const double when_rigid =
-        std::min(input.friction_coefficient * node.pressure, (1. + stiffness / spring) * traction);
-    friction.lost += std::max(0., when_rigid - traction) * node.area;
-  }
-  return friction;
-}
-
 void ContactReview::add(const Solution &solution) {
   constexpr double grown = 1.02; // of the force: the nodes are looked at again
   if (pairs_.empty())
@@ -170,24 +145,23 @@ void ContactReview::add(const Solution &solution) {
   for (std::size_t i = 0; i < tool_forces_.size(); ++i)
     tool_forces_[i] = std::max(tool_forces_[i], state.tool_loads[i].force.norm());
   const auto reports = solution.report_contacts();
-  // Of each pair the energy of its penetrations, its force, its friction and what it leaves out of that.
-  constexpr std::size_t n_sums = 4;
+  const std::vector<StickSoftness> sticking = stick_springs_.measure(reports);
+  constexpr std::size_t n_sums = 2; // of each pair the energy of its penetrations, its force
   std::vector<double> sums(n_sums * pairs_.size());
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     for (const auto &node : reports[p]) {
       sums[n_sums * p] += 0.5 * node.pressure * node.penetration * node.area;
       sums[n_sums * p + 1] += node.pressure * node.area;
     }
-    const Friction friction = friction_of(p, reports[p]);
-    sums[n_sums * p + 2] = friction.force;
-    sums[n_sums * p + 3] = friction.lost;
   }
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     Pair &pair = pairs_[p];
     const double force = sums[n_sums * p + 1];
-    pair.largest_friction.force = std::max(pair.largest_friction.force, sums[n_sums * p + 2]);
-    pair.largest_friction.lost = std::max(pair.largest_friction.lost, sums[n_sums * p + 3]);
+    if (!pair.is_augmented) { // which makes the springs stiffer; where both are soft, contact is told to be
+      pair.largest_friction.force = std::max(pair.largest_friction.force, sticking[p].friction);
+      pair.largest_friction.lost = std::max(pair.largest_friction.lost, sticking[p].lost);
+    }
     // Edges that cross press, too, and are no slave nodes.
     const std::size_t n_with_tools = scene_.pairs().size();
     const double of_all = p < n_with_tools ? 0. : state.body_pair_loads[p - n_with_tools].force.norm();

@@ -55,8 +55,6 @@ void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
     std::fill_n(&vectors[std::size_t{nodal_stride} * node], nodal_stride, 0.);
 }
 
-constexpr double largest_raise = 1.1; // of penalties at a time, so that nodes settle without a blow
-
 constexpr const char *flat_element_advice =
     "try a mesh that is finer, or of better shape, where it deforms most, or a material that hardens";
 
@@ -66,7 +64,8 @@ double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] 
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), parameters_(scene.parameters().explicit_dynamics),
-      nodes_(discretization), held_(scene, nodes_), penalties_(scene, largest_raise) {
+      nodes_(discretization), held_(scene, nodes_),
+      penalties_(scene, discretization, PenaltyControl::in_explicit_scenes) {
   make_blocks();
   make_masses();
   for (std::size_t p = 0; p < scene.pairs().size(); ++p) {
@@ -309,25 +308,27 @@ void ExplicitDynamics::raise_penalties() {
     return;
   const MPI_Comm communicator = discretization_.communicator();
   update_ledger();
-  const PenaltyControl::Energies energies = PenaltyControl::measure(*this, scene_, time_, communicator);
-  std::vector<double> room;
+  const PenaltyControl::Energies energies =
+      penalties_.measure(*this, scene_.bodies().size(), time_, communicator);
+  std::vector<PenaltyControl::Factors> room;
   for (const auto &contact : contacts_)
-    room.push_back(most_raise * contact.stiffening_left());
+    room.push_back(penalties_.room_of(contact, communicator));
   for (const auto &contact : body_contacts_)
-    room.push_back(most_raise * contact->stiffening_left());
-  dealii::Utilities::MPI::min(room, communicator, room);
+    room.push_back(penalties_.room_of(*contact, communicator));
 
-  const std::vector<double> factors = penalties_.raises(energies, room);
+  const std::vector<PenaltyControl::Factors> factors = penalties_.raises(energies, room);
   for (std::size_t p = 0; p < factors.size(); ++p) {
-    if (!(factors[p] > 1.))
+    if (!factors[p].raises())
       continue;
+    const auto [normal, tangential] = factors[p];
     if (p < contacts_.size())
-      contacts_[p].scale_penalties(factors[p], 1.);
+      contacts_[p].scale_penalties(normal, tangential);
     else
-      body_contacts_[p - contacts_.size()]->scale_penalties(factors[p], 1.);
-    // What the springs that are compressed now hold more is given to them.
+      body_contacts_[p - contacts_.size()]->scale_penalties(normal, tangential);
+    // What compressed springs hold more is given to them. Of friction the force stays, and springs hold less.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      works_.external += (factors[p] - 1.) * energies.of_pairs[p];
+      works_.external +=
+          (normal - 1.) * energies.of_pairs[p] - (1. - 1. / tangential) * energies.sticking[p].stored;
   }
 }
 
@@ -546,10 +547,11 @@ void ExplicitDynamics::prepare_step(const double event) {
   kick();
   if (n_steps_ > 0)
     add_works(v_before_, 0.5 * step_before_);
-  raise_penalties();
 }
 
 void ExplicitDynamics::finish_step() {
+  raise_penalties(); // the ledger of this time has been looked at: what is given to springs shows in the next
+                     // one
   for (std::size_t k = 0; k < u_.size(); ++k)
     u_[k] += step_ * v_[k];
   for (auto &tool : tools_)

@@ -17,15 +17,23 @@ namespace {
 
 /// (L7): the part that penetration may take, the part to which raises lead, and what is no matter.
 constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
+/// The same of sticking, (L4): of friction, and of the normal force. What is lost by then stays lost.
+constexpr double allowed_in_friction = 0.002, aim_in_friction = 0.0015, counts_in_friction = 2e-4;
+constexpr double most_at_once = 4.;   ///< softness is measured anew after that
 constexpr double slow = 0.01;         ///< largest kinetic energy so far beside what deformation takes now
 constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
+constexpr double percent = 100.;
+
+template <class ContactPair> bool raises_tangential(const ContactPair &pair) {
+  return pair.is_raised && pair.has_friction() && !pair.input->has_own_tangential_penalty;
+}
 
 std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
   std::vector<PenaltyControl::Pair> pairs;
   for (const auto &pair : scene.pairs())
-    pairs.push_back({pair.name, pair.is_raised});
+    pairs.push_back({pair.name, pair.is_raised, raises_tangential(pair)});
   for (const auto &pair : scene.body_pairs())
-    pairs.push_back({pair.name, pair.is_raised});
+    pairs.push_back({pair.name, pair.is_raised, raises_tangential(pair)});
   return pairs;
 }
 
@@ -39,64 +47,100 @@ PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPa
       paths_.push_back({path, 1., {}});
 }
 
-PenaltyControl::PenaltyControl(const Scene &scene, const double largest_raise)
-    : PenaltyControl(pairs_of(scene), find_load_paths(scene), largest_raise) {}
+PenaltyControl::PenaltyControl(const Scene &scene, const Discretization &discretization,
+                               const double largest_raise)
+    : PenaltyControl(pairs_of(scene), find_load_paths(scene), largest_raise) {
+  stick_springs_.emplace(scene, discretization);
+}
 
 bool PenaltyControl::is_used() const {
-  return std::any_of(paths_.begin(), paths_.end(), [this](const Controlled &path) {
+  const auto is_controlled = [this](const Controlled &path) {
     const auto &pairs = path.parts.pairs;
     return std::any_of(pairs.begin(), pairs.end(),
                        [this](const std::size_t pair) { return pairs_[pair].may_be_raised; });
-  });
+  };
+  return std::any_of(paths_.begin(), paths_.end(), is_controlled) ||
+         std::any_of(pairs_.begin(), pairs_.end(),
+                     [](const Pair &pair) { return pair.may_be_raised_tangentially; });
 }
 
-void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<double> &room) {
+void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<Factors> &room) {
   const double part = path.softness.part(counts);
   if (!(part > allowed))
     return;
-  const double raise = std::min(part / aim, largest_target);
+  const double raise = std::min(part / aim, most_at_once);
   for (const std::size_t pair : path.parts.pairs) {
-    if (!pairs_[pair].may_be_raised || !(energies.of_pairs[pair] > 0.) || !(room[pair] > 1.))
+    if (!pairs_[pair].may_be_raised || !(energies.of_pairs[pair] > 0.) || !(room[pair].normal > 1.))
       continue;
     path.left = raise;
-    constexpr double percent = 100.;
-    std::ostringstream text;
-    text.precision(3);
-    text << "The penalty of the pair is raised to "
-         << enough_penalty * most_raise / room[pair] * std::min(raise, room[pair])
-         << " E/h, since penetration takes " << percent * part << " % of the deformation along its load path";
-    diagnostics_.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
-                               .pair(pairs_[pair].name)
-                               .time(energies.time)
-                               .value("factor", raise)
-                               .advice("Nothing has to be done. Time steps may be shorter from now on; "
-                                       "'Penetration tolerance = 0' keeps the penalty"));
+    std::ostringstream reason;
+    reason.precision(3);
+    reason << "penetration takes " << percent * part << " % of the deformation along its load path";
+    describe("penalty", pair, energies.time, raise, room[pair].normal, reason.str());
   }
 }
 
-PenaltyControl::Energies PenaltyControl::measure(const Solution &solution, const Scene &scene,
-                                                 const double time, const MPI_Comm communicator) {
-  std::vector<std::size_t> bodies(scene.bodies().size());
-  std::iota(bodies.begin(), bodies.end(), std::size_t(0));
-  return {time, energies_of_penetration(solution, communicator),
-          energies_of_bodies(solution, bodies, communicator), solution.state().energies};
+void PenaltyControl::describe(const std::string &penalty, const std::size_t pair, const double time,
+                              const double factor, const double room, const std::string &reason) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "The " << penalty << " of the pair is raised to "
+       << enough_penalty * most_in_all / room * std::min(factor, room) << " E/h, since " << reason;
+  const bool is_enough = factor < room;
+  diagnostics_.push_back(
+      Diagnostic(diagnostic::penalty_raised, text.str())
+          .pair(pairs_[pair].name)
+          .time(time)
+          .value("factor", factor)
+          .advice(std::string(is_enough
+                                  ? "Nothing has to be done."
+                                  : "It rises no farther: see what the end of the run says of the pair.") +
+                  " Time steps may be shorter from now on; 'Penetration tolerance = 0' keeps the penalty"));
 }
 
-std::vector<double> PenaltyControl::raises(const Energies &energies, const std::vector<double> &room) {
-  std::vector<double> factors(pairs_.size(), 1.);
+double PenaltyControl::tangential_raise(const std::size_t pair, const Energies &energies, const double room) {
+  const StickSoftness &softness = energies.sticking[pair];
+  const double part = softness.part();
+  if (!pairs_[pair].may_be_raised_tangentially || !(part > allowed_in_friction) ||
+      !(softness.lost > counts_in_friction * softness.pressure) || !(room > 1.))
+    return 1.;
+  const double raise = std::min({part / aim_in_friction, most_at_once, room});
+  std::ostringstream reason;
+  reason.precision(3);
+  reason << "friction that sticks lacks up to " << percent * part << " %";
+  describe("tangential penalty", pair, energies.time, raise, room, reason.str());
+  return raise;
+}
+
+PenaltyControl::Energies PenaltyControl::measure(const Solution &solution, const std::size_t n_bodies,
+                                                 const double time, const MPI_Comm communicator) const {
+  std::vector<std::size_t> bodies(n_bodies);
+  std::iota(bodies.begin(), bodies.end(), std::size_t(0));
+  const auto reports = solution.report_contacts();
+  return {time, energies_of_penetration(reports, communicator),
+          energies_of_bodies(solution, bodies, communicator), solution.state().energies,
+          stick_springs_->measure(reports)};
+}
+
+std::vector<PenaltyControl::Factors> PenaltyControl::raises(const Energies &energies,
+                                                            const std::vector<Factors> &room) {
+  std::vector<Factors> factors(pairs_.size());
   largest_kinetic_ = std::max(largest_kinetic_, energies.all.kinetic);
   if (!(energies.time > time_))
     return factors;
   time_ = energies.time;
+  const EnergyLedger &all = energies.all;
+  const double deformed = all.of_elements() + all.contact;
+  const bool is_slow = largest_kinetic_ < slow * deformed;
+  for (std::size_t pair = 0; is_slow && pair < pairs_.size(); ++pair)
+    factors[pair].tangential = tangential_raise(pair, energies, room[pair].tangential);
   for (Controlled &path : paths_) {
     double penetration = 0., deformation = 0.;
     for (const std::size_t pair : path.parts.pairs)
       penetration += energies.of_pairs[pair];
     for (const std::size_t body : path.parts.bodies)
       deformation += energies.of_bodies[body];
-    const EnergyLedger &all = energies.all;
-    path.softness.add(energies.time, penetration, deformation, all.of_elements() + all.contact);
-    const bool is_slow = largest_kinetic_ < slow * (all.of_elements() + all.contact);
+    path.softness.add(energies.time, penetration, deformation, deformed);
     if (!is_slow || !(penetration > 0.))
       continue;
     if (path.left == 1.)
@@ -107,7 +151,7 @@ std::vector<double> PenaltyControl::raises(const Energies &energies, const std::
     path.left /= factor;
     for (const std::size_t pair : path.parts.pairs)
       if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > notable_pair * penetration)
-        factors[pair] = std::max(1., std::min(factor, room[pair]));
+        factors[pair].normal = std::max(1., std::min(factor, room[pair].normal));
     path.softness.restart();
   }
   return factors;

@@ -49,7 +49,8 @@ NodalGeometry collect_geometry(const Discretization &discretization, const Const
 QuasiStatic::QuasiStatic(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
       motions_(scene, supports_, discretization), internal_(scene, discretization),
-      tangent_(scene.contact_tangent()), penalties_(scene, PenaltyControl::largest_target),
+      tangent_(scene.contact_tangent()),
+      penalties_(scene, discretization, PenaltyControl::in_implicit_scenes),
       soft_penalties_(scene.parameters().is_dynamic() ? PenaltyWatch::Motion::sudden
                                                       : PenaltyWatch::Motion::slow) {
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)

@@ -219,23 +219,25 @@ DiagnosticList QuasiStatic::describe_raises(const std::vector<double> &factors) 
 DiagnosticList QuasiStatic::control_penalties() {
   if (!motion_ || !penalties_.is_used())
     return {};
+  const MPI_Comm communicator = discretization_.communicator();
   const PenaltyControl::Energies energies =
-      PenaltyControl::measure(*this, scene_, state_.time, discretization_.communicator());
-  std::vector<double> room = stiffening_left();
-  for (double &left : room)
-    left *= most_raise;
-  const std::vector<double> factors = penalties_.raises(energies, room);
-  if (!raises_any(factors))
+      penalties_.measure(*this, scene_.bodies().size(), state_.time, communicator);
+  const auto room =
+      of_contacts([&](const auto &contact) { return penalties_.room_of(contact, communicator); });
+  const std::vector<PenaltyControl::Factors> factors = penalties_.raises(energies, room);
+  if (std::none_of(factors.begin(), factors.end(), [](const auto &factor) { return factor.raises(); }))
     return {};
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    if (!(factors[i] > 1.))
+    if (!factors[i].raises())
       continue;
+    const auto [normal, tangential] = factors[i];
     if (i < contacts_.size())
-      contacts_[i].stiffen_under_load(factors[i]);
+      contacts_[i].stiffen_under_load(normal, tangential);
     else
-      body_contacts_[i - contacts_.size()]->stiffen_under_load(factors[i]);
+      body_contacts_[i - contacts_.size()]->stiffen_under_load(normal, tangential);
     // With the same force a stiffer spring holds less: the rest stays in the penetration that is allowed now.
-    const double lost = (1. - 1. / factors[i]) * energies.of_pairs[i];
+    const double lost =
+        (1. - 1. / normal) * energies.of_pairs[i] + (1. - 1. / tangential) * energies.sticking[i].stored;
     book_in_springs(i, -lost);
     state_.energies.numerical += lost;
   }

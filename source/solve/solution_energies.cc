@@ -5,11 +5,12 @@
 
 namespace billet {
 
-std::vector<double> energies_of_penetration(const Solution &solution, const MPI_Comm communicator) {
+std::vector<double> energies_of_penetration(const std::vector<std::vector<ContactNodeReport>> &reports,
+                                            const MPI_Comm communicator) {
   std::vector<double> energies;
-  for (const auto &reports : solution.report_contacts()) {
+  for (const auto &of_pair : reports) {
     energies.push_back(0.);
-    for (const auto &node : reports)
+    for (const auto &node : of_pair)
       energies.back() += 0.5 * node.pressure * node.penetration * node.area;
   }
   dealii::Utilities::MPI::sum(energies, communicator, energies);

@@ -10,7 +10,7 @@ using billet::testing::check;
 
 namespace {
 
-constexpr double largest_raise = 1.1;
+constexpr double largest_raise = PenaltyControl::in_explicit_scenes;
 
 /// A bar and the contact at its end, springs in series, that a constant force presses, and a pair that does
 /// not touch.
@@ -25,6 +25,7 @@ struct Press {
     energies.all.elastic = energies.of_bodies[0];
     energies.all.contact = energies.of_pairs[0];
     energies.all.kinetic = kinetic * energies.of_bodies[0];
+    energies.sticking.resize(2);
     return energies;
   }
   double softness() const { return 1. / (1. + contact / body); }
@@ -33,10 +34,10 @@ struct Press {
   double run(PenaltyControl &control, const double from, const double end) {
     double largest = 1.;
     for (double time = from; time < end; time += 0.25) {
-      const auto factors = control.raises(at(time), {room, room});
-      contact *= factors[0];
-      room /= factors[0];
-      largest = std::max({largest, factors[0], factors[1]});
+      const auto factors = control.raises(at(time), {{room, room}, {room, room}});
+      contact *= factors[0].normal;
+      room /= factors[0].normal;
+      largest = std::max({largest, factors[0].normal, factors[1].normal});
     }
     return largest;
   }
@@ -46,7 +47,8 @@ PenaltyControl control(const bool may_be_raised) {
   LoadPath path;
   path.bodies = {0};
   path.pairs = {0, 1};
-  return PenaltyControl({{"end", may_be_raised}, {"other", true}}, {path}, largest_raise);
+  return PenaltyControl({{"end", may_be_raised, may_be_raised}, {"other", true, true}}, {path},
+                        largest_raise);
 }
 
 void check_raises() {
@@ -87,22 +89,60 @@ void check_limits() {
   for (double time = 0.25; time < 50.; time += 0.25) {
     energies.time = time;
     energies.all.elastic = 1e3 * energies.of_bodies[0]; // of other bodies
-    largest = std::max(largest, light.raises(energies, {100., 100.})[0]);
+    largest = std::max(largest, light.raises(energies, {{100., 100.}, {100., 100.}})[0].normal);
   }
   check("not where it is no matter for the scene", largest == 1.);
   LoadPath loaded;
   loaded.bodies = {0};
   loaded.pairs = {0, 1};
   loaded.bears_given_loads = true;
-  PenaltyControl support({{"end", true}, {"other", true}}, {loaded}, largest_raise);
+  PenaltyControl support({{"end", true, true}, {"other", true, true}}, {loaded}, largest_raise);
   Press heavy;
   check("nor where loads are given, whose forces are right", heavy.run(support, 0.25, 100.) == 1.);
   auto twice = control(true);
   Press once;
   once.run(twice, 0.25, 8.);
   const double before = once.contact;
-  once.contact *= twice.raises(once.at(7.75), {once.room, once.room})[0];
+  once.contact *= twice.raises(once.at(7.75), {{once.room, 1.}, {once.room, 1.}})[0].normal;
   check("once at a time", once.contact == before);
+}
+
+/// A node that sticks with a force of 1 to a spring, on a body, whose stiffness is 1, under a pressure.
+struct Stuck {
+  double spring = 27., pressure = 10., room = 100.;
+
+  /// The last raise.
+  double run(PenaltyControl &control, const double from, const double end) {
+    double last = 1.;
+    for (double time = from; time < end; time += 0.25) {
+      PenaltyControl::Energies energies = Press().at(time);
+      energies.sticking[0] = {pressure, 1., 1. / spring, 0.5 / spring};
+      last = control.raises(energies, {{1., room}, {1., room}})[0].tangential;
+      spring *= last;
+      room /= last;
+    }
+    return last;
+  }
+};
+
+void check_friction() {
+  auto penalties = control(true);
+  Stuck stuck;
+  check("tangential penalties rise where friction that sticks lacks a part",
+        stuck.run(penalties, 0.25, 0.5) == 4.);
+  check("until that is 0.15 to 0.2 %",
+        stuck.run(penalties, 0.5, 10.) == 1. && stuck.spring > 1. / 0.002 && stuck.spring < 1. / 0.00125);
+  const DiagnosticList messages = penalties.take_diagnostics();
+  check("with a note on each raise", messages.size() == 3);
+  auto own = control(false);
+  Stuck given;
+  given.run(own, 0.25, 10.);
+  check("what the scene sets stays, there too", given.spring == 27.);
+  auto light = control(true);
+  Stuck small;
+  small.pressure = 1e3;
+  small.run(light, 0.25, 10.);
+  check("nor does it rise where friction is little beside pressure", small.spring == 27.);
 }
 
 } // namespace
@@ -110,4 +150,5 @@ void check_limits() {
 int main() {
   check_raises();
   check_limits();
+  check_friction();
 }

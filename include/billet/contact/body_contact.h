@@ -62,10 +62,14 @@ public:
   void scale_penalties(const double normal, const double tangential) {
     contact_->scale_penalties(normal, tangential);
   }
-  void stiffen_under_load(const double factor) { contact_->stiffen_under_load(factor); }
+  void stiffen_under_load(const double normal, const double tangential) {
+    contact_->stiffen_under_load(normal, tangential);
+  }
   double stiffening() const { return contact_->stiffening(); } ///< so far
   double stiffening_left() const { return most_stiffening_ / contact_->stiffening(); }
-  double tangential_stiffening_left() const { return most_tangential_stiffening_ / contact_->stiffening(); }
+  double tangential_stiffening_left() const {
+    return most_tangential_stiffening_ / contact_->tangential_stiffening();
+  }
   /// As RigidContact::penetration().
   Penetration penetration() const { return contact_->penetration(); }
   double excessive_penetration() const { return contact_->excessive_penetration(); }

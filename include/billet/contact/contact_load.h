@@ -88,7 +88,8 @@ struct ContactNodeReport {
   dealii::Tensor<1, 3> traction;
   double penetration = 0.; ///< where it presses: into the surface itself, whatever augmentation has done
   double facet_size = 0.;  ///< of the facets around it
-  double curvature = 0.;   ///< turn of the tool along a facet there, over that size [1/length]
+  double tangential_stiffness = 0.; ///< of the spring that it sticks to; 0 without friction [force/length³]
+  double curvature = 0.;            ///< turn of the tool along a facet there, over that size [1/length]
 };
 
 } // namespace billet

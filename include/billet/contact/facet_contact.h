@@ -211,8 +211,9 @@ public:
   /// The same, with a factor of their own for the tangential ones.
   void scale_penalties(double normal, double tangential);
   /// As RigidContact's.
-  void stiffen_under_load(double factor);
+  void stiffen_under_load(double normal, double tangential);
   double stiffening() const { return stiffening_; } ///< so far
+  double tangential_stiffening() const { return tangential_stiffening_; }
   /// How deep this rank's nodes are.
   Penetration penetration() const;
   /// The same, as part of the reach of the facets that they touch.
@@ -256,7 +257,8 @@ public:
     double pressure = 0., gap = 0., slip = 0.;
     double area = 0.; ///< of all facets around it
     dealii::Tensor<1, 3> traction;
-    double penetration = 0.; ///< where it presses, as penetration() has it
+    double penetration = 0.;          ///< where it presses, as penetration() has it
+    double tangential_stiffness = 0.; ///< 0 without friction [force/length³]
   };
   /// Of each of this rank's nodes.
   std::vector<NodeReport> report() const;

@@ -143,13 +143,13 @@ public:
   void stiffen(const double factor) { scale_penalties(factor, factor); }
   /// The same, with a factor of their own for the tangential ones.
   void scale_penalties(double normal, double tangential);
-  /// Makes normal penalties so many times as stiff, and leaves pressures as they are: what of the
+  /// Makes penalties so many times as stiff, and leaves tractions as they are: what of the
   /// penetrations would press more is allowed from now on. After update() without augmentation.
-  void stiffen_under_load(double factor);
+  void stiffen_under_load(double normal, double tangential);
   /// How many times as stiff penalties may become until those of a node of this rank are 10 E/h; below 1
   /// where one is stiffer.
   double stiffening_left() const;
-  /// The same of the tangential ones, whatever augmentation has done; infinite without friction.
+  /// The same of the tangential ones; infinite without friction.
   double tangential_stiffening_left() const;
   double stiffening() const { return stiffening_; } ///< so far
   /// Tangents from now on.

@@ -7,6 +7,7 @@
 #include "billet/solve/load_paths.h"
 #include "billet/solve/path_softness.h"
 #include "billet/solve/solution.h"
+#include "billet/solve/stick_softness.h"
 #include "billet/state.h"
 
 #include <map>
@@ -55,15 +56,16 @@ public:
   void load(const StateReader &reader);
 
 private:
-  /// Sum of the tangential forces of nodes, and what they lack since springs are soft, (L4) of doc/theory.md.
+  /// Sums of the tangential forces of nodes, and of what they lack since springs are soft.
   struct Friction {
     double force = 0., lost = 0.;
   };
   struct Pair {
     std::string name;
     std::vector<std::size_t> bodies;
-    std::size_t tool; ///< or none
+    std::size_t tool = none; ///< or none
     bool is_self_contact = false;
+    bool is_augmented = false;
     bool has_touched = false;
     double largest_force = 0., time = 0.; ///< and when
     ForceSpread spread;                   ///< at the largest force
@@ -73,8 +75,6 @@ private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   ForceSpread spread_of(const Pair &pair, const std::vector<ContactNodeReport> &reports) const;
-  /// On this rank; none where tangential springs are as stiff as those of pressure.
-  Friction friction_of(std::size_t pair, const std::vector<ContactNodeReport> &reports) const;
   void judge_pairs(DiagnosticList &diagnostics) const;
   void judge_paths(DiagnosticList &diagnostics) const;
   void judge_forces(DiagnosticList &diagnostics) const;
@@ -87,11 +87,11 @@ private:
   };
   std::map<DofIndex, Images> images_; ///< by first dof, on this rank
   std::vector<double> sections_;      ///< of the bodies: the largest face of the box around [length²]
-  std::vector<double> lengths_;       ///< and the longest edge of that box
   std::vector<Pair> pairs_;           ///< with tools first
   std::vector<LoadPath> paths_;
   std::vector<PathSoftness> softness_; ///< by path
   std::vector<double> tool_forces_;    ///< largest, by tool
+  StickSprings stick_springs_;
 };
 
 } // namespace billet

@@ -2,32 +2,44 @@
 #ifndef BILLET_SOLVE_PENALTY_CONTROL_H
 #define BILLET_SOLVE_PENALTY_CONTROL_H
 
+#include "billet/contact/traction.h"
 #include "billet/diagnostics.h"
 #include "billet/scene/scene.h"
 #include "billet/solve/load_paths.h"
 #include "billet/solve/path_softness.h"
 #include "billet/solve/solution.h"
+#include "billet/solve/stick_softness.h"
 #include "billet/state.h"
 
+#include <deal.II/base/mpi.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace billet {
 
-/// Raises the normal penalties of dynamic scenes, of pairs that leave them to the program, while penetration
-/// takes more than a small part of the deformation along their load path, (L7) of doc/theory.md.
+/// Raises the penalties of dynamic scenes, of pairs that leave them to the program: normal ones while
+/// penetration takes more than a small part of the deformation along their load path, (L7) of doc/theory.md,
+/// tangential ones while friction that sticks lacks more than that, (L4).
 class PenaltyControl {
 public:
   struct Pair {
     std::string name;
-    bool may_be_raised;
+    bool may_be_raised, may_be_raised_tangentially;
   };
-  /// `largest_raise`: at a time, at most; pairs with tools first.
+  /// Of the normal and the tangential penalty of a pair.
+  struct Factors {
+    double normal = 1., tangential = 1.;
+    bool raises() const { return normal > 1. || tangential > 1.; }
+  };
+  /// Factors by which normal penalties rise at a time, at most. Explicit ones rise slowly, so that nodes
+  /// settle without a blow; after implicit ones softness is measured anew.
+  static constexpr double in_explicit_scenes = 1.1, in_implicit_scenes = 4.;
+  /// Pairs with tools first.
   PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths, double largest_raise);
-  PenaltyControl(const Scene &scene, double largest_raise);
-
-  /// Factor of a raise, after which softness is measured anew.
-  static constexpr double largest_target = 4.;
+  /// Collective.
+  PenaltyControl(const Scene &scene, const Discretization &discretization, double largest_raise);
 
   /// Whether there is a pair that leaves its penalty to the program.
   bool is_used() const;
@@ -38,12 +50,20 @@ public:
     std::vector<double> of_pairs;  ///< of penetration, pairs with tools first
     std::vector<double> of_bodies; ///< elastic and plastic
     EnergyLedger all;
+    std::vector<StickSoftness> sticking; ///< of pairs
   };
+  /// By which the penalties of a contact, with a tool or of bodies, may be raised. Collective.
+  template <class Contact> Factors room_of(const Contact &contact, const MPI_Comm communicator) const {
+    const std::vector<double> left{contact.stiffening_left(), contact.tangential_stiffening_left()};
+    std::vector<double> least(left.size());
+    dealii::Utilities::MPI::min(left, communicator, least);
+    return {most_in_all * least[0], most_in_all * least[1]};
+  }
   /// Those of a solution whose ledger is that of this time. Collective.
-  static Energies measure(const Solution &solution, const Scene &scene, double time, MPI_Comm communicator);
-  /// By which factor the penalty of each pair is to be raised now, by at most `room` in all; 1: it
+  Energies measure(const Solution &solution, std::size_t n_bodies, double time, MPI_Comm communicator) const;
+  /// By which factors the penalties of each pair are to be raised now, by at most `room` in all; 1: it
   /// stays. Of a time that it knows nothing is raised again.
-  std::vector<double> raises(const Energies &energies, const std::vector<double> &room);
+  std::vector<Factors> raises(const Energies &energies, const std::vector<Factors> &room);
   /// What the last raises() began.
   DiagnosticList take_diagnostics();
 
@@ -51,18 +71,25 @@ public:
   void load(const StateReader &reader);
 
 private:
+  /// Beyond 10 E/h. Where bodies are confined, and hardly compressible, they are many times as stiff as E.
+  static constexpr double most_in_all = 1e5;
   struct Controlled {
     LoadPath parts;
     double left = 1.;      ///< factor by which penalties are still to be raised
     PathSoftness softness; ///< since the last raise
   };
-  void judge(Controlled &path, const Energies &energies, const std::vector<double> &room);
+  void judge(Controlled &path, const Energies &energies, const std::vector<Factors> &room);
+  double tangential_raise(std::size_t pair, const Energies &energies, double room);
+  /// `room`: by which the penalty may be raised at most.
+  void describe(const std::string &penalty, std::size_t pair, double time, double factor, double room,
+                const std::string &reason);
 
   double largest_raise_;
   double time_ = 0.;            ///< of the last raises()
   double largest_kinetic_ = 0.; ///< so far
   std::vector<Pair> pairs_;
   std::vector<Controlled> paths_;
+  std::optional<StickSprings> stick_springs_; ///< none in tests
   DiagnosticList diagnostics_;
 };
 

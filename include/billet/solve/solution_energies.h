@@ -8,8 +8,9 @@
 
 namespace billet {
 
-/// ½ Σ p g A of each pair, pairs with tools first [energy]. Collective; the same on all ranks.
-std::vector<double> energies_of_penetration(const Solution &solution, MPI_Comm communicator);
+/// ½ Σ p g A of each pair [energy]. Collective; the same on all ranks.
+std::vector<double> energies_of_penetration(const std::vector<std::vector<ContactNodeReport>> &reports,
+                                            MPI_Comm communicator);
 
 /// What the elements of each of these bodies have taken [energy]: stored, and dissipated by yielding.
 /// Collective; the same on all ranks.
