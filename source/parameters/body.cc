@@ -340,11 +340,10 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
       "flow; "
       "mean dilatation: eight points with a common volumetric strain, for solid parts that do not bend; one "
       "point: with hourglass stabilisation, the cheapest.");
-  prm.declare_entry(
-      "Points through thickness", "2", Patterns::Selection("2|3|5|7"),
-      "Gauss points of each brick along the thickness direction. More than 2 need 'Element = "
-      "assumed strain' and a static scene or implicit dynamics. Use 5 or 7 for the springback of "
-      "sheets with one or two bricks through the thickness.");
+  prm.declare_entry("Points through thickness", "2", Patterns::Selection("2|3|5|7"),
+                    "Gauss points of each brick along the thickness direction. More than 2 need 'Element = "
+                    "assumed strain' and a static scene or implicit dynamics. Use 5 for the springback of "
+                    "sheets, with two bricks through the thickness rather than one.");
   prm.declare_entry("Thickness direction", "", Patterns::Anything(),
                     "From the inner to the outer side, with more than 2 points through the thickness: three "
                     "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' of a plate "

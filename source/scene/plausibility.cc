@@ -390,7 +390,8 @@ DiagnosticList check_bricks(const Scene &scene) {
     std::ostringstream text;
     text.precision(3);
     text << "A body " << part.slenderness << " times as long as thick has " << part.mean_layers
-         << " bricks through its thickness, " << part.mean_aspect << " times as long as high";
+         << (part.mean_layers == 1. ? " brick" : " bricks") << " through its thickness, " << part.mean_aspect
+         << " times as long as high";
     diagnostics.push_back(Diagnostic(diagnostic::bricks_may_lock, text.str())
                               .body(body.name)
                               .value("layers", part.mean_layers)

@@ -22,7 +22,7 @@ def errors(run, penalty):
 
 def row(refinements, steps, factor):
     run = Run({**mesh(refinements), **fixed_steps(steps), PAIR + "Friction coefficient": 0,
-               PAIR + "Normal penalty": factor * PENALTY}, options.ranks)
+               PAIR + "Normal penalty": factor * PENALTY, "Solver/Force tolerance": 1e-6}, options.ranks)
     result = [run.iterations] + errors(run, factor * PENALTY) if run.converged else [run.failure] + ["–"] * 4
     return [n_elements(refinements), steps, f"{factor:g}"] + result
 
