@@ -434,7 +434,7 @@ def springback():
         return found / right - 1, run
 
     sizes = (0.5,) if options.quick else (0.5, 0.25)
-    rows = [compare([2, size], lambda element: error(2, size, element), stiffness=-1) for size in sizes]
+    rows = [compare([2, size], lambda element: error(2, size, element), stiffness=-1, claim=f"wipe {size:g}") for size in sizes]
 
     def with_points(layers, size, points):
         angles, run = wipe(layers, size, AS, points)
@@ -522,6 +522,7 @@ CLAIMS = (("Patch test: the inner node stays to 1e-12", "patch", 1e-12), ("Strip
           ("Hinge, two bricks, cubes: 3 %", "hinge 2 1", 0.03), ("Hinge, two bricks, 2.5 : 1: 3 %", "hinge 2 2.5", 0.03),
           ("Ring, one brick, 8 around a quarter: 5 %", "ring 1 8", 0.05), ("Ring, one brick, 16 around: 5 %", "ring 1 16", 0.05),
           ("Ring, two bricks, 8 around a quarter: 2 %", "ring 2 8", 0.02), ("Ring, two bricks, 16 around: 2 %", "ring 2 16", 0.02),
+          ("Wipe bending, two bricks, 0.5 long: 3 %", "wipe 0.5", 0.03), ("Wipe bending, two bricks, 0.25 long: 3 %", "wipe 0.25", 0.03),
           ("Period in bending, one and two bricks: 3 %", "bending", 0.03), ("Period in torsion, one and two bricks: 15 %, or told", "torsion", 0.15))
 claims = [[text, number(worst[key], 2) if key == "patch" else f"{100 * worst[key]:.2f} %", "yes" if worst[key] <= limit else "no"]
           for text, key, limit in CLAIMS if key in worst]
