@@ -97,6 +97,6 @@ publish(
     "for Hencky's law and a rigid die.",
     table(["steps"] + list(LAWS), step_rows),
     "## Symmetric part of the tangent",
-    "Iterations with friction in 25 steps on 60 bricks, exact contact tangent, to the default tolerance and to 1e-11. Without friction, where the "
+    "Iterations with friction in 25 steps on 60 bricks, exact contact tangent, to tolerances of 1e-6 and 1e-11. Without friction, where the "
     "billet's deformation is uniform, the two are alike.",
     table(["element", "kinematics", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"], tangent_rows))
