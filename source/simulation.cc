@@ -644,6 +644,7 @@ ExitCode run_quasi_static(const Scene &scene, const Discretization &discretizati
   diagnostics.report(problem.check_stabilisation());
   diagnostics.report(problem.check_balance());
   diagnostics.report(problem.check_contact_round_off());
+  diagnostics.report(problem.check_augmentation());
   if (watch)
     report_errors(make_report(*watch, report), problem, discretization, parameters, review, outputs);
   if (errors) {

@@ -117,6 +117,13 @@ inline const DiagnosticKind contact_too_soft(
     "of the energy. Forces of driven tools and supports are too small by that part.",
     "Increase 'Normal penalty' or, in statics, set a smaller 'Penetration tolerance', for all pairs named");
 
+inline const DiagnosticKind contact_unsettled(
+    "contact-unsettled", Severity::warning,
+    "Augmentation of a contact pair was given up before its force had settled: the last one still changed it "
+    "by more than 0.5 % of the largest force. The force may be off by several times that.",
+    "Use a finer mesh where the pair touches, or 'Penetration tolerance = 1e-3', which augments to the end "
+    "and takes many more iterations");
+
 inline const DiagnosticKind tangential_penalty_too_low(
     "tangential-penalty-too-low", Severity::warning,
     "Nodes stick to elastic tangential springs that are soft beside the bodies: friction that sticks is too "

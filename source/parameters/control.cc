@@ -344,7 +344,7 @@ void Output::declare(ParameterHandler &prm) {
                     "Write contact pressure, traction, gap, slip and status, if there is contact.");
   prm.declare_entry(
       "Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"),
-      "quiet: the console shows nothing; steps: a line for each; iterations: their residuals, too.");
+      "quiet: warnings and errors alone; steps: a line for each; iterations: their residuals, too.");
   prm.enter_subsection("Checkpoint");
   prm.declare_entry("Every steps", "0", Patterns::Integer(0),
                     "A checkpoint, from which the run can go on, is written every so many steps and at the "

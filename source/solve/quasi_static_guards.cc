@@ -12,6 +12,25 @@
 
 namespace billet {
 
+DiagnosticList QuasiStatic::check_augmentation() const {
+  constexpr double much = 5e-3, percent = 100.;
+  DiagnosticList messages;
+  const std::vector<double> unsettled = softness_.unsettled();
+  const std::vector<std::string> names = of_contacts([](const auto &contact) { return contact.name(); });
+  for (std::size_t i = 0; i < unsettled.size(); ++i) {
+    if (!(unsettled[i] > much))
+      continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << "Augmentation was given up while it still changed the force by " << percent * unsettled[i]
+         << " % of the largest: facets of the two sides do not fit, or a sharp edge bears";
+    messages.push_back(Diagnostic(diagnostic::contact_unsettled, text.str())
+                           .pair(names[i])
+                           .measure("change / force", unsettled[i]));
+  }
+  return messages;
+}
+
 DiagnosticList QuasiStatic::check_penalties() {
   DiagnosticList messages;
   const double displacement = u_n_.linfty_norm();

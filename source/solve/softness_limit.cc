@@ -88,22 +88,45 @@ void SoftnessLimit::learn(const std::vector<ContactSprings> &before,
 }
 
 void SoftnessLimit::commit(const std::vector<ContactSprings> &springs) {
-  for (std::size_t i = 0; i < springs.size(); ++i)
-    pairs_[i].let_in += pairs_[i].tangential.counts * springs[i].tangential.held;
+  if (springs.empty())
+    return;
+  const std::vector<double> excess_left = excess(springs);
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    Pair &pair = pairs_[i];
+    pair.let_in += pair.tangential.counts * springs[i].tangential.held;
+    pair.largest_force = std::max(pair.largest_force, springs[i].normal.force);
+    if (excess_left[i] > 1. && std::isfinite(pair.normal.changed))
+      pair.unsettled = std::max(pair.unsettled, pair.normal.changed);
+  }
+}
+
+std::vector<double> SoftnessLimit::unsettled() const {
+  std::vector<double> result;
+  for (const Pair &pair : pairs_)
+    result.push_back(pair.unsettled > 0. ? pair.unsettled / pair.largest_force : 0.);
+  return result;
 }
 
 std::vector<double> SoftnessLimit::save() const {
   std::vector<double> numbers;
   for (const Pair &pair : pairs_)
-    numbers.insert(numbers.end(), {pair.normal.counts, pair.tangential.counts, pair.let_in});
+    numbers.insert(numbers.end(), {pair.normal.counts, pair.tangential.counts, pair.let_in,
+                                   pair.largest_force, pair.unsettled});
   return numbers;
 }
 
 void SoftnessLimit::load(const std::vector<double> &numbers) {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    pairs_[i].normal.counts = numbers.at(3 * i);
-    pairs_[i].tangential.counts = numbers.at(3 * i + 1);
-    pairs_[i].let_in = numbers.at(3 * i + 2);
+  constexpr std::size_t of_pair = 5;
+  if (numbers.size() != of_pair * pairs_.size())
+    return; // of other pairs
+  const double *next = numbers.data();
+  for (Pair &pair : pairs_) {
+    pair.normal.counts = next[0];
+    pair.tangential.counts = next[1];
+    pair.let_in = next[2];
+    pair.largest_force = next[3];
+    pair.unsettled = next[4];
+    next += of_pair;
   }
 }
 

@@ -55,9 +55,36 @@ Outcome press(const double K, const unsigned int n_steps) {
   return outcome;
 }
 
+/// A force that each augmentation changes by 1 % of the largest, until it is given up.
+void check_what_is_given_up() {
+  SoftnessLimit limit({true, false});
+  ContactSprings springs;
+  springs.normal.force = 2.;
+  springs.normal.held = 0.1;
+  const auto step = [&](const double change, const double force) {
+    springs.normal.force = force;
+    limit.begin();
+    using Changes = std::array<SoftnessLimit::Change, 2>;
+    const Changes of_first{{{change, change}, {}}}, of_second{{{1., 1.}, {}}};
+    limit.learn({springs, springs}, {of_first, of_second});
+    limit.commit({springs, springs});
+  };
+  step(1e-5, 1.);
+  check("what settles is not told", limit.unsettled()[0] == 0.);
+  step(0.02, 2.);
+  check("what is given up is, over the largest force", std::abs(limit.unsettled()[0] - 0.01), 1e-15);
+  step(1e-5, 4.);
+  check("also of an earlier step", std::abs(limit.unsettled()[0] - 0.005), 1e-15);
+  check("of pairs that limit softness", limit.unsettled()[1] == 0.);
+  SoftnessLimit other({true, false});
+  other.load(limit.save());
+  check("and after a restart", other.unsettled() == limit.unsettled());
+}
+
 } // namespace
 
 int main() {
+  check_what_is_given_up();
   for (const double K : {0.3, 0.1, 1e-2, 1e-3, 1e-5})
     for (const unsigned int n_steps : {1U, 10U, 100U}) {
       const std::string name = "K/k = " + std::to_string(K) + ", " + std::to_string(n_steps) + " steps: ";

@@ -125,6 +125,8 @@ public:
   DiagnosticList check_balance() const;
   /// At the end: what round-off of contact's penalties is beside the largest forces of the run.
   DiagnosticList check_contact_round_off() const;
+  /// At the end: pairs whose augmentation was given up while it changed forces.
+  DiagnosticList check_augmentation() const;
   /// Of static scenes with bodies that are stabilised, or null.
   const ContactStabilisation *stabilisation() const { return stabilisation_.get(); }
   bool solves_iteratively() const override { return linear_->is_iterative(); }

@@ -33,6 +33,9 @@ public:
   void learn(const std::vector<ContactSprings> &before, const std::vector<std::array<Change, 2>> &changes);
   /// The step has ended with these, or with none where no pair limits softness.
   void commit(const std::vector<ContactSprings> &springs);
+  /// Of each pair: what the last augmentation still changed of its normal force in a step that ended before
+  /// the limit was reached, largest, over the largest force; 0 if all steps reached it.
+  std::vector<double> unsettled() const;
 
   // For checkpoints:
   std::vector<double> save() const;
@@ -49,7 +52,8 @@ private:
   struct Pair {
     bool limits = false;
     Direction normal, tangential;
-    double let_in = 0.; ///< of friction, by the slip that steps have left [force]
+    double let_in = 0.;                        ///< of friction, by the slip that steps have left [force]
+    double largest_force = 0., unsettled = 0.; ///< over the run [force]
   };
 
   std::vector<Pair> pairs_;
