@@ -183,7 +183,7 @@ inline const DiagnosticKind contact_dissipates(
 
 inline const DiagnosticKind numerical_dissipation(
     "numerical-dissipation", Severity::warning,
-    "Implicit time integration has dissipated, or made, more than a tenth of the largest energy: its steps "
+    "Implicit time integration has dissipated, or made, more than 5 % of the largest energy: its steps "
     "do not resolve the motion.",
     "Reduce 'Error tolerance' or 'Largest step', if the motion matters that is damped; 'Method = Newmark' "
     "dissipates nothing");

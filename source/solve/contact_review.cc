@@ -56,6 +56,7 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
     added.tool = tool;
     added.is_self_contact = is_self_contact;
     added.is_augmented = pair.is_augmented();
+    added.is_softer_tangentially = pair.tangential_penalty < pair.normal_penalty;
     pairs_.push_back(added);
   };
   for (const auto &pair : scene.pairs())
@@ -243,7 +244,12 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
       diagnostics.push_back(message.tool(tool.name()));
     }
   }
-  for (const Pair &pair : pairs_) {
+  std::vector<bool> is_told(pairs_.size(), false); // to be too soft: friction with it
+  for (std::size_t i = 0; i < paths_.size(); ++i)
+    for (const std::size_t pair : paths_[i].pairs)
+      is_told[pair] = softness_[i].part() > notable_softness && !pairs_[pair].is_softer_tangentially;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const Pair &pair = pairs_[p];
     const bool has_idle_tool =
         pair.tool != none && std::none_of(pairs_.begin(), pairs_.end(), [&](const Pair &other) {
           return other.tool == pair.tool && other.has_touched;
@@ -282,7 +288,7 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
     }
     constexpr double allowed = 0.03, counts = 0.002; // of friction, and of the normal force
     const auto [friction, lost] = pair.largest_friction;
-    if (lost > allowed * (friction + lost) && lost > counts * pair.largest_force) {
+    if (!is_told[p] && lost > allowed * (friction + lost) && lost > counts * pair.largest_force) {
       const double part = lost / (friction + lost);
       std::ostringstream text;
       text.precision(3);

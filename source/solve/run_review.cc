@@ -55,7 +55,7 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
 DiagnosticList RunReview::finish() const {
   DiagnosticList diagnostics = contacts_.finish();
   append(diagnostics, inertia_.judge(largest_energy_));
-  constexpr double much = 0.1;
+  constexpr double much = 0.05;
   if (const double size = std::abs(numerical_); size > much * largest_energy_) {
     std::ostringstream text;
     text.precision(3);

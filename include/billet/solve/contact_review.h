@@ -66,6 +66,7 @@ private:
     std::size_t tool = none; ///< or none
     bool is_self_contact = false;
     bool is_augmented = false;
+    bool is_softer_tangentially = false; ///< than in the normal direction
     bool has_touched = false;
     double largest_force = 0., time = 0.; ///< and when
     ForceSpread spread;                   ///< at the largest force
