@@ -81,7 +81,7 @@ struct ContactPair {
   double pressure_exponent;    ///< of PressureDependent
   PenaltyUnit penalty_unit;
   double normal_penalty;
-  bool has_own_penalty = false; ///< the scene sets it: what it is worth is the user's, and stays
+  bool has_own_penalty = false;            ///< the scene sets it: what it is worth is the user's, and stays
   bool has_own_tangential_penalty = false; ///< the same of the tangential one
   double tangential_penalty;
   std::optional<double> penetration_tolerance; ///< 0: penalties alone; none: contact must not be too soft
