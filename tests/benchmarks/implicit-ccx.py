@@ -519,4 +519,4 @@ if __name__ == "__main__":
         "Penalties are billet's own: ten times E/h of both sides in series, h the root of the faces' mean area, unless the scene has a number; billet augments two scenes, and is shown "
         "with the penalty alone, too.",
         "## Self-contact\n\nCalculiX knows pairs of a slave and a master surface. It takes one surface as both, as here the inside of `hollow_block`, whose plates are bricks: nodes against faces it stops, "
-        "faces against faces it comes through. `ring_crush` has a tool with fillets, which CalculiX, without analytical surfaces, would need as a mesh: it has not been tried (billet: 56 steps, 272 iterations).")
+        "faces against faces it comes through. `ring_crush` has a tool with fillets, which CalculiX, without analytical surfaces, would need as a mesh: it has not been tried (billet: 60 steps, 316 iterations).")
