@@ -507,8 +507,8 @@ if __name__ == "__main__":
         "implicit-ccx", "Deformable bodies in billet and in CalculiX", options,
         "The scenes of `prm/` in which deformable bodies touch each other, as they are, and the same in CalculiX "
         f"{version}: the mesh that billet has written, the same penalty, friction, motion, and first, smallest and largest steps; C3D8 (the billet C3D8R, "
-        "see [billet-ccx](billet-ccx.md)); node-to-surface and surface-to-surface penalty contact; defaults otherwise, so that it stops at 0.5 % of the force where billet "
-        "goes on to its default, 5e-3, or what the scene says. Elastic bodies get a yield stress beyond reach, since CalculiX's elasticity is one of large strain with plasticity only: with "
+        "see [billet-ccx](billet-ccx.md)); node-to-surface and surface-to-surface penalty contact; defaults otherwise: it stops at 0.5 % of the force, as billet does "
+        "where the scene sets no tolerance. Elastic bodies get a yield stress beyond reach, since CalculiX's elasticity is one of large strain with plasticity only: with "
         "`*ELASTIC` alone it grows soft in compression, and the ironed slab resists with 28 N instead of 42 N. billet's logarithmic law and CalculiX's differ at large strain "
         "all the same. The turn of the twisted hemisphere is one of ten straight parts in CalculiX.",
         f"Each run once, on one core of a busy machine, CalculiX for {LIMIT} CPU seconds at most: CPU seconds (user and system) are to be read as ratios; 0.3 to 0.6 of billet's are its start. "
