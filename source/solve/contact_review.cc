@@ -147,20 +147,12 @@ void ContactReview::add(const Solution &solution) {
     tool_forces_[i] = std::max(tool_forces_[i], state.tool_loads[i].force.norm());
   const auto reports = solution.report_contacts();
   const std::vector<StickSoftness> sticking = stick_springs_.measure(reports);
-  constexpr std::size_t n_sums = 2; // of each pair the energy of its penetrations, its force
-  std::vector<double> sums(n_sums * pairs_.size());
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    for (const auto &node : reports[p]) {
-      sums[n_sums * p] += 0.5 * node.pressure * node.penetration * node.area;
-      sums[n_sums * p + 1] += node.pressure * node.area;
-    }
-  }
-  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  const std::vector<double> penetrations = energies_of_penetration(reports, discretization_.communicator());
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     Pair &pair = pairs_[p];
-    const double force = sums[n_sums * p + 1];
+    const double force = sticking[p].pressure;
     if (!pair.is_augmented) { // which makes the springs stiffer; where both are soft, contact is told to be
-      pair.largest_friction.force = std::max(pair.largest_friction.force, sticking[p].friction);
+      pair.largest_friction.friction = std::max(pair.largest_friction.friction, sticking[p].friction);
       pair.largest_friction.lost = std::max(pair.largest_friction.lost, sticking[p].lost);
     }
     // Edges that cross press, too, and are no slave nodes.
@@ -180,7 +172,7 @@ void ContactReview::add(const Solution &solution) {
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     double penetration = 0., deformation = ledger.of_elements();
     for (const std::size_t pair : paths_[i].pairs)
-      penetration += sums[n_sums * pair];
+      penetration += penetrations[pair];
     if (paths_[i].bodies.size() < scene_.bodies().size()) {
       const auto energies = energies_of_bodies(solution, paths_[i].bodies, discretization_.communicator());
       deformation = std::accumulate(energies.begin(), energies.end(), 0.);
@@ -287,9 +279,8 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
                                 .measure("facet size / radius", spread.coarsest));
     }
     constexpr double allowed = 0.03, counts = 0.002; // of friction, and of the normal force
-    const auto [friction, lost] = pair.largest_friction;
-    if (!is_told[p] && lost > allowed * (friction + lost) && lost > counts * pair.largest_force) {
-      const double part = lost / (friction + lost);
+    const double lost = pair.largest_friction.lost, part = pair.largest_friction.part();
+    if (!is_told[p] && part > allowed && lost > counts * pair.largest_force) {
       std::ostringstream text;
       text.precision(3);
       text << "Tangential springs are soft beside the bodies: friction that sticks is too small by up to "
@@ -338,7 +329,7 @@ void ContactReview::save(StateWriter &writer) const {
                    {pair.has_touched ? 1. : 0., pair.largest_force, pair.time, pair.spread.force,
                     pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
                     pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest,
-                    pair.spread.indentation, pair.spread.deformation, pair.largest_friction.force,
+                    pair.spread.indentation, pair.spread.deformation, pair.largest_friction.friction,
                     pair.largest_friction.lost, pair.largest_of_edges});
   writer.write("contact review", numbers);
 }
@@ -361,7 +352,8 @@ void ContactReview::load(const StateReader &reader) {
     pair.largest_force = next[1];
     pair.time = next[2];
     pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9], next[10], next[11]};
-    pair.largest_friction = {next[12], next[13]};
+    pair.largest_friction.friction = next[12];
+    pair.largest_friction.lost = next[13];
     pair.largest_of_edges = next[14];
     next += of_pair;
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/penalty_control.h"
 
-#include "billet/contact/traction.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/solve/solution_energies.h"
 
@@ -50,7 +49,8 @@ PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPa
 PenaltyControl::PenaltyControl(const Scene &scene, const Discretization &discretization,
                                const double largest_raise)
     : PenaltyControl(pairs_of(scene), find_load_paths(scene), largest_raise) {
-  stick_springs_.emplace(scene, discretization);
+  if (is_used())
+    stick_springs_.emplace(scene, discretization);
 }
 
 bool PenaltyControl::is_used() const {

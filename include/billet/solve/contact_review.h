@@ -56,10 +56,6 @@ public:
   void load(const StateReader &reader);
 
 private:
-  /// Sums of the tangential forces of nodes, and of what they lack since springs are soft.
-  struct Friction {
-    double force = 0., lost = 0.;
-  };
   struct Pair {
     std::string name;
     std::vector<std::size_t> bodies;
@@ -70,7 +66,7 @@ private:
     bool has_touched = false;
     double largest_force = 0., time = 0.; ///< and when
     ForceSpread spread;                   ///< at the largest force
-    Friction largest_friction;            ///< each over the run
+    StickSoftness largest_friction;       ///< what it has and what it lacks, each over the run
     double largest_of_edges = 0.;         ///< force that edges carry, at least [force]
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);

@@ -89,7 +89,7 @@ private:
   double largest_kinetic_ = 0.; ///< so far
   std::vector<Pair> pairs_;
   std::vector<Controlled> paths_;
-  std::optional<StickSprings> stick_springs_; ///< none in tests
+  std::optional<StickSprings> stick_springs_; ///< none where nothing is raised
   DiagnosticList diagnostics_;
 };
 

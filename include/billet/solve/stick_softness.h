@@ -16,7 +16,7 @@ struct StickSoftness {
   double lost = 0.;     ///< what sticking nodes would have more on rigid springs, at most [force]
   double stored = 0.;   ///< in the springs [energy]
 
-  /// Of the friction on rigid springs.
+  /// What is lost, of the friction on rigid springs.
   double part() const { return lost > 0. ? lost / (friction + lost) : 0.; }
 };
 
