@@ -232,7 +232,9 @@ inline const DiagnosticKind element_too_stiff(
     "The elements of a body lock: the displacements store more energy in them than in elements without "
     "parasitic shear. Forces are too large, or displacements too small, by the given factor: by at least it "
     "in elastic bodies, by up to it in bodies that yield.",
-    "Use 'Element = assumed strain'");
+    "Use 'Element = assumed strain', and where it is used bricks whose opposite edges are parallel, or "
+    "shorter "
+    "ones beside their thickness");
 
 inline const DiagnosticKind element_too_soft(
     "element-too-soft", Severity::warning,
@@ -258,8 +260,8 @@ inline const DiagnosticKind element_unfit_at_start(
     "element-unfit-at-start", Severity::note,
     "At the first loaded step the elements of a body are too stiff or too soft by the given factor. The run "
     "measures it again at the end.",
-    "If that stays so until the end: use another element, or bricks that are as long as high, four or more "
-    "through the thickness");
+    "If that stays so until the end: use 'Element = assumed strain', and where it is used bricks whose "
+    "opposite edges are parallel");
 
 inline const DiagnosticKind pressure_checkerboard(
     "pressure-checkerboard", Severity::warning,

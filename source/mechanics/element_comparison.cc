@@ -93,11 +93,13 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
     moved[i] += displacements[i];
   const ModalGeometry reference(positions);
   const auto modes = compute_modes(moved);
+  // The mean strain: that of the centre is another one in tapered bricks, by parts of the bending.
   Tensor<2, 3> jacobian, moved_jacobian;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j) {
       jacobian[i][j] = reference.modes[j][i];
-      moved_jacobian[i][j] = modes[j][i];
+      for (unsigned int m = 0; m < n_linear_modes; ++m)
+        moved_jacobian[i][j] += reference.beta[m][j] * modes[m][i];
     }
   const Tensor<2, 3> F = moved_jacobian * invert(jacobian);
   const auto strain = 0.5 * symmetrize(transpose(F) * F - dealii::unit_symmetric_tensor<3>());

@@ -172,8 +172,6 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const double 
     return file.value(path, "Penalty unit", "factor") == "factor";
   if (key == "Facets")
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
-  if (key == "Element") // which one-point elements do not know
-    return file.value({path[0], path[1], "Material"}, "Kinematics", "") != "neo-Hookean";
   if (key == "Kinematics") // rates of stress keep no elastic energy
     return file.value(path, "Law", "elastoplastic") != "elastic" &&
            (target == 0. || (target >= least_target_of_rates && has_small_elastic_strains(path, file)));

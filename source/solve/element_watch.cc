@@ -21,7 +21,8 @@ bool is_of_taper(const ElementEnergies &energies) {
 /// What helps a body whose elements are too stiff: never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
   return is_of_taper(energies) || formulation.element != ElementType::mean_dilatation
-             ? "Use bricks with edges along the normal of the surface, or shorter ones"
+             ? "Use bricks whose opposite edges are parallel, also in plan, or shorter ones beside their "
+               "thickness"
              : "Use 'Element = assumed strain'";
 }
 
