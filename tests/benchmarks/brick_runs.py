@@ -81,11 +81,13 @@ class Solution:
     they were, with their `fields`, in each picture (in single precision), if there are `pictures`. `failure` is empty if it ended;
     after `limit` seconds of a processor the system ends it. `keys`: all its warnings. `keep`: where mesh and scene stay."""
 
-    def __init__(self, label, mesh, element, changes, law="Hencky", modulus=E, nu=NU, steps=1, pictures=False, limit=None,
+    law = "Hencky"  # where none is given
+
+    def __init__(self, label, mesh, element, changes, law=None, modulus=E, nu=NU, steps=1, pictures=False, limit=None,
                  keep=None):
         body, material = "Bodies/body/", "Bodies/body/Material/"
         scene = {body + "Mesh/Source": "file", body + "Mesh/File": "mesh.msh", body + "Element": element, material + "Law": "elastic",
-                 material + "Kinematics": law, material + "Young modulus": repr(modulus), material + "Poisson ratio": repr(nu),
+                 material + "Kinematics": law or Solution.law, material + "Young modulus": repr(modulus), material + "Poisson ratio": repr(nu),
                  "Solver/Force tolerance": 1e-6, "Solver/Energy tolerance": 1e-10, "Solver/Linear solver": "MUMPS",
                  "Output/Format": "vtu" if pictures else "none", "Output/Every steps": 0, "Output/Verbosity": "quiet"}
         if steps:
