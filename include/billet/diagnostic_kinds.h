@@ -245,10 +245,12 @@ inline const DiagnosticKind element_too_soft(
 
 inline const DiagnosticKind plastic_bending_coarse(
     "plastic-bending-coarse", Severity::warning,
-    "A body of one-point elements yields as it bends, with few of them through its thickness or along the "
-    "fold. More than a tenth of its energy is in modes that the stabilisation resists, with one yield stress "
-    "for an element.",
-    "Use four or more bricks through the thickness, and shorter ones where the bend is sharpest");
+    "A body yields as it bends, with few elements through its thickness or along the fold. More than a tenth "
+    "of the energy of one-point elements is in modes that the stabilisation resists, with one yield stress "
+    "for an element. Or the two points of assumed strains miss a part of what flow dissipates between them "
+    "that is more than a fifth of the energy.",
+    "Use four or more one-point bricks through the thickness, and shorter ones where the bend is sharpest; "
+    "of assumed strains two, or 'Points through thickness = 5'");
 
 inline const DiagnosticKind bricks_may_lock(
     "bricks-may-lock", Severity::warning,

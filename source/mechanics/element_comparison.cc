@@ -4,6 +4,8 @@
 #include "billet/mechanics/assumed_strain_element.h"
 #include "billet/mechanics/one_point.h"
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -80,9 +82,37 @@ bool ElementComparison::add_one_point(const ElementVectors &positions, const Ele
   const double whole = energy(strains);
   energies.used += reference.volume * whole;
   energies.hourglass += reference.volume * (whole - of_centre);
-  if (const double plastic_strain = equivalent_plastic_strain(strains.deviatoric_energy); plastic_strain > 0.)
-    energies.plastic += reference.volume * plastic_work_(plastic_strain);
+  energies.plastic += reference.volume * dissipation(strains);
   return true;
+}
+
+double ElementComparison::dissipation(const Strains &strains) const {
+  const double plastic_strain = equivalent_plastic_strain(strains.deviatoric_energy);
+  return plastic_strain > 0. ? plastic_work_(plastic_strain) : 0.;
+}
+
+template <class Element>
+void ElementComparison::compare_points(const typename Element::Reference &reference,
+                                       const typename Element::Kinematics &kinematics,
+                                       ElementEnergies &energies) const {
+  constexpr unsigned int n_within = 3; // in each direction
+  static const dealii::QGauss<3> within(n_within);
+  std::array<dealii::Tensor<2, 3>, n_element_points> F;
+  for (unsigned int q = 0; q < n_element_points; ++q) {
+    F[q] = Element::template deformation<false>(reference, kinematics, q);
+    energies.plastic += Element::reference_volume(reference, q) * dissipation(measure(F[q]));
+  }
+  for (unsigned int p = 0; p < within.size(); ++p) {
+    dealii::Tensor<2, 3> there;
+    for (unsigned int q = 0; q < n_element_points; ++q) {
+      double share = 1.;
+      for (unsigned int i = 0; i < 3; ++i)
+        share *=
+            0.5 * (1. + (((q >> i) & 1U) != 0U ? 1. : -1.) * std::sqrt(3.) * (2. * within.point(p)[i] - 1.));
+      there += share * F[q];
+    }
+    energies.plastic_within += within.weight(p) * reference.volume * dissipation(measure(there));
+  }
 }
 
 double ElementComparison::energy_of_taper(const ElementVectors &positions,
@@ -142,6 +172,10 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
     typename Element::Kinematics kinematics;
     if (!element.initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
       return false;
+    if constexpr (std::is_same_v<Element, AssumedStrainElement<>>)
+      if (yield_stress_ && formulation_.element == ElementFormulation::Element::assumed_strain &&
+          formulation_.points_through == Element::points_through)
+        compare_points<Element>(reference, kinematics, own);
     elastic = 0.;
     for (unsigned int q = 0; q < n_element_points; ++q) {
       const Strains strains = measure(Element::template deformation<false>(reference, kinematics, q));
@@ -170,7 +204,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
     own += one_point;
     break;
   }
-  if (!std::isfinite(own.used + own.one_point + own.accurate + own.tapered))
+  if (!std::isfinite(own.used + own.one_point + own.accurate + own.tapered + own.plastic_within))
     return false;
   energies += own;
   return true;

@@ -136,6 +136,17 @@ int main() {
     check("stretch is none", std::abs(pulled.hourglass) < 1e-9 * pulled.used);
     check("what flow dissipates is most of it",
           pulled.plastic > 0.9 * pulled.used && pulled.plastic < pulled.used);
+    const ElementEnergies pulled_points = compare(plastic, Element::assumed_strain, x, stretched);
+    check("points see all of what stretch dissipates",
+          relative(pulled_points.plastic_within, pulled_points.plastic), 1e-10);
+    // 1.5 times the strain of first yield in the outer fibres, 0.87 of it at the points.
+    const ElementEnergies outer =
+        compare(plastic, Element::assumed_strain, x, bend(x, l, 3. * 2. / young / l[2]));
+    check("points do not see flow in outer fibres",
+          outer.plastic == 0. && outer.plastic_within > 0.05 * outer.used);
+    const ElementEnergies hinge = compare(plastic, Element::assumed_strain, x, bend(x, l, 0.2));
+    check("in a hinge they see 2/√3 of it",
+          relative(hinge.plastic / hinge.plastic_within, 2. / std::sqrt(3.)), 0.05);
     const ElementEnergies folded = compare(plastic, Element::one_point, x, bend(x, l, 0.02));
     check("so it is where bending yields",
           folded.plastic > 0.5 * folded.used && folded.hourglass > 0.9 * folded.used);

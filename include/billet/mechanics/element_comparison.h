@@ -14,8 +14,9 @@ struct ElementEnergies {
   double one_point = 0.; ///< the one-point element
   double accurate = 0.;  ///< AssumedStrainElement
   double tapered = 0.; ///< what bricks would store more under the same forces if they were not tapered, (L6)
-  double hourglass = 0.; ///< of `used`: what a one-point element has by its stabilisation alone
-  double plastic = 0.;   ///< of `used`, of one-point elements: what is dissipated
+  double hourglass = 0.;      ///< of `used`: what a one-point element has by its stabilisation alone
+  double plastic = 0.;        ///< of `used`, of one-point elements and assumed strains: what is dissipated
+  double plastic_within = 0.; ///< the same by the strains between the points, (L9): of assumed strains
 
   /// How many times as stiff the element is as it should be, (L1): at least; of tapered bricks about.
   double factor() const { return accurate > 0. ? (used + tapered) / accurate : 1.; }
@@ -26,6 +27,7 @@ struct ElementEnergies {
     tapered += other.tapered;
     hourglass += other.hourglass;
     plastic += other.plastic;
+    plastic_within += other.plastic_within;
     return *this;
   }
 };
@@ -59,6 +61,11 @@ private:
   double energy_of_taper(const ElementVectors &positions, const ElementVectors &displacements) const;
   /// α of (L2).
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
+  /// Sets `plastic` and `plastic_within` of a brick with two points through its thickness, (L9).
+  template <class Element>
+  void compare_points(const typename Element::Reference &reference,
+                      const typename Element::Kinematics &kinematics, ElementEnergies &energies) const;
+  double dissipation(const Strains &strains) const;
   /// Adds to `used`, `hourglass` and `plastic`; false if the element is inside out.
   bool add_one_point(const ElementVectors &positions, const ElementVectors &displacements,
                      ElementEnergies &energies) const;
