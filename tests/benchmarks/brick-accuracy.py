@@ -559,7 +559,9 @@ def laws():
         rows.append([name, *cells])
     Solution.law = LAWS[0]
     return ("Some of the scenes above with each `Kinematics`. Errors in %, against the same references: elastic strains are small in them, "
-            "so that the laws agree but for the order of those strains. Mean dilatation was the default of the version before.\n\n" +
+            "so that the laws agree but for the order of those strains. Mean dilatation was the default of the version before, with the same "
+            "figures. One point of that version: strips of one brick +1.0, +0.2, 0.0 and 0.0 % (10 : 1 to 1 : 1), hinge of 60 -2 and -3.5 % "
+            "(2.5 : 1 and 1 : 1), with two bricks +12 %.\n\n" +
             table([""] + [f"{element}: {law}" for element in ELEMENTS for law in LAWS], rows))
 
 
