@@ -295,8 +295,15 @@ void QuasiStatic::augment(NewtonReport &report, std::vector<double> &offsets, Ve
     if (const auto after = contact_springs(); report.converged && !after.empty()) {
       const auto changes = changes_of(springs, after);
       softness_.learn(springs, changes);
-      for (std::size_t i = 0; i < added.size(); ++i)
-        added[i] = springs[i].normal.held > 0. ? changes[i][0].in_all / springs[i].normal.held : 0.;
+      // Where bodies hardly give way springs keep what they hold, and as much is added to the force. Beside a
+      // much larger force that tells nothing: friction may be what is augmented.
+      constexpr double least_held = 0.05, kept = 0.9;
+      for (std::size_t i = 0; i < added.size(); ++i) {
+        const ContactSprings::Direction &then = springs[i].normal, &now = after[i].normal;
+        added[i] = then.held > least_held * then.force && now.held > kept * then.held
+                       ? changes[i][0].in_all / then.held
+                       : 0.;
+      }
       springs = after;
     }
   }
