@@ -216,14 +216,14 @@ def elastic_cook():
     rows, said = [], []
     finest = 32 if options.quick else 64
     for nu in (0.3, 0.4999):
-        def rise(n, element):
+        def rise(n, element, nu=nu):
             run = cook(n, element, nu, 1.0, 2e-4 / 16, 10.0)
             return 2 * run.work / 4e-8, run  # mean of the loaded edge, for unit modulus and force
 
         right, before, other = rise(finest, AS)[0], rise(finest // 2, AS)[0], rise(finest, MD)[0]
         said.append(f"{right:.3f} for ν = {nu} ({before:.3f} with {finest // 2}; {other:.3f} with {finest} and mean dilatation)")
 
-        def error(n, element):
+        def error(n, element, rise=rise, right=right):
             found, run = rise(n, element)
             return found / right - 1, run
 
