@@ -233,8 +233,7 @@ inline const DiagnosticKind element_too_stiff(
     "parasitic shear. Forces are too large, or displacements too small, by the given factor: by at least it "
     "in elastic bodies, by up to it in bodies that yield.",
     "Use 'Element = assumed strain', and where it is used bricks whose opposite edges are parallel, or "
-    "shorter "
-    "ones beside their thickness");
+    "shorter ones beside their thickness");
 
 inline const DiagnosticKind element_too_soft(
     "element-too-soft", Severity::warning,
@@ -247,8 +246,8 @@ inline const DiagnosticKind plastic_bending_coarse(
     "plastic-bending-coarse", Severity::warning,
     "A body yields as it bends, with few elements through its thickness or along the fold. More than a tenth "
     "of the energy of one-point elements is in modes that the stabilisation resists, with one yield stress "
-    "for an element. Or the two points of assumed strains miss a part of what flow dissipates between them "
-    "that is more than a fifth of the energy.",
+    "for an element. Or the two points of assumed strains miss more than 0.3 of what flow dissipates "
+    "between them, where that is more than a twentieth of the energy.",
     "Use four or more one-point bricks through the thickness, and shorter ones where the bend is sharpest; "
     "of assumed strains two, or 'Points through thickness = 5'");
 

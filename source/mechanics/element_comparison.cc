@@ -91,17 +91,11 @@ double ElementComparison::dissipation(const Strains &strains) const {
   return plastic_strain > 0. ? plastic_work_(plastic_strain) : 0.;
 }
 
-template <class Element>
-void ElementComparison::compare_points(const typename Element::Reference &reference,
-                                       const typename Element::Kinematics &kinematics,
-                                       ElementEnergies &energies) const {
+double
+ElementComparison::dissipation_between(const std::array<dealii::Tensor<2, 3>, n_element_points> &F) const {
   constexpr unsigned int n_within = 3; // in each direction
   static const dealii::QGauss<3> within(n_within);
-  std::array<dealii::Tensor<2, 3>, n_element_points> F;
-  for (unsigned int q = 0; q < n_element_points; ++q) {
-    F[q] = Element::template deformation<false>(reference, kinematics, q);
-    energies.plastic += Element::reference_volume(reference, q) * dissipation(measure(F[q]));
-  }
+  double mean = 0.;
   for (unsigned int p = 0; p < within.size(); ++p) {
     dealii::Tensor<2, 3> there;
     for (unsigned int q = 0; q < n_element_points; ++q) {
@@ -111,8 +105,9 @@ void ElementComparison::compare_points(const typename Element::Reference &refere
             0.5 * (1. + (((q >> i) & 1U) != 0U ? 1. : -1.) * std::sqrt(3.) * (2. * within.point(p)[i] - 1.));
       there += share * F[q];
     }
-    energies.plastic_within += within.weight(p) * reference.volume * dissipation(measure(there));
+    mean += within.weight(p) * dissipation(measure(there));
   }
+  return mean;
 }
 
 double ElementComparison::energy_of_taper(const ElementVectors &positions,
@@ -166,24 +161,31 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
                                 ElementEnergies &energies) const {
   ElementEnergies own, one_point;
   double elastic = 0.;
+  const bool compares_points = yield_stress_ &&
+                               formulation_.element == ElementFormulation::Element::assumed_strain &&
+                               formulation_.points_through == AssumedStrainElement<>::points_through;
   const auto add_points = [&](const auto &element, double &sum) {
     using Element = std::decay_t<decltype(element)>;
     typename Element::Reference reference;
     typename Element::Kinematics kinematics;
     if (!element.initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
       return false;
-    if constexpr (std::is_same_v<Element, AssumedStrainElement<>>)
-      if (yield_stress_ && formulation_.element == ElementFormulation::Element::assumed_strain &&
-          formulation_.points_through == Element::points_through)
-        compare_points<Element>(reference, kinematics, own);
     elastic = 0.;
+    double volume_of_all = 0.;
+    std::array<dealii::Tensor<2, 3>, n_element_points> F;
     for (unsigned int q = 0; q < n_element_points; ++q) {
-      const Strains strains = measure(Element::template deformation<false>(reference, kinematics, q));
+      F[q] = Element::template deformation<false>(reference, kinematics, q);
+      const Strains strains = measure(F[q]);
       const double volume = Element::reference_volume(reference, q);
+      volume_of_all += volume;
+      if (compares_points)
+        own.plastic += volume * dissipation(strains);
       sum += volume * energy(strains);
       elastic += volume *
                  (0.5 * elastic_.bulk * strains.volumetric * strains.volumetric + strains.deviatoric_energy);
     }
+    if (compares_points)
+      own.plastic_within = volume_of_all * dissipation_between(F);
     return true;
   };
   if (!add_one_point(positions, displacements, one_point) ||

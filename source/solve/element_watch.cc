@@ -135,52 +135,41 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
   return diagnostics;
 }
 
-DiagnosticList ElementWatch::judge_points() const {
-  constexpr double of_energy = 0.05, of_dissipation = 0.3;
-  DiagnosticList diagnostics;
-  for (std::size_t b = 0; b < energies_.size(); ++b) {
-    const ElementEnergies &energies = energies_[b];
-    if (!counts(b) || scene_.bodies()[b].formulation.element != ElementType::assumed_strain ||
-        !(energies.plastic_within > of_energy * energies.used) ||
-        !(std::abs(energies.plastic - energies.plastic_within) > of_dissipation * energies.plastic_within))
-      continue;
-    const double share = energies.plastic / energies.plastic_within;
-    std::ostringstream text;
-    text.precision(3);
-    text << "The body yields as it bends within single elements: their points see " << 100. * share
-         << " % of what flow dissipates between them. Forces may be off by ten per cent, and springback by "
-            "far more";
-    diagnostics.push_back(
-        Diagnostic(diagnostic::plastic_bending_coarse, text.str())
-            .body(scene_.bodies()[b].name)
-            .time(compared_time_)
-            .measure("part", share)
-            .advice(scene_.parameters().is_explicit()
-                        ? "Use two or more bricks through the thickness"
-                        : "Use two or more bricks through the thickness, or 'Points through thickness = 5'"));
-  }
-  return diagnostics;
-}
-
 DiagnosticList ElementWatch::judge_bending() const {
-  constexpr double of_hourglass_modes = 0.1, of_yielding = 0.1;
+  constexpr double of_hourglass_modes = 0.1, of_yielding = 0.1, of_flow_within = 0.05, of_dissipation = 0.3;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const ElementEnergies &energies = energies_[b];
-    if (!counts(b) || scene_.bodies()[b].formulation.element != ElementType::one_point ||
-        !(energies.hourglass > of_hourglass_modes * energies.used) ||
-        !(energies.plastic > of_yielding * energies.used))
+    const ElementType element = scene_.bodies()[b].formulation.element;
+    const bool is_hourglass = element == ElementType::one_point &&
+                              energies.hourglass > of_hourglass_modes * energies.used &&
+                              energies.plastic > of_yielding * energies.used;
+    const bool is_between_points =
+        element == ElementType::assumed_strain && energies.plastic_within > of_flow_within * energies.used &&
+        std::abs(energies.plastic - energies.plastic_within) > of_dissipation * energies.plastic_within;
+    if (!counts(b) || !(is_hourglass || is_between_points))
       continue;
-    const double share = energies.hourglass / energies.used;
+    const double share =
+        is_hourglass ? energies.hourglass / energies.used : energies.plastic / energies.plastic_within;
     std::ostringstream text;
     text.precision(3);
-    text << "The body yields as it bends within single elements: " << 100. * share
-         << " % of the energy is in modes that one-point elements see only by their stabilisation, which "
-            "has one yield stress for the whole element. Forces may be off by tens of per cent";
-    diagnostics.push_back(Diagnostic(diagnostic::plastic_bending_coarse, text.str())
-                              .body(scene_.bodies()[b].name)
-                              .time(compared_time_)
-                              .measure("part", share));
+    text << "The body yields as it bends within single elements: ";
+    if (is_hourglass)
+      text << 100. * share
+           << " % of the energy is in modes that one-point elements see only by their stabilisation, which "
+              "has one yield stress for the whole element. Forces may be off by tens of per cent";
+    else
+      text << "their points see " << 100. * share
+           << " % of what flow dissipates between them. Forces may be off by ten per cent, and springback by "
+              "far more";
+    Diagnostic message(diagnostic::plastic_bending_coarse, text.str());
+    message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", share);
+    message.advice(is_hourglass ? "Use four or more bricks through the thickness, and shorter ones where the "
+                                  "bend is sharpest"
+                   : scene_.parameters().is_explicit()
+                       ? "Use two or more bricks through the thickness"
+                       : "Use two or more bricks through the thickness, or 'Points through thickness = 5'");
+    diagnostics.push_back(message);
   }
   return diagnostics;
 }
@@ -202,7 +191,6 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   if (is_last) {
     DiagnosticList diagnostics = judge(false);
     append(diagnostics, judge_bending());
-    append(diagnostics, judge_points());
     return diagnostics;
   }
   return is_static && is_first && compared_energy_ > 0. ? judge(true) : DiagnosticList();

@@ -104,6 +104,15 @@ class Run:
         return interpolate(self.times, self.forces, time)
 
 
+def count_instructions(folder):
+    """Of a run of scene.prm in this folder by callgrind, without what libraries do before it."""
+    done = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=billet::run_simulation(*", "--callgrind-out-file=/dev/null",
+                           PROGRAM, "scene.prm"], cwd=folder, capture_output=True, text=True, env={**os.environ, "OPENBLAS_CORETYPE": "Haswell"})
+    if done.returncode != 0:
+        sys.exit(f"under valgrind billet ended with {done.returncode}: {done.stderr}")
+    return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
+
+
 def interpolate(times, values, time):
     """The value at this time, straight lines between; NaN beyond the last."""
     for t0, t1, v0, v1 in zip(times, times[1:], values, values[1:]):

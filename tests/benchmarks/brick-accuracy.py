@@ -25,7 +25,7 @@ def dead_load(kind, traction, axis, far, components="x, y, z"):
 
 
 unwarned, worst, titles = [], {}, []
-scenes = {}  # for other laws: solve() of compare(), and how errors are shown
+scenes = {}  # for other laws: solve() of compare(), by name
 
 
 def compare(labels, solve, show=signed, claim=None, stiffness=1):

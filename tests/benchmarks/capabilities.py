@@ -2,14 +2,11 @@
 """What a scene pays for each capability that it asks for: instructions and memory, from one elastic body on."""
 
 import csv
-import os
-import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from billet_runs import PROGRAM, Measured, arguments, number, percent, publish, table
+from billet_runs import PROGRAM, Measured, arguments, count_instructions, number, publish, table
 
 options = arguments("capabilities")
 EDGE = 6
@@ -84,12 +81,7 @@ class Run:
             if plain.code != 0:
                 sys.exit(f"billet ended with {plain.code}: {plain.stderr}\n{text}")
             self.megabytes = plain.megabytes
-            done = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=billet::run_simulation(*",
-                                   "--callgrind-out-file=/dev/null", PROGRAM, "scene.prm"], cwd=place, capture_output=True, text=True,
-                                  env={**os.environ, "OPENBLAS_CORETYPE": "Haswell"})
-            if done.returncode != 0:
-                sys.exit(f"under valgrind billet ended with {done.returncode}: {done.stderr}")
-            self.instructions = int(re.search(r"Collected : (\d+)", done.stderr).group(1))
+            self.instructions = count_instructions(place)
             with open(place / "results/capabilities.csv", newline="") as file:
                 self.rows = {row["capability"]: {key: int(row[key]) for key in ("calls", "items", "bytes")} for row in csv.DictReader(file)}
             with open(place / "results/history.csv", newline="") as file:

@@ -8,8 +8,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from billet_runs import (PAIR, PROGRAM, SCENE, TANGENT, Run, arguments, curve_error, fixed_steps, mesh, n_elements, number, percent, publish, read_scene,
-                         table, variant)
+from billet_runs import (PAIR, PROGRAM, SCENE, TANGENT, Run, arguments, count_instructions, curve_error, fixed_steps, mesh, n_elements, number, percent,
+                         publish, read_scene, table, variant)
 
 options = arguments("elements")
 COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/element_cost")
@@ -29,7 +29,7 @@ def force(result):
     return number(result.force(1.0), 5)
 
 
-def count_instructions(what):
+def evaluation_instructions(what):
     """Instructions of one evaluation by (element, law): callgrind's inclusive count of LawBlock::evaluate()."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
@@ -52,11 +52,9 @@ def instructions_of_run(text, column):
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         (place / "scene.prm").write_text(text)
-        done = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=billet::run_simulation(*", "--callgrind-out-file=/dev/null",
-                               PROGRAM, "scene.prm"], cwd=place, capture_output=True, text=True, check=True,
-                              env={**os.environ, "OPENBLAS_CORETYPE": "Haswell"})
+        instructions = count_instructions(place)
         with open(place / "results/history.csv", newline="") as file:
-            return int(re.search(r"Collected : (\d+)", done.stderr).group(1)), int(list(csv.DictReader(file))[-1][column])
+            return instructions, int(list(csv.DictReader(file))[-1][column])
 
 
 def instructions_of_each(text_of, column):
@@ -85,14 +83,14 @@ def explicit_scene(element, law):
 
 def beside_mean_dilatation(rows_of_runs):
     """What iterations and steps cost over those with mean dilatation, the default until 2026-11-22, and what was wanted."""
-    found = []
-    for law in LAWS if not options.quick else LAWS[:1]:
+    found, some = [], LAWS[:1] if options.quick else LAWS
+    for law in some:
         each = {element: instructions_of_each(implicit_scene(element, law), "total_iterations") for element in ELEMENTS}
         found.append(["an iteration of 60 bricks", law, *(number(each[e] / each["mean dilatation"], 3) for e in ("assumed strain", "one point")), "1.2, –"])
-    for law in LAWS if not options.quick else LAWS[:1]:
+    for law in some:
         found.append(["one evaluation with matrix", law,
                       *(number(tangents[e, law] / tangents["mean dilatation", law], 3) for e in ("assumed strain", "one point")), "1.2, –"])
-    for law in LAWS if not options.quick else LAWS[:1]:
+    for law in some:
         each = {element: instructions_of_each(explicit_scene(element, law), "step") for element in ELEMENTS}
         found.append(["an explicit step", law, *(number(each[e] / each["mean dilatation"], 3) for e in ("assumed strain", "one point")), "1.4, 0.45"])
     for law in LAWS:
@@ -133,7 +131,7 @@ for element, law in (("assumed strain", "neo-Hookean"), ("assumed strain", "hypo
             cells.append(str(result.iterations) if result.converged else result.failure)
     tangent_rows.append([element, law] + cells)
 
-forces, tangents = count_instructions("forces"), count_instructions("tangents")
+forces, tangents = evaluation_instructions("forces"), evaluation_instructions("tangents")
 base = tangents["assumed strain", "Hencky"]
 cost_rows = [[element, law, number(forces[element, law] / 1e3, 3), number(tangents[element, law] / 1e3, 3),
               number(tangents[element, law] / base, 2)] for element in ELEMENTS for law in LAWS]

@@ -61,11 +61,10 @@ private:
   double energy_of_taper(const ElementVectors &positions, const ElementVectors &displacements) const;
   /// α of (L2).
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
-  /// Sets `plastic` and `plastic_within` of a brick with two points through its thickness, (L9).
-  template <class Element>
-  void compare_points(const typename Element::Reference &reference,
-                      const typename Element::Kinematics &kinematics, ElementEnergies &energies) const;
+  /// Per volume [stress]; w_p of (L9).
   double dissipation(const Strains &strains) const;
+  /// Its mean over a brick whose F is this at 2³ points and trilinear between them.
+  double dissipation_between(const std::array<dealii::Tensor<2, 3>, n_element_points> &F) const;
   /// Adds to `used`, `hourglass` and `plastic`; false if the element is inside out.
   bool add_one_point(const ElementVectors &positions, const ElementVectors &displacements,
                      ElementEnergies &energies) const;

@@ -40,10 +40,9 @@ public:
 
 private:
   void compare(const SolutionState &state);
-  /// Bodies that bend and yield with too few one-point elements through the thickness.
+  /// Bodies that bend and yield with too few one-point elements through the thickness, or where the points of
+  /// bricks of assumed strains do not see it, (L9).
   DiagnosticList judge_bending() const;
-  /// Bodies that yield where the points of their bricks of assumed strains do not see it, (L9).
-  DiagnosticList judge_points() const;
   /// (L1), on the safe side for bodies that yield.
   double factor_of(std::size_t body) const;
   /// Whether its element is too stiff or too soft for what it does.
