@@ -391,7 +391,7 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   // Deeper ones are allowed as far as they are found: half of where a step loses them.
   const bool is_by_overlaps = bodies.facets == parameters::ContactPair::Facets::overlap;
   const double found = least_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::depth : 1.);
-  // The middle of a facet of a sphere is as far below the surface as its edges of both directions, (K1).
+  // The middle of a facet of a sphere is as far below the surface as its edges of both directions, (C8).
   const double of_edges =
       bodies.correction.kind == parameters::ContactPair::Correction::Kind::sphere ? 2.02 : 1.01;
   const double allowed = bodies.overlap.is_allowed ? found

@@ -14,7 +14,7 @@ using dealii::Tensor;
 namespace {
 
 /// Near the tool, and in it, ways go on by this part of the facets around the node. What is thinner is
-/// (M38)'s.
+/// (T9)'s.
 constexpr double fine = 0.125;
 
 /// A rigid tool between two placements.

@@ -440,7 +440,7 @@ void scatter(const Reference &reference, const Rows<n> &K, ElementMatrix &matrix
     }
 }
 
-/// Adds the stiffness of W_X, (B10), of a brick with layers to K, and condenses X.
+/// Adds the stiffness of W_X, (B9), of a brick with layers to K, and condenses X.
 template <unsigned int n_through, std::size_t n>
 void add_thinning(const typename AssumedStrainElement<n_through>::Reference &reference,
                   const Frame<double> &frame, const Frame<Direction> &directions,

@@ -107,7 +107,7 @@ hourglass::Metric<double> measure_columns(const ModalGeometry &geometry) {
   return metric;
 }
 
-/// M_h of (X13): bound of the stiffness of hourglass strains over their weighted squares.
+/// M_h of (X12): bound of the stiffness of hourglass strains over their weighted squares.
 double bound_hourglass(const ElasticModuli &elastic, const hourglass::Metric<double> &metric) {
   const hourglass::Moduli<double> moduli(elastic.bulk, elastic.shear);
   constexpr std::size_t n = 12;

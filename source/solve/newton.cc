@@ -231,7 +231,7 @@ private:
   bool by_energy_;
 };
 
-/// The four criteria (M11), and the limit on iterations; keeps the record of the iterations.
+/// The four criteria (Q1), and the limit on iterations; keeps the record of the iterations.
 class Convergence final : public NOX::StatusTest::Generic {
 public:
   Convergence(const NonlinearProblem &problem, const parameters::Solver &settings, const Epetra_Vector &x_n,

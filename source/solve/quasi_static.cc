@@ -711,11 +711,11 @@ void QuasiStatic::commit(const double t) {
     state_.energies.external +=
         0.5 * (imbalance_left(t) + imbalance_left(state_.time)) * (*imbalance_ * last_increment_);
   if (!motion_)
-    state_.energies.external += element_imbalance().by_yielding; // (Q5)
+    state_.energies.external += element_imbalance().by_yielding; // (A3)
   u_n_ = trial_;
   internal_.commit();
 
-  // Work of the supports and of the tools, by the trapezoidal rule, but with (I6) that of contact by its
+  // Work of the supports and of the tools, by the trapezoidal rule, but with (I4) that of contact by its
   // forces at the end.
   const double before = contact_before();
   Vector mean_forces = support_forces_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Facets that stand for a curved surface: its heights (K1), (K2), and the gap (K3) between the facets of two
+// Facets that stand for a curved surface: its heights (C8), (C9), and the gap (C10) between the facets of two
 // concentric cylinders, which is the difference of their radii wherever their chords are.
 #include "billet/geometry/facet_bulge.h"
 #include "billet/geometry/facet_overlap.h"

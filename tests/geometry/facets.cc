@@ -193,7 +193,7 @@ void check_planed() {
   }
   check("planed: eq. (20)", n_wrong == 0 && n_inside > 500 && n_inside < 2500);
 
-  // Of plane facets the gap's gradients are the reaction's weights, (X9); the mean gap's are not, by ±ξη/4.
+  // Of plane facets the gap's gradients are the reaction's weights, (C1); the mean gap's are not, by ±ξη/4.
   WorstError gradient, mean_gradient;
   for (unsigned int i = 0; i < 1000; ++i) {
     FacetCorners x = unit_square();

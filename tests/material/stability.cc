@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The least stiffness of waves (M39): of a dilatation, in closed form; of a bar, where it is lost; of
+// The least stiffness of waves (M7): of a dilatation, in closed form; of a bar, where it is lost; of
 // Hencky's law within the range that is known to be stable; and against second differences of the stored
 // energy.
 

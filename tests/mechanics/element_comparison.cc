@@ -152,7 +152,7 @@ int main() {
           folded.plastic > 0.5 * folded.used && folded.hourglass > 0.9 * folded.used);
   }
   {
-    // A tapered brick with the displacements of a bent beam: it stores 3 (l τ/h)² of them once more, (L6).
+    // A tapered brick with the displacements of a bent beam: it stores 3 (l τ/h)² of them once more, (L4).
     const double curvature = 1e-5;
     const auto bend_tapered = [&](const unsigned int axis, const double taper, const Element element) {
       auto x = brick(l);
@@ -170,7 +170,7 @@ int main() {
       check("with one point, too", relative(bend_tapered(2, taper, Element::one_point).factor(), exact),
             0.05);
     }
-    // Tapered across the plane in which it bends, (L8): ends that are not square to it tilt.
+    // Tapered across the plane in which it bends, (L5): ends that are not square to it tilt.
     for (const double taper : {0.02, 0.05, 0.1}) {
       const double exact = 1. + 1.5 * std::pow(l[0] * taper / l[2], 2); // 3 G/E
       check("tapered across by " + std::to_string(taper).substr(0, 4) + " it is too stiff",

@@ -165,7 +165,7 @@ void test_hourglass() {
         std::abs(energy_of(torsion) / (steel.shear / 6. * volume * l[2] * l[2] * twist * twist) - 1.), 1e-6);
 }
 
-/// Bending by the stabilisation alone, to and fro: one yield condition for both, (M32). With e the strain at
+/// Bending by the stabilisation alone, to and fro: one yield condition for both, (X7). With e the strain at
 /// the faces and E' = E/(1 − ν²): q = √(G E') |e|, moment and plastic strain of the first way in closed form.
 void test_plastic_bending(const Kinematics kinematics) {
   const Formulation formulation = make_formulation(Element::one_point, kinematics);

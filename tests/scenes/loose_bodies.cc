@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Bodies that viscous forces hold until tools and bodies do, (Q7): their forces are those of the scene in
+// Bodies that viscous forces hold until tools and bodies do, (Q3): their forces are those of the scene in
 // which they touch at the start, energies balance, a checkpoint in the middle of the fading changes nothing,
 // and where the forces do much of all work a warning says so.
 #include "restart_run.h"

@@ -37,7 +37,7 @@ int main(int argc, char *argv[]) {
         mirrored.add(std::hypot(forces[i][0] + there[0], forces[i][2] - there[2]) / largest_force);
       }
       check(name + "mirrored force", mirrored.value(), 1e-5);
-      // (Q2) follows a node that leaves on the one facet that had most of it, one that enters on all.
+      // (A1) follows a node that leaves on the one facet that had most of it, one that enters on all.
       check(name + "work", std::abs(state.energies.external) / largest_energy, 1e-3);
     } else
       check(name + "work", std::abs(state.energies.external / state.energies.friction - 1.), 0.03);

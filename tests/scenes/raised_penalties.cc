@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Penalties that rise in implicit dynamics, with tools and between bodies, (L7) of doc/theory.md: the force
+// Penalties that rise in implicit dynamics, with tools and between bodies, (L8) of doc/theory.md: the force
 // of a column is that of rigid contact, and no step rattles.
 #include "implicit_run.h"
 

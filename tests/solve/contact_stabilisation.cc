@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Viscous forces on bodies that contact is yet to support, (Q7): derivatives of their potential, the closed
+// Viscous forces on bodies that contact is yet to support, (Q3): derivatives of their potential, the closed
 // form of a body that moves steadily, works, fading, and what a checkpoint keeps.
 #include "billet/solve/contact_stabilisation.h"
 

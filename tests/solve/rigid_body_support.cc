@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Rigid-body modes of bodies that supports, contact, friction and driven tools leave free, (Q1): counts that
+// Rigid-body modes of bodies that supports, contact, friction and driven tools leave free, (Q2): counts that
 // are known by hand.
 #include "billet/solve/rigid_body_support.h"
 

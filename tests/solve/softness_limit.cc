@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which steps SoftnessLimit augments, (L5): a spring k presses a body of stiffness K, which gives way by d in
+// Which steps SoftnessLimit augments, (L7): a spring k presses a body of stiffness K, which gives way by d in
 // so many steps. The force is that of rigid contact as far as it should be, and soft bodies cost little.
 #include "billet/solve/softness_limit.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Works of contact in a step: nodes that enter and leave, (Q2), the ramp, (Q3), against closed forms of a
-// spring; and the verdicts on steps, (Q4).
+// Works of contact in a step: nodes that enter and leave, (A1), the ramp, (A2), against closed forms of a
+// spring; and the verdicts on steps, (A4).
 #include "billet/solve/step_energy.h"
 #include "billet/contact/step_works.h"
 

@@ -117,7 +117,7 @@ int main() {
     check(name + ": second order",
           std::abs(std::log2(final_error(integrator, 200) / final_error(integrator, 400)) - 2.), 0.03);
 
-    // What it takes: D of (I5) in closed form, with damping and over some steps.
+    // What it takes: D of (I9) in closed form, with damping and over some steps.
     {
       const Oscillator o{3., 0.4};
       const double dt = 0.8;
@@ -164,7 +164,7 @@ int main() {
     check("average acceleration: energy", energy.value(), 1e-12);
   }
 
-  // (I6): a mass hits a spring that only presses, is thrown back, and never has more energy than before; what
+  // (I4): a mass hits a spring that only presses, is thrown back, and never has more energy than before; what
   // it loses is ½ k (Δg)², less what it leaves over, and (β/γ − ½) Δt² F_c²/m.
   for (const auto &integrator :
        {newmark, TimeIntegrator::hilber_hughes_taylor(-0.2), TimeIntegrator::generalised_alpha(0.8),
@@ -198,7 +198,7 @@ int main() {
         c_n = c;
       }
       std::ostringstream name;
-      name << "(I6), gamma " << integrator.gamma() << ", k " << k;
+      name << "(I4), gamma " << integrator.gamma() << ", k " << k;
       check(name.str() + ": loss", balance.value(), 1e-9);
       check(name.str() + ": no gain", gain.value(), 1e-12);
       check(name.str() + ": thrown back, and free", u > 0. && v >= 0. && c_n == 0.);

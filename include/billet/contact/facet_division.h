@@ -9,7 +9,7 @@
 namespace billet {
 
 /// Finds into how many parts facets have to be divided so that a tool cannot enter between the corners of
-/// the parts of (M43) unseen.
+/// the parts of (T10) unseen.
 ///
 /// Each sample of the tool's surface, a point x with a normal n, meets a square of side s in its tangent
 /// plane, with x in the middle. Along the tool's axes of the sample and turned by 45 degrees, at least one

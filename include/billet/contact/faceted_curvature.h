@@ -18,7 +18,7 @@ struct ChordGap {
 };
 
 /// Finds it between the faces of a pair, undeformed or with these (ghosted) displacements. The smooth
-/// surfaces are those of mean nodal normals, (K2); facets that meet at more than 50 degrees do not share one.
+/// surfaces are those of mean nodal normals, (C9); facets that meet at more than 50 degrees do not share one.
 /// Surfaces fit each other where one is convex, the other concave, and their largest curvatures differ by
 /// less than a quarter. Where nodes of both lie at the same places chords do, too, and nothing is found.
 /// Collective; ranks get all faces of the second body.

@@ -34,7 +34,7 @@ struct FrictionStep {
 /// dissipates over the slip γ = Δg_t + (t − t_n)/k_t, and L = A |t − t_n|²/(2 k_t) is what the end value
 /// takes besides; a node that leaves dissipates what its spring held. If springs store nothing, L = 0.
 ///
-/// In statics dissipation never falls, (I8): D = ½ A_n max(−t_n·γ, τ_n |γ|) + ½ A <−t·γ>, with φ Δg_t in γ. A
+/// In statics dissipation never falls, (I6): D = ½ A_n max(−t_n·γ, τ_n |γ|) + ½ A <−t·γ>, with φ Δg_t in γ. A
 /// node that sticks at the start slips once it bears τ_n, and not with t_n. In steady sliding that is W as
 /// above, but for what a change of area makes of stored energy. A node that leaves has
 /// D = A_n <Ψ_n − ½ φ t_n·Δg_t>. What mean forces take of the rest of the motion of nodes that enter or leave

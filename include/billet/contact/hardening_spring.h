@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// A penalty spring per area that becomes stiffer with its depth d, (M44):
+/// A penalty spring per area that becomes stiffer with its depth d, (T11):
 ///
 ///   p = k d (1 + d²/d_0²),   e = ½ k d² (1 + ½ d²/d_0²),   dp/dd = k (1 + 3 d²/d_0²).
 ///

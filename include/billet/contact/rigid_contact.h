@@ -37,7 +37,7 @@ namespace billet {
 /// what makes a uniform pressure a uniform stress, and a facet that does not face the tool (the side of a
 /// billet, before it folds onto the die) has no share.
 ///
-/// Where the tool's surface ends its pressure fades, (M34), (M35): a node beyond its border by d keeps the
+/// Where the tool's surface ends its pressure fades, (T3), (T4): a node beyond its border by d keeps the
 /// part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it, and is pushed out by what
 /// that takes of the energy ½ k s g² per area, −½ k g² s′ e, e pointing away from the border.
 ///
@@ -46,7 +46,7 @@ namespace billet {
 /// front again. It would jump to its full depth there, in a step or two, with energy from nowhere. Not where
 /// another tool is near, nor of a part of the surface that it comes to from the front.
 ///
-/// Facets between whose nodes the tool could enter unseen (FacetDivision) are divided, (M43): each into n × m
+/// Facets between whose nodes the tool could enter unseen (FacetDivision) are divided, (T10): each into n × m
 /// facets that are bilinear as well, whose corners inside are points of contact like nodes. A point's
 /// position is Σ N_a x_a of the facet's nodes, which take its force and its stiffness by the same N_a. All of
 /// the above holds for the parts as it stands: what they are to their corners is what facets are to nodes.
@@ -168,12 +168,12 @@ public:
   double closing_of_new_contacts() const;
   /// Whether a node of this rank touches the tool, at the last update().
   bool has_touching_nodes() const;
-  /// Whether a node of this rank has gone through the tool, from side to side, in the step, (M38): of tools
+  /// Whether a node of this rank has gone through the tool, from side to side, in the step, (T9): of tools
   /// thinner than two facets, the only ones that are as thin as that. After update() and before commit();
   /// false in the first step after load().
   bool lets_nodes_through() const;
   /// The part of a motion of the body's nodes (displacements, ghosted) and of the tool that takes no node of
-  /// this rank through the tool, or so deep into it that it would soon come out on another side (M42).
+  /// this rank through the tool, or so deep into it that it would soon come out on another side (C12).
   /// Motions that are small against facets are let pass, unless `is_thorough`. In contact/tool_paths.cc.
   double find_free_part(const Vector &from, const Placement &tool_from, const Vector &to,
                         const Placement &tool_to, bool is_thorough) const;
@@ -343,7 +343,7 @@ private:
                      const std::vector<std::array<unsigned int, 4>> &corners);
   void divide(const std::array<unsigned int, 4> &corners, const std::array<unsigned int, 2> &n_parts,
               std::uint64_t key);
-  /// Lets springs at divided facets of explicit scenes become stiffer with their depth (M44).
+  /// Lets springs at divided facets of explicit scenes become stiffer with their depth (T11).
   void harden_springs();
   /// As stiff as the normal spring of a node may be at the end of the next step, if that is as long as this.
   double stiffness_ahead(std::size_t i) const;
@@ -440,7 +440,7 @@ private:
   Springs springs_of(std::size_t i, double energy) const;
   Springs springs_of(const std::size_t i) const { return springs_of(i, stored_energy(i)); }
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
-  /// −Σ_a ê_a ∂A_a/∂x_b (M36), ê what areas as they are weigh of the stored energy e: with these, normal
+  /// −Σ_a ê_a ∂A_a/∂x_b (T7), ê what areas as they are weigh of the stored energy e: with these, normal
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
   void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
   /// Adds what friction has dissipated. In explicit scenes, only that of nodes that have lifted off.

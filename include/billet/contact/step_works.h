@@ -9,9 +9,9 @@ namespace billet {
 /// Works of a contact pair in a step beyond forces times motions.
 struct StepWorks {
   /// Of pressure and friction on nodes that enter or leave within the step: what the trapezoidal rule counts
-  /// falsely, (Q2) [energy].
+  /// falsely, (A1) [energy].
   double touching = 0.;
-  /// Of the ramp by which an initial penetration begins to count, (Q3): it loads springs without a motion
+  /// Of the ramp by which an initial penetration begins to count, (A2): it loads springs without a motion
   /// [energy].
   double ramp = 0.;
 

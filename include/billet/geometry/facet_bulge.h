@@ -14,7 +14,7 @@ namespace facet {
 
 /// The height of that surface above the point (ξ, η) of the facet: the eight-node function, which is exact
 /// for heights that are quadratic in ξ and η, but for ξ²η²,
-///   b(ξ, η) = ½ (1 − ξ²) [(1 − η) b_0 + (1 + η) b_2] + ½ (1 − η²) [(1 + ξ) b_1 + (1 − ξ) b_3]        (K1)
+///   b(ξ, η) = ½ (1 − ξ²) [(1 − η) b_0 + (1 + η) b_2] + ½ (1 − η²) [(1 + ξ) b_1 + (1 − ξ) b_3]        (C8)
 template <class Number> Number height(const FacetBulge &bulge, const std::array<Number, 2> &parameters) {
   const Number &xi = parameters[0], &eta = parameters[1];
   return 0.5 * (1. - xi * xi) * ((1. - eta) * bulge[0] + (1. + eta) * bulge[2]) +
@@ -42,7 +42,7 @@ inline double largest_height(const FacetBulge &bulge) {
 
 /// From the unit normals of the smooth surface at the corners: a curve from x_a to x_b that is normal to n_a
 /// and n_b at its ends rises, to second order in its angle, to
-///   b = (n_b − n_a)·(x_b − x_a)/8                                                                   (K2)
+///   b = (n_b − n_a)·(x_b − x_a)/8                                                                   (C9)
 /// above the middle of its chord: L²/(8 R) for a circle.
 inline FacetBulge bulge_from_normals(const FacetCorners &corners, const FacetCorners &normals) {
   FacetBulge bulge{};

@@ -30,8 +30,8 @@ template <class Number> struct FacetOverlapOf {
 /// are the true ones. Facets without area, or which do not face each other, do not overlap.
 ///
 /// With the heights of the smooth surfaces that both facets stand for the gap is that of these surfaces,
-///   g = (x_s − x_t)·n̄ − b_s(ξ_s, η_s) − b_t(ξ_t, η_t),   ξ = Σ φ_a ξ_a                              (K3)
-/// b being (K1). It is what is integrated; the polygon ends where its linear part about the middle of each
+///   g = (x_s − x_t)·n̄ − b_s(ξ_s, η_s) − b_t(ξ_t, η_t),   ξ = Σ φ_a ξ_a                              (C10)
+/// b being (C8). It is what is integrated; the polygon ends where its linear part about the middle of each
 /// piece does.
 template <class Number>
 FacetOverlapOf<Number>

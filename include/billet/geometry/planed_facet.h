@@ -18,7 +18,7 @@ namespace billet {
 /// asks it of both edges at each corner.
 ///
 /// The gap is not the mean one but that to the warped surface above the same projection,
-///   g = (x − Σ w_I x_I)·n̄ = ḡ − h Σ ±w_I                                                       (X9)
+///   g = (x − Σ w_I x_I)·n̄ = ḡ − h Σ ±w_I                                                       (C1)
 /// with the corners ±h from the plane: ∂g/∂x_I = −w_I n̄ then, as the reaction wants it, to first order in the
 /// warp; and neighbours agree on their common edge. The mean gap does not know the warping that its reaction
 /// drives, and can make energy from it: see MeanGapFacet.

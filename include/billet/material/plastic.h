@@ -10,7 +10,7 @@
 
 namespace billet {
 
-/// The yield condition that a point shares with the stabilisation of its element, (M32) of doc/theory.md:
+/// The yield condition that a point shares with the stabilisation of its element, (X7) of doc/theory.md:
 /// √(q² + 6 G W) = σ_y, as W = σ_y²/6G is what a yielding point stores. The return leaves the same share of
 /// both stresses.
 struct SharedYield {

@@ -15,7 +15,7 @@ using Stretches = std::array<double, 3>;
 
 /// The least stiffness of plane waves, over the shear modulus, in an isotropic elastic law at these principal
 /// stretches: the least eigenvalue, over directions n, of
-///   Q_ik(n) = n_p n_q c_ipkq + δ_ik n_p τ_pq n_q                                                       (M39)
+///   Q_ik(n) = n_p n_q c_ipkq + δ_ik n_p τ_pq n_q                                                       (M7)
 /// (Legendre & Hadamard's condition; Ogden 1997, ch. 6). Where it is negative such waves grow. Directions are
 /// a grid of an eighth of the sphere in the principal frame, 15 degrees apart, which the others mirror. −∞
 /// where the law has no stress.
@@ -50,7 +50,7 @@ double least_wave_stiffness(const Law &law, const double shear, const Stretches 
 
 /// The same of rates of stress, dev τ̊ = 2G dev d with the spin of the material, on a straight path: of shear
 /// waves G − (τ_max − τ_min)/2, τ_max − τ_min = 2G ln(λ_max/λ_min), and of waves along a principal direction
-/// κ (1 − ln J) + 4/3 G − 2G dev ln λ (M40).
+/// κ (1 − ln J) + 4/3 G − 2G dev ln λ (M8).
 inline double least_wave_stiffness_of_rates(const ElasticModuli &elastic, const Stretches &stretches) {
   const auto [least, most] = std::minmax_element(stretches.begin(), stretches.end());
   if (!(*least > 0.))

@@ -24,14 +24,14 @@ constexpr double kept_shear_of_layers = 0.2;
 // Additional data of bricks with more than two points through the thickness ("layers").
 struct NoLayers {};
 struct LayersReference {
-  double modulus;      ///< κ' of (B10) [stress]
+  double modulus;      ///< κ' of (B9) [stress]
   double elastic_part; ///< X/E of elastic bricks
 };
 struct LayersKinematics {
   strain_modes::Strains<double> strains; ///< in space, without the free thinning
   dealii::Tensor<2, 3> mean_F;           ///< F̄
-  double stretch;                        ///< E of (B9)
-  double thinning;                       ///< X of (B9), which set_thinning() sets
+  double stretch;                        ///< E of (B8)
+  double thinning;                       ///< X of (B8), which set_thinning() sets
 };
 
 /// Assumed strains, (B1) to (B6) of doc/theory.md: F_q = (det Y_q)^{−1/3} Y_q F̄ with the mean gradient F̄ and
@@ -39,7 +39,7 @@ struct LayersKinematics {
 /// through a thickness, at any aspect ratio; all points share det F̄. Laws in rate form see Y_q F̄.
 ///
 /// `n_through`: 2, the same points in all directions, or 3, 5 or 7 points through the thickness. There the
-/// brick's thinning X is free, (B9) to (B11): the stresses decide it, as plastic flow thins more than
+/// brick's thinning X is free, (B8) to (B10): the stresses decide it, as plastic flow thins more than
 /// elasticity.
 template <unsigned int n_through = 2> class AssumedStrainElement {
 public:
@@ -93,16 +93,16 @@ public:
                                  const History &history_n) {
     return history_n.thinning + reference.elastic_part * (kinematics.stretch - history_n.stretch);
   }
-  /// Returns P of (B10), and W_X.
+  /// Returns P of (B9), and W_X.
   static double thinning_force(const Reference &reference, const Kinematics &kinematics) {
     return reference.modulus * reference.volume / 3. * (kinematics.stretch - kinematics.thinning);
   }
   static double thinning_energy(const Reference &reference, const Kinematics &kinematics) {
     return 0.5 * thinning_force(reference, kinematics) * (kinematics.stretch - kinematics.thinning);
   }
-  /// Returns the pressure −p(ζ) of (B10) at a point, to be subtracted from its Kirchhoff stress.
+  /// Returns the pressure −p(ζ) of (B9) at a point, to be subtracted from its Kirchhoff stress.
   static double varying_pressure(const Reference &reference, const Kinematics &kinematics, unsigned int q);
-  /// (B11), derivative of the power by X, which vanishes in balance.
+  /// (B10), derivative of the power by X, which vanishes in balance.
   static double thinning_residual(const Reference &reference, const Kinematics &kinematics,
                                   const Stresses &tau);
   /// Its derivative for small strains: of an elastic brick, and without any stiffness of the law.

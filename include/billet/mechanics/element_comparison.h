@@ -13,10 +13,10 @@ struct ElementEnergies {
   double used = 0.;      ///< the element of the body
   double one_point = 0.; ///< the one-point element
   double accurate = 0.;  ///< AssumedStrainElement
-  double tapered = 0.; ///< what bricks would store more under the same forces if they were not tapered, (L6)
+  double tapered = 0.; ///< what bricks would store more under the same forces if they were not tapered, (L4)
   double hourglass = 0.;      ///< of `used`: what a one-point element has by its stabilisation alone
   double plastic = 0.;        ///< of `used`, of one-point elements and assumed strains: what is dissipated
-  double plastic_within = 0.; ///< the same by the strains between the points, (L9): of assumed strains
+  double plastic_within = 0.; ///< the same by the strains between the points, (L3): of assumed strains
 
   /// How many times as stiff the element is as it should be, (L1): at least; of tapered bricks about.
   double factor() const { return accurate > 0. ? (used + tapered) / accurate : 1.; }
@@ -57,11 +57,11 @@ private:
   double energy(const Strains &strains) const {
     return energy(strains.volumetric, strains.deviatoric_energy);
   }
-  /// (L6) with (L8), of elastic bricks.
+  /// (L4) with (L5), of elastic bricks.
   double energy_of_taper(const ElementVectors &positions, const ElementVectors &displacements) const;
   /// α of (L2).
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
-  /// Per volume [stress]; w_p of (L9).
+  /// Per volume [stress]; w_p of (L3).
   double dissipation(const Strains &strains) const;
   /// Its mean over a brick whose F is this at 2³ points and trilinear between them.
   double dissipation_between(const std::array<dealii::Tensor<2, 3>, n_element_points> &F) const;

@@ -2,7 +2,7 @@
 #ifndef BILLET_MECHANICS_HOURGLASS_ENERGY_H
 #define BILLET_MECHANICS_HOURGLASS_ENERGY_H
 
-// Energy of the hourglass strains of a one-point brick, (X5) of doc/theory.md, and the stresses that belong
+// Energy of the hourglass strains of a one-point brick, (X6) of doc/theory.md, and the stresses that belong
 // to it: one code for implicit scenes and for the lanes of explicit kernels, into which all of it is inlined.
 // `Real` is the type of what differs from element to element, `Number` that of constants. The strains are
 // those of strain_modes.h without any shear. The metric of the plane that they are in knows its normal.

@@ -330,7 +330,7 @@ private:
     return true;
   }
 
-  /// Solves (B11) for the thinning: `update_all` computes `tau` at a thinning. A secant's slope stays between
+  /// Solves (B10) for the thinning: `update_all` computes `tau` at a thinning. A secant's slope stays between
   /// bounds, and its steps between the signs that are known. False if a state is not admissible.
   template <class History, class Update>
   bool balance_thinning(const Reference &reference, const History &history_n, Kinematics &kinematics,

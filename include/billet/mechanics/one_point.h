@@ -11,8 +11,8 @@
 namespace billet {
 
 /// The one-point brick of the explicit kernels, with its tangent: stored energy V ψ(F̄) of the mean gradient
-/// F̄, and that of the hourglass strains ĥ which F̄ does not see, (X4), (X5) of doc/theory.md. Where the body
-/// is plastic both yield together, (M32), and flow moves ĥ_0.
+/// F̄, and that of the hourglass strains ĥ which F̄ does not see, (X4), (X6) of doc/theory.md. Where the body
+/// is plastic both yield together, (X7), and flow moves ĥ_0.
 class OnePointElement {
 public:
   static constexpr unsigned int n_points = 1;

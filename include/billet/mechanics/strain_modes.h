@@ -8,7 +8,7 @@
 // constants, `Number` that of literals. Symmetric tensors are 11, 22, 33, 12, 13, 23; of a vector per
 // direction of the brick, v[k][i] is component i of that of direction k.
 //
-// Strains are written by their products with the columns, h_ab = a_a·h a_b (B8). There most vectors of (B3)
+// Strains are written by their products with the columns, h_ab = a_a·h a_b (B7). There most vectors of (B3)
 // to (B5) have one component or two, and nothing but scalars is left: of the metric a_a·a_b and of a_a·b̂.
 
 #include <type_traits>
@@ -57,8 +57,8 @@ template <class Real> struct Products { Real of[4][3]; };
 /// The thinning along the third direction where (B3) does not give it.
 struct GivenThinning {};
 template <class Real> struct FreeThinning {
-  Real strain;   ///< X of (B9): the strain along the normal is −X ξ_3
-  Real pressure; ///< P of (B10), which works on the stretch of the plane
+  Real strain;   ///< X of (B8): the strain along the normal is −X ξ_3
+  Real pressure; ///< P of (B9), which works on the stretch of the plane
 };
 template <class Thinning> constexpr bool is_free = !std::is_same_v<Thinning, GivenThinning>;
 
@@ -200,14 +200,14 @@ BILLET_STRAIN void add_shears(const Constants<Fixed> &constants, const Frame<Rea
   add_shear<Number, j, k>(frame, fourth * slender, strains.bilinear[k]);
 }
 
-/// E of (B9): how much bending stretches the plane of the first two directions, per ξ_3.
+/// E of (B8): how much bending stretches the plane of the first two directions, per ξ_3.
 template <class Number, class Fixed, class Real>
 BILLET_STRAIN Real compute_plane_stretch(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                          const Products<Real> &products) {
   return bend<Number, 2>(constants, frame, products).sum;
 }
 
-/// (B3) to (B5); with a FreeThinning (B9).
+/// (B3) to (B5); with a FreeThinning (B8).
 template <class Number, class Fixed, class Real, class Thinning = GivenThinning>
 BILLET_STRAIN void compute_strains(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                    const Products<Real> &products, Strains<Real> &strains,

@@ -66,7 +66,7 @@ public:
   std::vector<PointStress>::const_iterator begin() const { return points_.begin(); }
   std::vector<PointStress>::const_iterator end() const { return points_.end(); }
 
-  /// Returns the states on another number of layers, (B12) of doc/theory.md: means over the part of the
+  /// Returns the states on another number of layers, (B11) of doc/theory.md: means over the part of the
   /// thickness that belongs to each point. Keeps the mean of each column, never leaves the yield surface.
   ElementStress transfer(unsigned int n_through, const ThicknessAxis &axis = {}) const;
 

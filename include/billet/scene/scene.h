@@ -96,8 +96,8 @@ struct ContactPair {
   bool penalty_is_factor;
   bool penalty_counts_thickness; ///< penalty_length()
   double normal_penalty, tangential_penalty;
-  std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L5)
-  bool is_raised;                              ///< in dynamics, while penetration takes too much, (L7)
+  std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L7)
+  bool is_raised;                              ///< in dynamics, while penetration takes too much, (L8)
   InitialOverlap overlap;
 
   /// Augmented until penetration takes little of the deformation.
@@ -127,8 +127,8 @@ struct BodyPair {
   double normal_penalty, tangential_penalty;
   double smoothing;                            ///< ContactLimits::zone
   double search_margin;                        ///< [facet sizes]
-  std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L5)
-  bool is_raised;                              ///< in dynamics, while penetration takes too much, (L7)
+  std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L7)
+  bool is_raised;                              ///< in dynamics, while penetration takes too much, (L8)
   InitialOverlap overlap;
   parameters::ContactPair::Correction correction;
 

@@ -13,7 +13,7 @@ namespace billet {
 class ContactLosses {
 public:
   enum Cause {
-    impacts,   ///< steps damped by (I6): springs that close, open or change their length within a step
+    impacts,   ///< steps damped by (I4): springs that close, open or change their length within a step
     friction,  ///< the tangential springs in such steps, (E4) with θ = 0
     crossings, ///< undamped steps: nodes that enter or leave within a step, areas and facets that change
   };

@@ -48,7 +48,7 @@ public:
   /// At the end of the run.
   DiagnosticList finish() const;
 
-  /// By what part forces are too small since penetration takes it, along the softest load path, (L3); 0 where
+  /// By what part forces are too small since penetration takes it, along the softest load path, (L6); 0 where
   /// that is little.
   double penalty_error() const;
 

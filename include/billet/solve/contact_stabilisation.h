@@ -9,7 +9,7 @@
 
 namespace billet {
 
-/// Viscous forces that resist the motion of static bodies while contact does not support them, (Q7). In a
+/// Viscous forces that resist the motion of static bodies while contact does not support them, (Q3). In a
 /// step of length Δt from u_n, the force on a node a of body b is
 ///   f_a = −φ_b c_a (u_a − u_n,a) / Δt,    c_a = ζ E T V_a / L²    [force time/length]
 /// E: Young's modulus; L: the body's longest extent; T: the end time; V_a: the node's undeformed volume. φ_b

@@ -41,7 +41,7 @@ public:
 private:
   void compare(const SolutionState &state);
   /// Bodies that bend and yield with too few one-point elements through the thickness, or where the points of
-  /// bricks of assumed strains do not see it, (L9).
+  /// bricks of assumed strains do not see it, (L3).
   DiagnosticList judge_bending() const;
   /// (L1), on the safe side for bodies that yield.
   double factor_of(std::size_t body) const;

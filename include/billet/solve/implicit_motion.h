@@ -39,7 +39,7 @@ public:
   /// Of a tool with a mass: what it exerts, and should.
   void start_tool(std::size_t tool, double exerted, double load);
 
-  /// The next steps are those of (I6), in which contact can only take energy; its −F_c at the start of the
+  /// The next steps are those of (I4), in which contact can only take energy; its −F_c at the start of the
   /// step. Collective.
   void damp_contact(const Vector &contact_forces);
   /// They are not any more.
@@ -47,7 +47,7 @@ public:
   bool damps_contact() const { return damps_contact_; }
   /// The weight of contact's forces, and of their tangent, in R.
   double contact_weight() const { return damps_contact_ ? integrator_.contact() : 1.; }
-  /// With (I6), before step_error() and commit(): −F_c at the end of the step. Collective.
+  /// With (I4), before step_error() and commit(): −F_c at the end of the step. Collective.
   void finish_contact(const Vector &contact_forces);
 
   /// The step from t_n to t, from these displacements and offsets of the tools.
@@ -114,7 +114,7 @@ private:
   Vector held_change(double from, double to) const;
   void set_rates(const Vector &displacements);
   double accelerate(const HeavyTool &tool, double offset) const;
-  /// a_n, or with (I6) that of the other forces.
+  /// a_n, or with (I4) that of the other forces.
   const Vector &start_accelerations() const { return damps_contact_ ? a_bare_ : a_n_; }
   double start_acceleration(const HeavyTool &tool) const {
     return tool.acceleration + (damps_contact_ ? tool.exerted / tool.inertia : 0.);
@@ -131,7 +131,7 @@ private:
     double mass;
   };
   std::vector<Spread> spread_of_bodies(const Vector &field) const;
-  /// What the error tolerance is a part of, (I4): the displacements, root mean square over the mass. How far
+  /// What the error tolerance is a part of, (I7): the displacements, root mean square over the mass. How far
   /// bodies have gone together counts up to the largest one's radius of gyration: a long flight makes the
   /// impact at its end no larger.
   double displacement_to_resolve(const Vector &displacements) const;
@@ -150,7 +150,7 @@ private:
 
   double t_n_ = 0., step_ = 0.; ///< of the step that is tried; 0: none yet
   Vector u_n_, v_n_, a_n_, v_, a_;
-  // With (I6) a_ is a*:
+  // With (I4) a_ is a*:
   bool damps_contact_ = false;
   Vector c_;                           ///< at the end of the step
   Vector a_bare_;                      ///< a_n, without what contact adds

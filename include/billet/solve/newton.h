@@ -38,7 +38,7 @@ public:
   virtual StatusChanges status_changes() const { return {}; }
 };
 
-/// The four measures of convergence, eq. (M11) of doc/theory.md, after an iteration. Each is relative.
+/// The four measures of convergence, eq. (Q1) of doc/theory.md, after an iteration. Each is relative.
 struct ConvergenceMeasures {
   double force = 0.;            ///< |R| / F
   double energy = 0.;           ///< |R · δu| / (F |Δu|)

@@ -7,11 +7,11 @@
 
 namespace billet {
 
-/// What penetration takes of the deformation along a load path, (L3) of doc/theory.md: over the time in
+/// What penetration takes of the deformation along a load path, (L6) of doc/theory.md: over the time in
 /// which its pairs press, the energy of their penetrations beside that of the bodies' deformation.
 class PathSoftness {
 public:
-  /// At these times; `all_energy`: of all that counts, (L3).
+  /// At these times; `all_energy`: of all that counts, (L6).
   void add(double time, double penetration, double deformation, double all_energy);
   /// The part by which forces of driven tools are too small; 0 where penetration holds less than the part
   /// `counts` of all energy, and so is no matter for the scene.

@@ -20,8 +20,8 @@
 namespace billet {
 
 /// Raises the penalties of dynamic scenes, of pairs that leave them to the program: normal ones while
-/// penetration takes more than a small part of the deformation along their load path, (L7) of doc/theory.md,
-/// tangential ones while friction that sticks lacks more than that, (L4).
+/// penetration takes more than a small part of the deformation along their load path, (L8) of doc/theory.md,
+/// tangential ones while friction that sticks lacks more than that, (L9).
 class PenaltyControl {
 public:
   struct Pair {

@@ -193,7 +193,7 @@ private:
   ElementImbalance element_imbalance() const;
   /// So far, the step's elements included.
   double largest_energy_of_trial() const;
-  /// That as part of what is allowed, (I9).
+  /// That as part of what is allowed, (I8).
   double energy_error(double imbalance) const;
   /// Of contact's forces in the residual.
   double contact_weight() const { return motion_ ? motion_->contact_weight() : 1.; }
@@ -207,7 +207,7 @@ private:
   };
   /// Of the step at its end. Collective.
   ContactLoss contact_loss(double t) const;
-  /// Once damped by (I6) steps stay so until contacts have opened.
+  /// Once damped by (I4) steps stay so until contacts have opened.
   void choose_contact_damping();
   void damp_contact();
   /// Whether nodes go through a tool: then the step fails. Collective.

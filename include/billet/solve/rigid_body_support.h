@@ -14,7 +14,7 @@
 
 namespace billet {
 
-/// Rigid-body modes of all bodies and driven tools together that neither supports nor contact resist, (Q1).
+/// Rigid-body modes of all bodies and driven tools together that neither supports nor contact resist, (Q2).
 ///
 /// The unknowns are z = (v_1, ω_1 L_1, ..., s_1, ...): velocity and spin of each body about its centre c, L
 /// its size, and the rate of each tool that a force or moment drives. A row r z is the relative velocity of

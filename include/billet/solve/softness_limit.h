@@ -11,7 +11,7 @@
 namespace billet {
 
 /// By how much the springs of contact make its forces smaller, of pairs that limit that: estimated from what
-/// the last augmentation has changed; (L5) of doc/theory.md.
+/// the last augmentation has changed; (L7) of doc/theory.md.
 class SoftnessLimit {
 public:
   /// `limits`: of each pair, whether it does.

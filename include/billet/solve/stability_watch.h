@@ -13,7 +13,7 @@
 
 namespace billet {
 
-/// Says once of each elastic body when it is strained farther than its law is stable, theory (M39): where
+/// Says once of each elastic body when it is strained farther than its law is stable, theory (M7): where
 /// waves grow in it, what the body does is the mesh's. Looks into the middles of the elements; bodies that
 /// yield, whose elastic strains are small, are left out.
 class StabilityWatch {

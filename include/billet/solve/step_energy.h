@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// Judges static steps by the work that contact does from nowhere, (Q4). Steps out of balance are cut; one
+/// Judges static steps by the work that contact does from nowhere, (A4). Steps out of balance are cut; one
 /// that stays so is a jump of the solution.
 class StepEnergy {
 public:

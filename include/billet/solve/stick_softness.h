@@ -9,7 +9,7 @@
 
 namespace billet {
 
-/// What friction lacks in a pair whose nodes stick to elastic tangential springs, (L4) of doc/theory.md.
+/// What friction lacks in a pair whose nodes stick to elastic tangential springs, (L9) of doc/theory.md.
 struct StickSoftness {
   double pressure = 0.; ///< Σ p A [force]
   double friction = 0.; ///< Σ |t| A [force]

@@ -14,7 +14,7 @@ namespace billet {
 ///
 /// In steps in which contact would make energy its forces take no part in F and a, but act in full at the end
 /// of the step (Kane, Repetto, Ortiz & Marsden 1999), with M c = F_c,
-///   u_{n+1} = ... + Δt² (β/γ) c_{n+1},   v_{n+1} = ... + Δt c_{n+1},                          (I6)
+///   u_{n+1} = ... + Δt² (β/γ) c_{n+1},   v_{n+1} = ... + Δt c_{n+1},                          (I4)
 /// so that a spring that opens or closes can only take some. For a* = a + c/γ (I2) stands as it is.
 ///
 /// Equation (I1) is divided by 1 − α_f wherever it is used, so that the forces at the end of the step, and
@@ -44,7 +44,7 @@ public:
   double forces_before() const { return alpha_f_ / (1. - alpha_f_); }      ///< of F_n
   double inertia_now() const { return (1. - alpha_m_) / (1. - alpha_f_); } ///< of M a_{n+1}
   double inertia_before() const { return alpha_m_ / (1. - alpha_f_); }     ///< of M a_n
-  /// Of contact's F_{n+1} with (I6), where a* is taken for a_{n+1}.
+  /// Of contact's F_{n+1} with (I4), where a* is taken for a_{n+1}.
   double contact() const { return inertia_now() / gamma_; }
   /// What the tangent K = ∂F/∂u gets: this part of M [1/time²], and this part of C = ∂F/∂u̇ [1/time].
   double mass_factor(const double step) const { return inertia_now() * acceleration(step).increment; }

@@ -6,7 +6,7 @@
 #include "billet/mechanics/explicit/mean_gradient.h"
 #include "billet/mechanics/strain_modes.h"
 
-// Eight points under assumed strains, (B1) to (B8) of doc/theory.md: j_q = Y_q J̄ in the place of ∂x/∂ξ. The
+// Eight points under assumed strains, (B1) to (B7) of doc/theory.md: j_q = Y_q J̄ in the place of ∂x/∂ξ. The
 // law sees j_q up to a factor, and det J̄.
 
 namespace billet::explicit_kernels {
@@ -50,7 +50,7 @@ BILLET_INLINE void compute_hourglass(const Modes &modes, const Real columns[3][3
   }
 }
 
-/// What the modes say of a brick, and the strains that follow, by (B8).
+/// What the modes say of a brick, and the strains that follow, by (B7).
 template <class T> struct Brick {
   strain_modes::Frame<T> frame;
   T hourglass[4][3];
@@ -267,7 +267,7 @@ BILLET_INLINE void add_assumed_point(const unsigned int q, const Real weight, co
   sums.lambda[q] = bound_eigenvalue(bound) * (map.inverse_det * map.inverse_det);
 }
 
-/// Bound of ⅛ Σ_q λ_q |∂v/∂ξ|²_q over the modes' squares, (B7), by the rows of its matrix.
+/// Bound of ⅛ Σ_q λ_q |∂v/∂ξ|²_q over the modes' squares, (X13), by the rows of its matrix.
 BILLET_INLINE Real bound_points(const Real lambda[8]) {
   constexpr Number g = gauss, g2 = gauss * gauss, g3 = gauss * gauss * gauss;
   Real m[8]; // moments, by their bits ξ, η, ζ

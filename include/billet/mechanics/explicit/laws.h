@@ -5,7 +5,7 @@
 #include "billet/mechanics/explicit/lanes.h"
 
 // The laws at a point. `hourglass` is what a one-point element's stabilisation adds to the square of the
-// stress in the yield condition, 6 G W (M32); zero for eight points. Symmetric tensors are 11, 22, 33, 12,
+// stress in the yield condition, 6 G W (X7); zero for eight points. Symmetric tensors are 11, 22, 33, 12,
 // 13, 23. Matrices are arrays of columns: m[k][i] is row i of column k.
 
 namespace billet::explicit_kernels {

@@ -56,7 +56,7 @@ BILLET_INLINE void compute_hourglass(const HourglassModuli &moduli, const Motion
 }
 
 /// Plastic flow leaves the `share` of the hourglass strains' elastic part that it leaves of the point's
-/// stress, (M33): ĥ_0 takes the rest, where the history has that.
+/// stress, (X8): ĥ_0 takes the rest, where the history has that.
 BILLET_INLINE void flow(const Real share, Number *history, HourglassTrial &trial) {
   if (!any(share < 1._r))
     return;
@@ -90,7 +90,7 @@ BILLET_INLINE void add_hourglass(const Real volume, const HourglassTrial &hourgl
   }
 }
 
-/// (X13): the largest stiffness per volume of the columns, the modes b and c; `of_mean`: that of the mean
+/// (X12): the largest stiffness per volume of the columns, the modes b and c; `of_mean`: that of the mean
 /// gradient, `metric` and `eigenvalue`: J̄⁻¹ J̄⁻ᵀ and a bound of its eigenvalues, `modulus`: of the hourglass
 /// strains.
 BILLET_INLINE Real bound_stiffness(const HourglassTrial &hourglass, const Real of_mean, const Real metric[6],
