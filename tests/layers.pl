@@ -7,9 +7,9 @@ use strict;
 use warnings;
 use File::Find;
 
-my @floors = qw(geometry parameters material friction mechanics scene discretization forces contact solve output);
+my @floors = qw(geometry material friction mechanics parameters scene discretization forces contact solve output);
 my @apart  = (['forces', 'contact']);                          # neighbours that must not know each other
-my %for_all = map { $_ => 1 } qw(compatibility diagnostic_kinds diagnostics errors state usage version without_traps);    # billet/NAME.h, for every floor
+my %for_all = map { $_ => 1 } qw(compatibility diagnostic_kinds diagnostics errors registered_type state usage version without_traps);    # billet/NAME.h, for every floor
 my %above_all = map { $_ => 1 } qw(simulation main);               # files that may include everything
 my %level = map { $floors[$_] => $_ } 0 .. $#floors;
 

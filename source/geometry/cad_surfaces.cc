@@ -48,7 +48,7 @@ namespace billet {
 
 namespace {
 
-using Kind = SurfaceParameter::Kind;
+using Kind = TypeParameter::Kind;
 
 #ifdef DEAL_II_WITH_OPENCASCADE
 
@@ -223,7 +223,7 @@ std::unique_ptr<const SurfacePatch> convert(const TopoDS_Face &face, const doubl
 }
 
 /// By the suffix of the file's name.
-bool is_iges(const SurfaceInput &input) {
+bool is_iges(const TypeInput &input) {
   const std::string name = input.text("File");
   const auto dot = name.rfind('.');
   std::string suffix = dot == std::string::npos ? "" : name.substr(dot + 1);
@@ -235,7 +235,7 @@ bool is_iges(const SurfaceInput &input) {
 }
 
 /// Reads a file. OpenCASCADE gives lengths in millimetres, whatever the file's unit.
-TopoDS_Shape read_shape(const SurfaceInput &input) {
+TopoDS_Shape read_shape(const TypeInput &input) {
   const std::string name = input.file("File");
   Message::DefaultMessenger()->RemovePrinters(
       STANDARD_TYPE(Message_Printer)); // it would report on the console
@@ -266,7 +266,7 @@ double size_of(const TopoDS_Shape &shape) {
 }
 
 /// Those faces that the user named, one shape.
-TopoDS_Shape choose_faces(const SurfaceInput &input, const TopoDS_Shape &shape) {
+TopoDS_Shape choose_faces(const TypeInput &input, const TopoDS_Shape &shape) {
   const TopTools_IndexedMapOfShape faces = faces_of(shape);
   if (faces.IsEmpty())
     input.reject("File", "a file with faces");
@@ -296,7 +296,7 @@ double border_accuracy(const TopoDS_Shape &shape) {
   return accuracy;
 }
 
-SurfacePatches make(const SurfaceInput &input) {
+SurfacePatches make(const TypeInput &input) {
   const double scale = input.positive("Scale");
   const auto translation = input.vector("Translation");
   TopoDS_Shape shape = choose_faces(input, read_shape(input));
@@ -326,7 +326,7 @@ SurfacePatches make(const SurfaceInput &input) {
 
 #else
 
-SurfacePatches make(const SurfaceInput &input) {
+SurfacePatches make(const TypeInput &input) {
   input.reject("Shape", "another shape: the deal.II that this program is built with has no OpenCASCADE");
   return {};
 }

@@ -13,7 +13,7 @@ namespace billet {
 
 namespace {
 
-using Kind = SurfaceParameter::Kind;
+using Kind = TypeParameter::Kind;
 using Sketch = std::array<CurveSketch, 4>;
 
 const std::string curves_meaning =
@@ -110,7 +110,7 @@ SurfaceType coons_patch_type() {
   return {"coons patch",
           "The surface that four curves span, bilinearly blended.",
           {{"Curves", "", Kind::text, "The " + curves_meaning}},
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             try {
               return single_patch<CoonsPatch>(read_curves(input.parts("Curves")));
             } catch (const std::invalid_argument &error) {
@@ -127,7 +127,7 @@ SurfaceType coons_patches_type() {
             "Name of a text file, relative to the scene file, with a patch a line and comments after '#'. Of "
             "each patch the " +
                 curves_meaning}},
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const std::string name = input.file("File");
             std::ifstream stream(name);
             try {

@@ -10,7 +10,7 @@
 namespace billet {
 
 using dealii::Tensor;
-using Kind = SurfaceParameter::Kind;
+using Kind = TypeParameter::Kind;
 
 BoundingBox Plane::bounding_box() const {
   BoundingBox box;
@@ -34,8 +34,8 @@ void Plane::draw(const PictureRegion &region, SurfacePicture &picture) const {
 
 namespace {
 
-const SurfaceParameter normal_parameter{"Normal", "0, 0, 1", Kind::text,
-                                        "Normal out of the tool, towards the bodies."};
+const TypeParameter normal_parameter{"Normal", "0, 0, 1", Kind::text,
+                                     "Normal out of the tool, towards the bodies."};
 
 /// A line along x, y being the normal; closed where it begins on the axis that it is revolved about.
 Profile flat_profile(const double from, const double to, const bool is_closed = false) {
@@ -49,7 +49,7 @@ SurfaceType plane_type() {
   return {"plane",
           "An infinite plane.",
           {{"Point", "0, 0, 0", Kind::text, "A point of the plane. [length]"}, normal_parameter},
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             return single_patch<Plane>(input.vector("Point"), input.direction("Normal"));
           }};
 }
@@ -63,7 +63,7 @@ SurfaceType rectangle_type() {
             "Of the sides that have the length; its part along the normal is left out."},
            {"Length", "1", Kind::number, "> 0, its size. [length]"},
            {"Width", "1", Kind::number, "> 0, of the other sides. [length]"}},
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const auto normal = input.direction("Normal"), direction = input.direction("Direction");
             if (dealii::cross_product_3d(normal, direction).norm() < 1e-6)
               input.reject("Direction", "a direction across the normal");
@@ -84,7 +84,7 @@ SurfaceType disc_type() {
                         "Normal out of the tool, towards the bodies; the axis that a sector goes round."},
                        {"Radius", "1", Kind::number, "> 0, its size. [length]"},
                        {"Inner radius", "0", Kind::number, ">= 0; of the hole. [length]"}}),
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const double radius = input.positive("Radius"), inner = input.not_negative("Inner radius");
             if (inner >= radius)
               input.reject("Inner radius", "a number below the radius");

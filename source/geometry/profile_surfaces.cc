@@ -11,14 +11,14 @@ namespace billet {
 
 namespace {
 
-using Kind = SurfaceParameter::Kind;
+using Kind = TypeParameter::Kind;
 using Point = Profile::Point;
 
 const std::string corners_meaning =
     "Corners, separated by semicolons: 'x, y', with ': r' after it for a fillet of "
     "radius r there, and with 'via x, y to' before it where an arc leads to "
     "it instead of a line. ";
-const SurfaceParameter outside_parameter{
+const TypeParameter outside_parameter{
     "Outside", "left", Kind::choice,
     "left|right: Where the bodies are, for one who walks along the corners."};
 
@@ -37,7 +37,7 @@ bool read_number(const std::string &text, double &number) {
   return (stream >> number) && !(stream >> rest) && std::isfinite(number);
 }
 
-ProfileCorner read_corner(const SurfaceInput &input, const std::string &text) {
+ProfileCorner read_corner(const TypeInput &input, const std::string &text) {
   const std::string allowed =
       "'x, y', 'x, y : fillet radius' or 'via x, y to x, y', separated by semicolons; not '" + text + "'";
   ProfileCorner corner;
@@ -58,7 +58,7 @@ ProfileCorner read_corner(const SurfaceInput &input, const std::string &text) {
   return corner;
 }
 
-std::vector<Profile::Segment> read_segments(const SurfaceInput &input) {
+std::vector<Profile::Segment> read_segments(const TypeInput &input) {
   std::vector<ProfileCorner> corners;
   for (const auto &part : input.parts("Corners"))
     corners.push_back(read_corner(input, part));
@@ -77,7 +77,7 @@ std::vector<Profile::Segment> read_segments(const SurfaceInput &input) {
   return segments;
 }
 
-Profile::Outside read_outside(const SurfaceInput &input) {
+Profile::Outside read_outside(const TypeInput &input) {
   return input.text("Outside") == "left" ? Profile::Outside::left : Profile::Outside::right;
 }
 
@@ -91,7 +91,7 @@ SurfaceType revolved_profile_type() {
                        outside_parameter,
                        {"Origin", "0, 0, 0", Kind::text, "The point of the axis where y = 0. [length]"},
                        {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const auto segments = read_segments(input);
             const Profile profile(segments, read_outside(input));
             const double tiny = 1e-9 * profile.size();
@@ -113,7 +113,7 @@ SurfaceType extruded_profile_type() {
            {"Direction", "1, 0, 0", Kind::text,
             "Of x; its part along the axis is left out. y is across both, right-handed."},
            {"Length", "", Kind::text, "> 0, of the extrusion; empty: infinite. [length]"}},
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const Profile profile(read_segments(input), read_outside(input));
             const auto axis = input.direction("Axis"), direction = input.direction("Direction");
             if (dealii::cross_product_3d(axis, direction).norm() < 1e-6)

@@ -9,20 +9,20 @@ namespace billet {
 
 namespace {
 
-using Kind = SurfaceParameter::Kind;
+using Kind = TypeParameter::Kind;
 using Point = Profile::Point;
 using Segment = Profile::Segment;
 
 constexpr double degree = M_PI / 180.;
 
-const SurfaceParameter axis_parameter{"Axis", "0, 0, 1", Kind::text, "Direction of the axis of revolution."};
-std::vector<SurfaceParameter> with_sector_and_side(std::vector<SurfaceParameter> parameters) {
+const TypeParameter axis_parameter{"Axis", "0, 0, 1", Kind::text, "Direction of the axis of revolution."};
+std::vector<TypeParameter> with_sector_and_side(std::vector<TypeParameter> parameters) {
   parameters = with_sector(std::move(parameters));
   parameters.push_back(side_parameter);
   return parameters;
 }
 
-double in_range(const SurfaceInput &input, const std::string &key, const double low, const double high,
+double in_range(const TypeInput &input, const std::string &key, const double low, const double high,
                 const std::string &allowed) {
   const double value = input.number(key);
   if (!(value >= low && value <= high))
@@ -30,12 +30,12 @@ double in_range(const SurfaceInput &input, const std::string &key, const double 
   return value;
 }
 
-SurfacePatches revolve(const SurfaceInput &input, const std::string &origin_key, const Profile &profile) {
+SurfacePatches revolve(const TypeInput &input, const std::string &origin_key, const Profile &profile) {
   return revolve(input, profile, input.vector(origin_key), input.direction("Axis"));
 }
 
 /// Walked upwards (counter-clockwise, for an arc), the axis is on the left.
-Profile::Outside away_from_axis(const SurfaceInput &input) {
+Profile::Outside away_from_axis(const TypeInput &input) {
   return side_sign(input) > 0. ? Profile::Outside::right : Profile::Outside::left;
 }
 
@@ -50,7 +50,7 @@ SurfaceType sphere_type() {
            axis_parameter,
            {"From latitude", "-90", Kind::number, "Where the zone begins, -90 at the pole below. [degrees]"},
            {"To latitude", "90", Kind::number, "Where it ends, 90 at the pole above. [degrees]"}}),
-      [](const SurfaceInput &input) {
+      [](const TypeInput &input) {
         const double radius = input.positive("Radius");
         const double from = in_range(input, "From latitude", -90., 90., "a number from -90 to 90");
         const double to = in_range(input, "To latitude", -90., 90., "a number from -90 to 90");
@@ -68,7 +68,7 @@ SurfaceType cylinder_type() {
                axis_parameter,
                {"Radius", "1", Kind::number, "> 0, its size. [length]"},
                {"Length", "", Kind::text, "> 0; empty: infinite. [length]"}}),
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const double radius = input.positive("Radius");
             std::vector<Segment> segments;
             if (input.text("Length").empty()) {
@@ -91,7 +91,7 @@ SurfaceType cone_type() {
                {"Half angle", "45", Kind::number, "> 0 and < 90, between axis and surface. [degrees]"},
                {"From height", "0", Kind::number, ">= 0, along the axis from the apex. [length]"},
                {"To height", "1", Kind::number, "> From height. [length]"}}),
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const double angle = input.number("Half angle") * degree;
             if (!(angle > 0. && angle < 0.5 * M_PI))
               input.reject("Half angle", "a number > 0 and < 90");
@@ -114,7 +114,7 @@ SurfaceType torus_type() {
                {"From angle", "0", Kind::number,
                 "Where the part begins in the tube's section: 0 away from the axis, 90 along it. [degrees]"},
                {"To angle", "360", Kind::number, "Where it ends, up to 360 further on. [degrees]"}}),
-          [](const SurfaceInput &input) {
+          [](const TypeInput &input) {
             const double ring = input.positive("Ring radius"), tube = input.positive("Tube radius");
             const double from = input.number("From angle"), to = input.number("To angle");
             if (!(to > from && to - from <= 360.))

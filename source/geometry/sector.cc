@@ -7,9 +7,9 @@
 
 namespace billet {
 
-using Kind = SurfaceParameter::Kind;
+using Kind = TypeParameter::Kind;
 
-std::vector<SurfaceParameter> with_sector(std::vector<SurfaceParameter> parameters) {
+std::vector<TypeParameter> with_sector(std::vector<TypeParameter> parameters) {
   parameters.push_back(
       {"Start", "1, 0, 0", Kind::text, "Direction across the axis where the sector begins."});
   parameters.push_back({"Sector", "360", Kind::number,
@@ -17,7 +17,7 @@ std::vector<SurfaceParameter> with_sector(std::vector<SurfaceParameter> paramete
   return parameters;
 }
 
-SurfacePatches revolve(const SurfaceInput &input, const Profile &profile, const dealii::Tensor<1, 3> &origin,
+SurfacePatches revolve(const TypeInput &input, const Profile &profile, const dealii::Tensor<1, 3> &origin,
                        const dealii::Tensor<1, 3> &axis) {
   const double sector = input.number("Sector");
   if (!(sector > 0. && sector <= 360.))

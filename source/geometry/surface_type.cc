@@ -17,19 +17,18 @@ SurfaceType coons_patches_type();
 SurfaceType stl_type();
 SurfaceType cad_type();
 
-const std::vector<SurfaceType> &surface_types() {
-  static const std::vector<SurfaceType> types{
-      plane_type(),       rectangle_type(),        disc_type(),
-      sphere_type(),      cylinder_type(),         cone_type(),
-      torus_type(),       revolved_profile_type(), extruded_profile_type(),
-      coons_patch_type(), coons_patches_type(),    stl_type(),
-      cad_type()};
+TypeTable<SurfacePatches> &surface_types() {
+  static TypeTable<SurfacePatches> types{plane_type(),       rectangle_type(),        disc_type(),
+                                         sphere_type(),      cylinder_type(),         cone_type(),
+                                         torus_type(),       revolved_profile_type(), extruded_profile_type(),
+                                         coons_patch_type(), coons_patches_type(),    stl_type(),
+                                         cad_type()};
   return types;
 }
 
-const SurfaceParameter side_parameter{"Side", "outside", SurfaceParameter::Kind::choice,
-                                      "outside|inside: Where the bodies are."};
+const TypeParameter side_parameter{"Side", "outside", TypeParameter::Kind::choice,
+                                   "outside|inside: Where the bodies are."};
 
-double side_sign(const SurfaceInput &input) { return input.text("Side") == "outside" ? 1. : -1.; }
+double side_sign(const TypeInput &input) { return input.text("Side") == "outside" ? 1. : -1.; }
 
 } // namespace billet

@@ -10,13 +10,13 @@ namespace billet {
 
 namespace {
 
-using Kind = SurfaceParameter::Kind;
+using Kind = TypeParameter::Kind;
 
 /// Points of one corner that a file's rounding to single precision, or to six digits, has parted; over the
 /// size of the surface.
 constexpr double weld_tolerance = 1e-6;
 
-TriangleMesh read_welded(const SurfaceInput &input) {
+TriangleMesh read_welded(const TypeInput &input) {
   TriangleMesh mesh;
   try {
     mesh = read_stl(input.file("File"));
@@ -31,7 +31,7 @@ TriangleMesh read_welded(const SurfaceInput &input) {
   return mesh;
 }
 
-TriangleEdges connect(const SurfaceInput &input, const TriangleMesh &mesh) {
+TriangleEdges connect(const TypeInput &input, const TriangleMesh &mesh) {
   try {
     return TriangleEdges(mesh);
   } catch (const std::invalid_argument &error) {
@@ -40,7 +40,7 @@ TriangleEdges connect(const SurfaceInput &input, const TriangleMesh &mesh) {
   }
 }
 
-SurfacePatches make(const SurfaceInput &input) {
+SurfacePatches make(const TypeInput &input) {
   const double scale = input.positive("Scale");
   const auto translation = input.vector("Translation");
   const double sharp_angle = input.number("Sharp angle");

@@ -2,6 +2,7 @@
 #include "billet/parameters/scene.h"
 
 #include "billet/errors.h"
+#include "billet/geometry/surface_type.h"
 #include "billet/parameters/declaration.h"
 
 #include <deal.II/base/parameter_handler.h>

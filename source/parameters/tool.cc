@@ -2,6 +2,8 @@
 #include "billet/parameters/tool.h"
 
 #include "billet/errors.h"
+#include "billet/geometry/surface_type.h"
+#include "billet/parameters/registered.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -108,48 +110,15 @@ void Motion::parse_control(Reader &reader) {
 
 namespace {
 
-std::string shape_names() {
-  std::string names;
-  for (const auto &type : surface_types())
-    names += (names.empty() ? "" : "|") + type.name;
-  return names;
-}
-
-const SurfaceType *find_type(const std::string &shape) {
-  for (const auto &type : surface_types())
-    if (type.name == shape)
-      return &type;
-  return nullptr;
-}
-
 void declare_surface(ParameterHandler &prm, const std::string &shape) {
-  const SurfaceType *type = find_type(shape);
+  const SurfaceType *type = surface_types().find(shape);
   // An unknown shape is refused when the entry is set.
-  prm.declare_entry("Shape", type != nullptr ? shape : "plane", Patterns::Selection(shape_names()),
+  prm.declare_entry("Shape", type != nullptr ? shape : "plane", Patterns::Selection(surface_types().names()),
                     (type != nullptr ? type->meaning + " " : "") +
                         "The other parameters are those of the shape.");
-  if (type == nullptr)
-    return;
-  using Kind = SurfaceParameter::Kind;
-  for (const auto &parameter : type->parameters) {
-    const auto colon = parameter.meaning.find(':');
-    switch (parameter.kind) {
-    case Kind::number:
-      prm.declare_entry(parameter.key, parameter.default_value, Patterns::Double(), parameter.meaning);
-      break;
-    case Kind::text:
-      prm.declare_entry(parameter.key, parameter.default_value, Patterns::Anything(), parameter.meaning);
-      break;
-    case Kind::flag:
-      prm.declare_entry(parameter.key, parameter.default_value, Patterns::Bool(), parameter.meaning);
-      break;
-    case Kind::choice:
-      prm.declare_entry(parameter.key, parameter.default_value,
-                        Patterns::Selection(parameter.meaning.substr(0, colon)),
-                        parameter.meaning.substr(0, colon) + ":" + parameter.meaning.substr(colon + 1));
-      break;
-    }
-  }
+  if (type != nullptr)
+    for (const auto &parameter : type->parameters)
+      declare_parameter(prm, parameter, parameter.meaning);
 }
 
 } // namespace
@@ -173,7 +142,7 @@ void Tool::parse(Reader &reader) {
   reader.in("Surfaces", [&] {
     for (const auto &part : reader.names())
       reader.in(part, [&] {
-        const SurfaceType *type = find_type(reader.text("Shape"));
+        const SurfaceType *type = surface_types().find(reader.text("Shape"));
         shapes += (shapes.empty() ? "" : ", ") + type->name;
         for (auto &patch : type->make(reader))
           patches.push_back(std::move(patch));

@@ -2,8 +2,8 @@
 #ifndef BILLET_PARAMETERS_READER_H
 #define BILLET_PARAMETERS_READER_H
 
-#include "billet/geometry/surface_type.h"
 #include "billet/parameters/scene_file.h"
+#include "billet/registered_type.h"
 
 #include <deal.II/base/tensor.h>
 
@@ -30,7 +30,7 @@ double parse_number(const std::string &text);
 
 /// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
 /// InputError with file, line, parameter, what was found and what is allowed.
-class Reader : public SurfaceInput {
+class Reader : public TypeInput {
 public:
   Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_REGISTERED_H
+#define BILLET_PARAMETERS_REGISTERED_H
+
+#include "billet/parameters/reader.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace billet::parameters {
+
+/// Declares one parameter of a registered type. `meaning` may differ from the parameter's own.
+void declare_parameter(dealii::ParameterHandler &prm, const TypeParameter &parameter,
+                       const std::string &meaning);
+
+/// Joins the parameters of all types. Each meaning begins with the names of the types that use it.
+class ParameterUnion {
+public:
+  void add(const std::string &type, const std::vector<TypeParameter> &parameters);
+  void declare(dealii::ParameterHandler &prm) const;
+  /// Refuses each parameter that the user set though `used` does not hold it. `reason` follows "no value: ".
+  void reject_unused(const Reader &reader, const std::vector<TypeParameter> &used,
+                     const std::string &reason) const;
+
+private:
+  struct Entry {
+    TypeParameter parameter;
+    std::string users;
+  };
+  std::vector<Entry> entries_;
+};
+
+template <class Product> ParameterUnion join_parameters(const TypeTable<Product> &table) {
+  ParameterUnion all;
+  for (const auto &type : table)
+    all.add(type.name, type.parameters);
+  return all;
+}
+
+/// Declares the entry `key`, which selects one type of the table, and the parameters of all its types.
+template <class Product>
+void declare_selection(dealii::ParameterHandler &prm, const std::string &key, const std::string &default_name,
+                       const TypeTable<Product> &table, const std::string &meaning) {
+  std::string text = meaning;
+  for (const auto &type : table)
+    text += (&type == &*table.begin() ? " " : "; ") + type.name + ": " + type.meaning;
+  prm.declare_entry(key, default_name, dealii::Patterns::Selection(table.names()), text + ".");
+  join_parameters(table).declare(prm);
+}
+
+/// Makes the product that `key` selects. Refuses parameters of the other types.
+template <class Product>
+Product make_selected(const Reader &reader, const std::string &key, const TypeTable<Product> &table) {
+  const auto *type = table.find(reader.text(key));
+  if (type == nullptr) // the selection has refused all other names
+    throw std::logic_error("unknown type '" + reader.text(key) + "'");
+  join_parameters(table).reject_unused(reader, type->parameters,
+                                       "'" + key + " = " + type->name + "' does not use it");
+  return type->make(reader);
+}
+
+} // namespace billet::parameters
+
+#endif
