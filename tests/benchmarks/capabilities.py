@@ -157,7 +157,7 @@ publish(
     f"the side. Instructions by callgrind: each scene runs twice, for {FEW_STEPS} of {STEPS} steps (explicit: for a fifth of the time) and whole, and their difference is what iterations "
     "and steps cost; the first of them, with all that setting up costs, stands beside it. Memory as counted by capability in "
     "`capabilities.csv`, and the largest of the process, of which 100 MB and more are libraries. Each line is a scene that pays for "
-    "what stands in its second column and for nothing else; `tests/cli/capabilities.pl` holds each capability to that.",
+    "what stands in its second column and for nothing else; `tests/cli/capabilities.py` holds each capability to that.",
     "## Static", "The last column but three: instructions of an iteration over those of the first line.",
     table(["scene", "pays for", "iterations", "10⁶ instructions, set-up and first step", "10⁶ of an iteration", "over the first", "MB of matrix and factors", "MB counted",
            "MB of the process"], static),

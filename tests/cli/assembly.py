@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: assembly.py BILLET [LAUNCHER...]      in an empty current folder; LAUNCHER is mpirun with its option -n
+
+Bodies that fit each other. bolt.prm, drawn with play that 'Initial gap' closes, has the forces of the scene without
+play. pin.prm, a pin in a lug whose facets miss each other, has the force of a fine mesh with 'Surface correction', and
+a warning without; --check warns of the same as the run.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+
+from checks import HERE, Checks, Program, Run, Runner, enter_folder, near, read_text, require, says
+
+BOLT, PIN = (read_text(HERE / f"{name}.prm") for name in ("bolt", "pin"))
+runner = Runner(Program(sys.argv[1:]))
+check = Checks()
+enter_folder()
+
+
+def billet(base: str, edits: str = "", ranks: int = 1, *options: str) -> Run:
+    """Runs a scene with these edits."""
+    ran = runner.run(base, edits, ranks=ranks, options=options)
+    require(ran.ended.code == 0, f"exit code {ran.ended.code}\n{ran.said}{ran.complained}")
+    return ran
+
+
+def warns(ran: Run) -> bool:
+    """Tells whether chords are warned of."""
+    return re.search(r"^warning\[faceted-curvature\]", ran.said, re.MULTILINE) is not None
+
+
+# --- play ------------------------------------------------------------------------------------------------------------
+
+CLOSED = (
+    "plate / Mesh: Translation = 0, 0, 0.01 & face: Point = 0, 0, 1.515"
+    " & seat: Initial gap = close within 0.011 & top: Initial gap = close within 0.011"
+)
+for facets in ("overlap", "bilinear", "planed"):
+    exact = billet(BOLT, f"seat: Facets = {facets}").last("press.force_z")
+    for ranks in (1, 2):
+
+        @check(f"play is closed, {facets}, {ranks} ranks")
+        def _() -> None:
+            ran = billet(BOLT, f"{CLOSED} & seat: Facets = {facets}", ranks)
+            near("the force", ran.last("press.force_z"), exact, 1e-4)
+
+
+@check("play is closed in a first step without force")
+def _() -> None:
+    force = billet(BOLT, f"{CLOSED} & Motion: Translation = 0 ; 0 ; 0").last("press.force_z")
+    require(abs(force) < 1e-9, f"the force is {force}")
+
+
+# --- curved faces of one radius ----------------------------------------------------------------------------------------
+
+
+def half_circles(n_lug: int, n_pin: int) -> str:
+    """Returns the edit for half circles of so many bricks."""
+    return (
+        f"lug / Mesh: Arguments = 3, {n_lug}, 1 : 10, 0, 0 : 20, 180, 1 : true"
+        f" & pin / Mesh: Arguments = 3, {n_pin}, 1 : 3, 0, 0 : 10, 180, 1 : true"
+    )
+
+
+SHIFT = " & fit: Initial penetration = shift"
+TRUE_SURFACE = " & fit: Surface correction = cylinder : 0, 0, 0 ; 0, 0, 1"
+fine = billet(PIN, half_circles(48, 48) + SHIFT)
+matching = fine.last("fit.force_x")
+
+
+@check("faces whose chords match do not warn")
+def _() -> None:
+    require(not warns(fine), "it warns")
+
+
+for n in (10, 12):
+    circles = half_circles(n, n + 1)
+
+    @check(f"{2 * n} facets: chords make it soft, with a warning")
+    def _() -> None:
+        ran = billet(PIN, circles + SHIFT)
+        force = ran.last("fit.force_x")
+        require(warns(ran), "no warning")
+        require(abs(force) <= 0.95 * abs(matching), f"the force is {force}, beside {matching}")
+
+    @check(f"{2 * n} facets: --check warns, too")
+    def _() -> None:
+        ran = billet(PIN, circles + SHIFT, 2, "--check")
+        require(warns(ran), ran.said)
+
+    for ranks in (1, 2):
+
+        @check(f"{2 * n} facets: the true surface, {ranks} ranks")
+        def _() -> None:
+            ran = billet(PIN, circles + TRUE_SURFACE, ranks)
+            require(not warns(ran), "it warns")
+            near("the force", ran.last("fit.force_x"), matching, 0.03)
+
+
+# --- meshes ----------------------------------------------------------------------------------------------------------
+
+
+@check("elements inside out at a corner are warned about")
+def _() -> None:
+    at = "(abs(x-13.3333)<0.01 && abs(y-90)<0.01)"  # one row of nodes goes beyond a diagonal
+    r, a = f"(x+2*{at})", f"(pi/180*(y+9*{at}))"
+    ran = billet(PIN, f"lug / Mesh: Positions = {r}*cos({a}) ; {r}*sin({a}) ; z{SHIFT}", 1, "--check")
+    says(r"^warning\[inverted-corners\]: 1 element is inside out at a corner.*\(body 'lug'", ran.said)
+
+
+sys.exit(check.finish())

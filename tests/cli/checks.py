@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the tests of the command line share: checks, runs with limits, and what a run left in its folder."""
+
+from __future__ import annotations
+
+import functools
+import math
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Callable, Mapping, NamedTuple, Sequence
+
+from edits import edit, lines_of
+
+HERE = Path(__file__).resolve().parent
+SHIPPED = HERE.parents[1] / "prm"
+
+# Sanitizers take their time, and that of addresses takes all of them for itself.
+IS_SANITIZED = "ASAN_OPTIONS" in os.environ
+TIME_LIMIT = 900 if IS_SANITIZED else 60  # seconds; ranks that wait for each other fail
+MEMORY_LIMIT = 8_000_000 * 1024  # bytes of addresses for each process; MPI's libraries alone want a good part of it
+
+
+# --- files -----------------------------------------------------------------------------------------------------------
+
+
+def read_text(name: str | Path) -> str:
+    """Returns the contents as they are, line ends included."""
+    return Path(name).read_bytes().decode("utf-8", "surrogateescape")
+
+
+def write_text(name: str | Path, text: str) -> None:
+    """Writes the contents as they are."""
+    Path(name).write_bytes(text.encode("utf-8", "surrogateescape"))
+
+
+def enter_folder() -> None:
+    """Enters a fresh folder with the files that scenes name."""
+    os.mkdir("work")
+    os.chdir("work")
+    for file in (HERE / "files").iterdir():
+        shutil.copy(file, ".")
+
+
+def snapshot() -> dict[str, object]:
+    """Returns time and contents of every file below the current folder."""
+    return {
+        str(path): "folder" if path.is_dir() else (path.stat().st_mtime_ns, path.read_bytes())
+        for path in Path(".").rglob("*")
+    }
+
+
+def differences(before: Mapping[str, object], after: Mapping[str, object]) -> list[str]:
+    """Returns the names of files that differ between two snapshots."""
+    return sorted(name for name in {**before, **after} if before.get(name) != after.get(name))
+
+
+def rows_of(file: str | Path) -> list[list[str]]:
+    """Returns the cells of a table in CSV, its head included."""
+    return [line.split(",") for line in lines_of(read_text(file))]
+
+
+# --- checks ----------------------------------------------------------------------------------------------------------
+
+
+class Fault(Exception):
+    """What is wrong with what was checked."""
+
+
+class Checks:
+    """Counts checks, and prints one line for each. Use as a decorator: @check("name") runs the function at once;
+    whatever it raises fails the check."""
+
+    def __init__(self, what: str = "checks") -> None:
+        self.what = what
+        self.n = self.n_failed = 0
+
+    def __call__(self, name: str) -> Callable[[Callable[[], object]], None]:
+        def perform(claim: Callable[[], object]) -> None:
+            fault = ""
+            try:
+                claim()
+            except Fault as error:
+                fault = str(error).rstrip("\n") or "no reason given"
+            except Exception as error:
+                fault = f"{type(error).__name__}: {error}"
+            self.count(name, fault)
+
+        return perform
+
+    def count(self, name: str, fault: str) -> None:
+        """Counts a check with this fault, '' for none."""
+        print(f"{name}: {'FAILED: ' + fault if fault else 'ok'}", flush=True)
+        self.n += 1
+        self.n_failed += bool(fault)
+
+    def finish(self) -> int:
+        """Prints the sum and returns the exit code."""
+        print(f"{self.n} {self.what}, {self.n_failed} failed")
+        return 0 if self.n and not self.n_failed else 1
+
+
+def require(holds: object, otherwise: str) -> None:
+    """Raises a fault unless it holds."""
+    if not holds:
+        raise Fault(otherwise)
+
+
+def equal(what: str, found: object, expected: object) -> None:
+    """Compares as text."""
+    require(str(found) == str(expected), f"{what} is '{found}', not '{expected}'")
+
+
+def near(what: str, found: float, expected: float, tolerance: float = 1e-6) -> None:
+    """Compares relative to what is expected."""
+    require(abs(found - expected) <= tolerance * abs(expected), f"{what} is {found}, not {expected}")
+
+
+def says(pattern: str, text: str) -> re.Match[str]:
+    """Returns the match of a pattern whose ^ and $ stand for line ends."""
+    match = re.search(pattern, text, re.MULTILINE)
+    if match is None:
+        raise Fault(f"says {text}")
+    return match
+
+
+# --- runs ------------------------------------------------------------------------------------------------------------
+
+
+class Ended(NamedTuple):
+    """A command that has ended."""
+
+    code: int  # 128 + signal where one ended it, 124 or 137 out of time
+    output: str
+    errors: str  # without mpirun's remarks
+
+
+def run(*command: str, file_limit: int | None = None, environment: Mapping[str, str] | None = None) -> Ended:
+    """Runs a command within limits of time and memory; where files may not become longer than `file_limit` bytes,
+    writing fails as it does on a full disk."""
+
+    def restrict() -> None:
+        if not IS_SANITIZED:
+            resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
+        if file_limit is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (file_limit, file_limit))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+    # Not pipes: what a process that is killed leaves behind would keep them open.
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
+        done = subprocess.run(
+            ["timeout", "--kill-after=5", str(TIME_LIMIT), *command],
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=errors,
+            preexec_fn=restrict,
+            env={**os.environ, **(environment or {})},
+        )
+        texts = []
+        for stream in (output, errors):
+            stream.seek(0)
+            texts.append(stream.read().decode("utf-8", "surrogateescape"))
+    without_remarks = re.sub(r"^-{40,}\n.*?^-{40,}\n", "", texts[1], flags=re.MULTILINE | re.DOTALL)
+    return Ended(exit_code(done.returncode), texts[0], without_remarks)
+
+
+def exit_code(returned: int) -> int:
+    """Returns the code as a shell has it."""
+    return 128 - returned if returned < 0 else returned
+
+
+class Program:
+    """The program billet, alone or on several ranks."""
+
+    def __init__(self, arguments: Sequence[str]) -> None:
+        """`arguments`: the program, and how it is started on several ranks, if it can be: mpirun -n."""
+        self.path, *self.launcher = arguments
+
+    def on(self, ranks: int, *arguments: str) -> list[str]:
+        """Returns the command."""
+        return [*((*self.launcher, str(ranks)) if ranks > 1 else ()), self.path, *arguments]
+
+
+class Run:
+    """A run that has ended: its folder, and what it said and complained of."""
+
+    def __init__(self, folder: str, ended: Ended) -> None:
+        self.folder, self.ended = folder, ended
+        self.said, self.complained = ended.output, ended.errors
+
+    def text(self, name: str) -> str:
+        """Returns the contents of a file in the folder."""
+        return read_text(f"{self.folder}/{name}")
+
+    @functools.cached_property
+    def history(self) -> dict[str, list[str]]:
+        """Columns of history.csv by name."""
+        names, *rows = rows_of(f"{self.folder}/history.csv")
+        for row in rows:
+            require(len(row) == len(names), f"{self.folder}/history.csv: {len(row)} values, {len(names)} names")
+        return {name: [row[i] for row in rows] for i, name in enumerate(names)}
+
+    def column(self, name: str) -> list[float]:
+        """Returns the numbers of a column of the history."""
+        require(name in self.history, f"{self.folder}/history.csv has no column '{name}'")
+        return [float(value) for value in self.history[name]]
+
+    def last(self, name: str) -> float:
+        """Returns the last number of a column of the history."""
+        return self.column(name)[-1]
+
+    def force(self, tool: str) -> float:
+        """Returns the size of the last force on a tool."""
+        return math.sqrt(sum(self.last(f"{tool}.force_{axis}") ** 2 for axis in "xyz"))
+
+    def require_history(self) -> None:
+        """Raises a fault unless there is one."""
+        file = Path(self.folder, "history.csv")
+        require(file.is_file() and file.stat().st_size > 0, "no history")
+
+    def pictured(self, index: str = "scene.pvd") -> str:
+        """Returns the times of the bodies' field output. All files that the index names must be there."""
+        text = self.text(index)
+        for name in re.findall(r'file="(.*?)"', text):
+            file = Path(self.folder, index).parent / name
+            require(file.is_file() and file.stat().st_size > 0, f"{file} is not there or empty")
+        return " ".join(re.findall(r'timestep="(.*?)" part="0"', text))
+
+
+class Runner:
+    """Runs edited scenes, each in a folder of its own."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self._n_runs = 0
+
+    def scene(self, base: str, edits: str = "") -> tuple[str, str]:
+        """Returns the next folder, and the text of a scene that writes into it."""
+        self._n_runs += 1
+        folder = f"r{self._n_runs}"
+        return folder, edit(base, f"Output: Folder = {folder} & {edits}").text
+
+    def run(self, base: str, edits: str = "", *, ranks: int = 1, options: Sequence[str] = ()) -> Run:
+        """Runs scene.prm with these edits."""
+        folder, text = self.scene(base, edits)
+        write_text("scene.prm", text)
+        return Run(folder, run(*self.program.on(ranks, *options, "scene.prm")))

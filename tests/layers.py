@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: layers.py [ROOT]
+
+Holds the floors of the code apart: a file in include/billet/FLOOR or source/FLOOR includes only files of its own floor
+and of floors before it in the list below. doc/ tells what lives on each.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+
+FLOORS = (
+    "geometry material friction mechanics parameters scene discretization forces contact solve output"
+).split()
+APART = ({"forces", "contact"},)  # neighbours that must not know each other
+# billet/NAME.h, for every floor
+FOR_ALL = set(
+    "compatibility diagnostic_kinds diagnostics errors registered_type state usage version without_traps".split()
+)
+ABOVE_ALL = {"simulation", "main"}  # files that may include everything
+LEVELS = {floor: level for level, floor in enumerate(FLOORS)}
+
+PLACE = re.compile(r"(?:include/billet|source)/(?:(\w+)/)?(?:.*/)?(\w+)[^/]*")
+INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)')
+HEADER = re.compile(r"billet/(?:(\w+)/)?(?:.*/)?(\w+)\.h")
+COMMENT = re.compile(r'("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
+
+
+def without_comments(text: str) -> str:
+    """Comments may name anything; their line ends stay, and what is in quotes."""
+    return COMMENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
+
+
+def fault_of_include(floor: str | None, name: str, quote: str, path: str) -> str:
+    """Returns what is wrong with an include of a file on this floor; nothing, where it is allowed."""
+    if not path.startswith("billet/"):
+        return f'write "billet/..." instead of "{path}"' if quote == '"' and "/" in path else ""
+    if floor is None and name in ABOVE_ALL:
+        return ""
+    match = HEADER.fullmatch(path)
+    other, header = match.groups() if match else (None, None)
+    if other is None:
+        return "" if header in FOR_ALL else f"{path} is above the floors"
+    if other not in LEVELS:
+        return f"{path} is on no floor"
+    if floor is None:
+        return f"what every floor includes must not include {path}"
+    if LEVELS[other] > LEVELS[floor]:
+        return f"{floor}/ comes before {other}/, so it must not include {path}"
+    if {floor, other} in APART:
+        return f"{floor}/ and {other}/ must not know each other: {path}"
+    return ""
+
+
+def faults_of(file: str) -> list[str]:
+    """Returns what is wrong with a file."""
+    match = PLACE.fullmatch(file)
+    floor, name = match.groups() if match else (None, "")
+    if floor not in LEVELS if floor is not None else name not in ABOVE_ALL | FOR_ALL:
+        return [f"{file}: on no floor of the list in tests/layers.py"]
+    faults = []
+    for number, line in enumerate(without_comments(Path(file).read_text(encoding="utf-8")).split("\n"), 1):
+        if re.search(r"\bParameterHandler\b", line) and floor != "parameters":
+            faults.append(f"{file}:{number}: only parameters/ knows ParameterHandler")
+        if include := INCLUDE.match(line):
+            if fault := fault_of_include(floor, name, *include.groups()):
+                faults.append(f"{file}:{number}: {fault}")
+    return faults
+
+
+def main() -> int:
+    """Returns the exit code."""
+    if len(sys.argv) > 1:
+        os.chdir(sys.argv[1])
+    files = sorted(
+        str(path)
+        for folder in ("include/billet", "source")
+        for path in Path(folder).rglob("*")
+        if path.suffix in (".h", ".cc")
+    )
+    if not files:
+        sys.exit("layers.py: no code below include/billet and source")
+    faults = [fault for file in files for fault in faults_of(file)]
+    print("\n".join(faults + [f"{len(files)} files, {len(faults)} errors"]))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
