@@ -1,41 +1,68 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: pvpython picture.py SCENE.pvd PICTURE.png [TIME...]
 
-The last state of a quarter or an eighth of a body, mirrored to all of it but one quarter, so that its inside is seen:
-equivalent plastic strain, element edges, the tools half transparent, and the body's outline at time 0. It is an eighth
-where scene.prm beside the scene has a symmetry plane z = 0. Scenes without symmetry planes x = 0 and y = 0 are shown as they
-are, without tools, at the times given, side by side; scenes that are flat along y are seen along it, one time below the other,
-whole where they have a symmetry plane x = 0. What does not yield shows the von Mises stress.
+The last state of a quarter or an eighth of a body, mirrored to all of it but one quarter, so that its inside
+is seen: equivalent plastic strain, element edges, the tools half transparent, and the body's outline at time
+0. It is an eighth where scene.prm beside the scene has a symmetry plane z = 0. Scenes without symmetry planes
+x = 0 and y = 0 are shown as they are, without tools, at the times given, side by side; scenes that are flat
+along y are seen along it, one time below the other, whole where they have a symmetry plane x = 0. What does
+not yield shows the von Mises stress.
 """
 
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
-from paraview.simple import (AppendDatasets, CellDatatoPointData, CleantoGrid, Clip, ColorBy, CreateView,
-                             ExtractSurface, FeatureEdges, GetColorTransferFunction, GetScalarBar, Reflect,
-                             SaveScreenshot, Show, XMLPartitionedUnstructuredGridReader, XMLPolyDataReader)
+from paraview.simple import (
+    AppendDatasets,
+    CellDatatoPointData,
+    CleantoGrid,
+    Clip,
+    ColorBy,
+    CreateView,
+    ExtractSurface,
+    FeatureEdges,
+    GetColorTransferFunction,
+    GetScalarBar,
+    Reflect,
+    SaveScreenshot,
+    Show,
+    XMLPartitionedUnstructuredGridReader,
+    XMLPolyDataReader,
+)
 
 STRAIN = ("equivalent_plastic_strain", "Equivalent plastic strain")
 STRESS = ("von_mises_stress", "Von Mises stress")
 scene_file, picture_file = Path(sys.argv[1]), sys.argv[2]
-planes = "".join(line for line in (scene_file.parent / "scene.prm").read_text().splitlines()
-                 if line.strip().startswith("set Symmetry planes"))
+planes = "".join(
+    line
+    for line in (scene_file.parent / "scene.prm").read_text().splitlines()
+    if line.strip().startswith("set Symmetry planes")
+)
 is_quarter = "x = 0" in planes and "y = 0" in planes
-is_eighth = any(line.strip().startswith("set Symmetry planes") and "z = 0" in line
-                for line in (scene_file.parent / "scene.prm").read_text().splitlines())
+is_eighth = any(
+    line.strip().startswith("set Symmetry planes") and "z = 0" in line
+    for line in (scene_file.parent / "scene.prm").read_text().splitlines()
+)
 
 
 def files(part):
     """The files of the bodies or the tools, by time."""
-    return [str(scene_file.parent / entry.get("file")) for entry in ElementTree.parse(scene_file).iter("DataSet")
-            if entry.get("name") == part]
+    return [
+        str(scene_file.parent / entry.get("file"))
+        for entry in ElementTree.parse(scene_file).iter("DataSet")
+        if entry.get("name") == part
+    ]
 
 
 def file_at(time):
     """Of the bodies, at the time nearest to this."""
-    entries = [entry for entry in ElementTree.parse(scene_file).iter("DataSet") if entry.get("name") == "bodies"]
-    return str(scene_file.parent / min(entries, key=lambda e: abs(float(e.get("timestep")) - time)).get("file"))
+    entries = [
+        entry for entry in ElementTree.parse(scene_file).iter("DataSet") if entry.get("name") == "bodies"
+    ]
+    return str(
+        scene_file.parent / min(entries, key=lambda e: abs(float(e.get("timestep")) - time)).get("file")
+    )
 
 
 def mirrored(source, plane):
@@ -64,7 +91,9 @@ def three_quarters(quarter):
 def box(source):
     source.UpdatePipeline()
     bounds = source.GetDataInformation().GetBounds()
-    return [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)], [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
+    return [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)], [
+        bounds[2 * k + 1] - bounds[2 * k] for k in range(3)
+    ]
 
 
 def body_at(file):
@@ -148,7 +177,11 @@ def draw_as_it_is(bodies, largest):
     centre, sizes = box(bodies[0])
     size = max(sizes)
     for i, body in enumerate(bodies):
-        show_field(body, view, largest, i == 0).Position = [0.0, 1.25 * size * (0.5 * (len(bodies) - 1) - i), 0.0]
+        show_field(body, view, largest, i == 0).Position = [
+            0.0,
+            1.25 * size * (0.5 * (len(bodies) - 1) - i),
+            0.0,
+        ]
     view.CameraFocalPoint = centre
     view.CameraPosition = [c + size * d for c, d in zip(centre, (-3.0, -0.35, 0.75))]
     view.CameraViewUp = [0.0, 0.0, 1.0]
@@ -190,7 +223,11 @@ size = bounds[5] if is_eighth else 0.6 * bounds[1]
 
 # The tools, a hair's breadth off the body, which their penalty lets in a little.
 tool = tool_at(files("tools")[-1])
-plates = ((three_quarters(tool), 1), (all_around(image(tool, "Z")), -1)) if is_eighth else ((three_quarters(tool), 0),)
+plates = (
+    ((three_quarters(tool), 1), (all_around(image(tool, "Z")), -1))
+    if is_eighth
+    else ((three_quarters(tool), 0),)
+)
 for plate, side in plates:
     border = FeatureEdges(Input=ExtractSurface(Input=plate), FeatureEdges=0, NonManifoldEdges=0)
     for source, opacity in ((plate, 0.18), (border, 1.0)):

@@ -3,9 +3,9 @@
 
 Usage: equations.py [--renumber] [ROOT]
 
-Each chapter has at most one letter, no letter serves two, and a chapter's equations count from 1 in the order of the
-text. An equation that goes between (T4) and (T5) is written with a number such as (T4a); then --renumber gives all
-equations their numbers and rewrites the references in the folders below.
+Each chapter has at most one letter, no letter serves two, and a chapter's equations count from 1 in the order
+of the text. An equation that goes between (T4) and (T5) is written with a number such as (T4a); then
+--renumber gives all equations their numbers and rewrites the references in the folders below.
 """
 import os
 import re
@@ -42,13 +42,20 @@ def check_numbers(equations: dict[str, list[tuple[int, str]]]) -> list[str]:
             errors.append(f"{THEORY}:{labels[0][0]}: '{owner[letter]}' has the letter {letter}, too")
         for position, (line, label) in enumerate(labels, 1):
             if label != f"{letter}{position}":
-                errors.append(f"{THEORY}:{line}: ({label}) stands where ({letter}{position}) should (--renumber)")
+                errors.append(
+                    f"{THEORY}:{line}: ({label}) stands where ({letter}{position}) should (--renumber)"
+                )
     return errors
 
 
 def files() -> list[Path]:
     """What may refer to equations."""
-    found = [path for folder in FOLDERS for path in Path(folder).rglob("*") if path.suffix in KINDS and path.is_file()]
+    found = [
+        path
+        for folder in FOLDERS
+        for path in Path(folder).rglob("*")
+        if path.suffix in KINDS and path.is_file()
+    ]
     return sorted(found) + [Path("README.md")]
 
 

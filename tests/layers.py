@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: layers.py [ROOT]
 
-Holds the floors of the code apart: a file in include/billet/FLOOR or source/FLOOR includes only files of its own floor
-and of floors before it in the list below. doc/ tells what lives on each.
+Holds the floors of the code apart: a file in include/billet/FLOOR or source/FLOOR includes only files of its
+own floor and of floors before it in the list below. doc/ tells what lives on each.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ FLOORS = (
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every floor
 FOR_ALL = set(
-    "compatibility diagnostic_kinds diagnostics errors registered_type state usage version without_traps".split()
+    "compatibility diagnostic_kinds diagnostics errors registered_type state usage version"
+    " without_traps".split()
 )
 ABOVE_ALL = {"simulation", "main"}  # files that may include everything
 LEVELS = {floor: level for level, floor in enumerate(FLOORS)}

@@ -7,9 +7,10 @@ Usage: run_test.py said FOLDER EXIT_CODE REGEX COMMAND...
 
 'said': the exit code must be the expected one, and a line that the command prints must match.
 
-'compared': the file `output` that the command writes, or else all that it prints, must be COMPARISON_FILE or one of
-its variants (COMPARISON_FILE.*), as deal.II compares: numbers to 1e-8 relative or 1e-6. Of a file *.run_only nothing
-is compared. With UPDATE_OUTPUT=1 in the environment the result becomes the new COMPARISON_FILE.
+'compared': the file `output` that the command writes, or else all that it prints, must be COMPARISON_FILE or
+one of its variants (COMPARISON_FILE.*), as deal.II compares: numbers to 1e-8 relative or 1e-6. Of a file
+*.run_only nothing is compared. With UPDATE_OUTPUT=1 in the environment the result becomes the new
+COMPARISON_FILE.
 """
 
 from __future__ import annotations
@@ -40,16 +41,18 @@ NUMDIFF_OPTIONS = ("-a", "1e-6", "-r", "1e-8", "-s", " \\t\\r\\n=,:;<>[](){}^")
 
 
 def run(folder: Path, command: Sequence[str]) -> int:
-    """Runs the command in the folder, which is made anew; what it prints goes to the file stdout. Returns the exit
-    code."""
+    """Runs the command in the folder, which is made anew; what it prints goes to the file stdout. Returns the
+    exit code."""
     for word in command:
         if "/bin/" in word and not os.access(word, os.X_OK):
             sys.exit(f"{word} is not built: build the target test_programs")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     os.chdir(folder)
-    # Open MPI binds ranks to cores from the first one on: two tests at a time would share it and leave others idle.
-    unbound = {"OMPI_MCA_hwloc_base_binding_policy": "none", "PRTE_MCA_bindto": "none"}  # up to Open MPI 5, from 6 on
+    # Open MPI binds ranks to cores from the first one on: two tests at a time would share it and leave others
+    # idle.
+    # up to Open MPI 5, from 6 on
+    unbound = {"OMPI_MCA_hwloc_base_binding_policy": "none", "PRTE_MCA_bindto": "none"}
     with open("stdout", "wb") as output:
         return subprocess.run(
             ["bash", "-c", '. "$0" && exec "$@"', str(ENVIRONMENT), *command],
@@ -98,7 +101,9 @@ def compared(folder: Path, comparison_file: Path, numdiff: str, command: Sequenc
         if done.returncode == 0:
             return ""
         differences.append("\n".join((done.stdout + done.stderr).splitlines()[:20]))
-    return f"{folder}/output differs from {comparison_file}:\n{differences[0] if variants else 'there is none'}"
+    return (
+        f"{folder}/output differs from {comparison_file}:\n{differences[0] if variants else 'there is none'}"
+    )
 
 
 def main() -> int:

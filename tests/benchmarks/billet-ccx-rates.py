@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The billet in billet and in CalculiX on finer meshes: processor seconds and memory for each Newton iteration."""
+"""The billet in billet and in CalculiX on finer meshes: processor seconds and memory for each Newton
+iteration."""
 
 import statistics
 
@@ -9,7 +10,11 @@ from ccx_billet import FACES_CONTACT, NODES, CcxRun, read_mesh
 options = arguments("billet-ccx-rates")
 REPEAT, PART, STEP = {2: 3, 3: 1}, 0.1, 0.02
 LIMIT = 40  # CPU seconds of CalculiX
-steps = {"Time stepping/End time": PART, "Time stepping/Initial step": STEP, "Time stepping/Largest step": STEP}
+steps = {
+    "Time stepping/End time": PART,
+    "Time stepping/Initial step": STEP,
+    "Time stepping/Largest step": STEP,
+}
 BILLET = {"billet, MUMPS": "MUMPS", "billet, GMRES with multigrid": "GMRES"}
 CCX = {"ccx C3D8R, node to surface": NODES, "ccx C3D8R, surface to surface": FACES_CONTACT}
 
@@ -22,17 +27,58 @@ for level in (2,) if options.quick else (2, 3):
             runs[name].append(Run({**mesh(level), **steps, "Solver/Linear solver": solver}))
         for name, contact in CCX.items():
             runs[name].append(CcxRun(*grid, "C3D8R", contact, increment=STEP, part=PART, limit=LIMIT))
-    rates = {name: statistics.median(run.seconds / run.iterations for run in repeated) for name, repeated in runs.items()}
+    rates = {
+        name: statistics.median(run.seconds / run.iterations for run in repeated)
+        for name, repeated in runs.items()
+    }
     for name, repeated in runs.items():
         run = repeated[0]
-        rows.append([n_elements(level), name, run.steps, run.cuts, run.iterations, number(statistics.median(r.seconds for r in repeated)),
-                     number(rates[name]), number(rates[name] / rates["billet, MUMPS"], 2), number(rates[name] / rates["billet, GMRES with multigrid"], 2),
-                     number(round(max(r.megabytes for r in repeated))), number(run.forces[-1], 4) if run.converged else f"(at {100 * run.times[-1]:.2g} % of the travel)"])
+        rows.append(
+            [
+                n_elements(level),
+                name,
+                run.steps,
+                run.cuts,
+                run.iterations,
+                number(statistics.median(r.seconds for r in repeated)),
+                number(rates[name]),
+                number(rates[name] / rates["billet, MUMPS"], 2),
+                number(rates[name] / rates["billet, GMRES with multigrid"], 2),
+                number(round(max(r.megabytes for r in repeated))),
+                (
+                    number(run.forces[-1], 4)
+                    if run.converged
+                    else f"(at {100 * run.times[-1]:.2g} % of the travel)"
+                ),
+            ]
+        )
 
 publish(
-    "billet-ccx-rates", "The billet in billet and in CalculiX: seconds for each iteration", options,
-    f"Upsetting of the same nodes and bricks with µ = 0.1 by the first {100 * PART:.0f} % of the travel, in steps of at most {100 * STEP:.0f} %, the same "
-    f"penalties; alternately on one core, {REPEAT[2]} times (480 bricks) and once (3840), on a busy machine. CalculiX ends after {LIMIT} CPU seconds, however far it has come. CPU seconds (user and system) "
-    "are medians, of whole programs, and over their iterations, those of cut steps included; they are to be read as ratios. GMRES is what `automatic` takes at 3840 bricks, MUMPS at 480. Force on the whole billet in kN.",
-    table(["bricks", "program", "steps", "cuts", "iterations", "CPU seconds", "for each iteration", "over billet's with MUMPS", "over billet's with GMRES",
-           "peak memory [MB]", "force"], rows))
+    "billet-ccx-rates",
+    "The billet in billet and in CalculiX: seconds for each iteration",
+    options,
+    (
+        f"Upsetting of the same nodes and bricks with µ = 0.1 by the first {100 * PART:.0f} % of the travel,"
+        f" in steps of at most {100 * STEP:.0f} %, the same penalties; alternately on one core,"
+        f" {REPEAT[2]} times (480 bricks) and once (3840), on a busy machine. CalculiX ends after {LIMIT} CPU"
+        " seconds, however far it has come. CPU seconds (user and system) are medians, of whole programs,"
+        " and over their iterations, those of cut steps included; they are to be read as ratios. GMRES is"
+        " what `automatic` takes at 3840 bricks, MUMPS at 480. Force on the whole billet in kN."
+    ),
+    table(
+        [
+            "bricks",
+            "program",
+            "steps",
+            "cuts",
+            "iterations",
+            "CPU seconds",
+            "for each iteration",
+            "over billet's with MUMPS",
+            "over billet's with GMRES",
+            "peak memory [MB]",
+            "force",
+        ],
+        rows,
+    ),
+)

@@ -5,28 +5,50 @@ import re
 import statistics
 import subprocess
 
-from billet_runs import (PAIR, PENALTY, PROGRAM, Run, arguments, children_seconds, fixed_steps, frictionless_force,
-                         interpolate, mesh, n_elements, number, publish, table)
+from billet_runs import (
+    PAIR,
+    PENALTY,
+    PROGRAM,
+    Run,
+    arguments,
+    children_seconds,
+    fixed_steps,
+    frictionless_force,
+    interpolate,
+    mesh,
+    n_elements,
+    number,
+    publish,
+    table,
+)
 from ccx_billet import FACES_CONTACT, NODES, CcxRun, read_mesh
 
 options = arguments("billet-ccx")
 REPEAT = 3
 
 
-BILLET = {"billet, default": {}, "billet, tolerance 5e-3": {"Solver/Force tolerance": 5e-3,
-                                                            "Solver/Energy tolerance": 5e-3},
-          "billet, steps of 2 %": fixed_steps(50)}
-CCX = {"ccx C3D8R, node to surface": ("C3D8R", NODES), "ccx C3D8R, surface to surface": ("C3D8R", FACES_CONTACT),
-       "ccx C3D8R, node to surface, 10 %": ("C3D8R", NODES, 0.1, 0.1),
-       "ccx C3D8, node to surface, 10 %": ("C3D8", NODES, 0.1, 0.1),
-       "ccx C3D8, node to surface": ("C3D8", NODES), "ccx C3D8I, node to surface": ("C3D8I", NODES)}
+BILLET = {
+    "billet, default": {},
+    "billet, tolerance 5e-3": {"Solver/Force tolerance": 5e-3, "Solver/Energy tolerance": 5e-3},
+    "billet, steps of 2 %": fixed_steps(50),
+}
+CCX = {
+    "ccx C3D8R, node to surface": ("C3D8R", NODES),
+    "ccx C3D8R, surface to surface": ("C3D8R", FACES_CONTACT),
+    "ccx C3D8R, node to surface, 10 %": ("C3D8R", NODES, 0.1, 0.1),
+    "ccx C3D8, node to surface, 10 %": ("C3D8", NODES, 0.1, 0.1),
+    "ccx C3D8, node to surface": ("C3D8", NODES),
+    "ccx C3D8I, node to surface": ("C3D8I", NODES),
+}
 
 rows = []
 for level in (1,) if options.quick else (1, 2, 3) if options.large else (1, 2):
     grid = read_mesh(level)
     entries = {**BILLET, **CCX}
     if level == 3:  # ccx takes minutes
-        entries = {name: entry for name, entry in entries.items() if "C3D8," not in name and "C3D8I" not in name}
+        entries = {
+            name: entry for name, entry in entries.items() if "C3D8," not in name and "C3D8I" not in name
+        }
     runs = {name: [] for name in entries}
     for _ in range(1 if level == 3 else REPEAT):
         for name, entry in entries.items():
@@ -35,10 +57,19 @@ for level in (1,) if options.quick else (1, 2, 3) if options.large else (1, 2):
             runs[name].append(CcxRun(*grid, *entry) if name in CCX else Run({**mesh(level), **entry}))
     for name, repeated in runs.items():
         run = repeated[0]
-        rows.append([n_elements(level), name, run.steps, run.cuts, run.iterations,
-                     number(statistics.median(r.seconds for r in repeated), 3),
-                     number(interpolate(run.times, run.forces, 0.8), 4),
-                     number(run.forces[-1], 4) if run.converged else f"stops at {run.times[-1]:.2g}"])
+        rows.append(
+            [
+                n_elements(level),
+                name,
+                run.steps,
+                run.cuts,
+                run.iterations,
+                number(statistics.median(r.seconds for r in repeated), 3),
+                number(interpolate(run.times, run.forces, 0.8), 4),
+                number(run.forces[-1], 4) if run.converged else f"stops at {run.times[-1]:.2g}",
+            ]
+        )
+
 
 def ends(run):
     """At 60 and at 64 % reduction."""
@@ -59,20 +90,41 @@ start = children_seconds() - before
 version = re.search(r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout)
 
 publish(
-    "billet-ccx", "The billet in billet and in CalculiX", options,
-    "Upsetting by 64 %, µ = 0.1, penalties 3.5e5 N/mm³, the same nodes and bricks; CalculiX "
-    f"{version.group(1)} with its own direct solver (SPOOLES), increments of 2 % of the travel at most, or of 10 % where it is said, as billet may take them by default; its default "
-    "tolerances (0.5 % of the force). "
-    f"Alternately on one core without other threads: CPU seconds (user and system) are the median of {REPEAT} runs"
-    f"{'' if options.quick else ' (one of C3D8I on 480 bricks)'}"
-    f"{' (one each on 3840 bricks)' if options.large else ''}. "
-    f"{start:.2g} of billet's seconds are its start: MPI and the loading of libraries. Iterations count those of cut "
-    "steps. Forces on the whole billet in kN, at 80 % and at the end of the travel.",
-    table(["bricks", "program", "steps", "cuts", "iterations", "CPU seconds", "force at 80 %", "force at the end"],
-          rows),
-    "C3D8R: one point and hourglass control; C3D8: full integration, which locks; C3D8I: incompatible modes, which "
-    "collapse. In both programs the force depends on the step with friction (see "
-    "[billet-work-precision](billet-work-precision.md)), in CalculiX also without:",
-    "## Without friction\n\nForces in kN at 60 / 64 % reduction with so many steps, 60 bricks, each run once; the "
-    "closed form is that of yield in Kirchhoff stress, the penalty's penetration taken into account.",
-    table(["program"] + [f"{n} steps" for n in STEPS], frictionless))
+    "billet-ccx",
+    "The billet in billet and in CalculiX",
+    options,
+    (
+        "Upsetting by 64 %, µ = 0.1, penalties 3.5e5 N/mm³, the same nodes and bricks; CalculiX"
+        f" {version.group(1)} with its own direct solver (SPOOLES), increments of 2 % of the travel at most,"
+        " or of 10 % where it is said, as billet may take them by default; its default tolerances (0.5 % of"
+        " the force). Alternately on one core without other threads: CPU seconds (user and system) are the"
+        f" median of {REPEAT} runs{'' if options.quick else ' (one of C3D8I on 480 bricks)'}"
+        f"{' (one each on 3840 bricks)' if options.large else ''}."
+        f" {start:.2g} of billet's seconds are its start: MPI and the loading of libraries. Iterations count"
+        " those of cut steps. Forces on the whole billet in kN, at 80 % and at the end of the travel."
+    ),
+    table(
+        [
+            "bricks",
+            "program",
+            "steps",
+            "cuts",
+            "iterations",
+            "CPU seconds",
+            "force at 80 %",
+            "force at the end",
+        ],
+        rows,
+    ),
+    (
+        "C3D8R: one point and hourglass control; C3D8: full integration, which locks; C3D8I: incompatible"
+        " modes, which collapse. In both programs the force depends on the step with friction (see"
+        " [billet-work-precision](billet-work-precision.md)), in CalculiX also without:"
+    ),
+    (
+        "## Without friction\n\nForces in kN at 60 / 64 % reduction with so many steps, 60 bricks, each run"
+        " once; the closed form is that of yield in Kirchhoff stress, the penalty's penetration taken into"
+        " account."
+    ),
+    table(["program"] + [f"{n} steps" for n in STEPS], frictionless),
+)

@@ -3,8 +3,19 @@
 
 import math
 
-from billet_runs import (PAIR, PENALTY, Run, arguments, fixed_steps, frictionless_force, mesh, n_elements, number,
-                         publish, table)
+from billet_runs import (
+    PAIR,
+    PENALTY,
+    Run,
+    arguments,
+    fixed_steps,
+    frictionless_force,
+    mesh,
+    n_elements,
+    number,
+    publish,
+    table,
+)
 
 options = arguments("billet-frictionless")
 TIMES = {0.9375: "60 %", 1.0: "64 %"}
@@ -21,22 +32,37 @@ def errors(run, penalty):
 
 
 def row(refinements, steps, factor):
-    run = Run({**mesh(refinements), **fixed_steps(steps), PAIR + "Friction coefficient": 0,
-               PAIR + "Normal penalty": factor * PENALTY, "Solver/Force tolerance": 1e-6}, options.ranks)
+    run = Run(
+        {
+            **mesh(refinements),
+            **fixed_steps(steps),
+            PAIR + "Friction coefficient": 0,
+            PAIR + "Normal penalty": factor * PENALTY,
+            "Solver/Force tolerance": 1e-6,
+        },
+        options.ranks,
+    )
     result = [run.iterations] + errors(run, factor * PENALTY) if run.converged else [run.failure] + ["–"] * 4
     return [n_elements(refinements), steps, f"{factor:g}"] + result
 
 
 meshes = (1, 2) if options.quick else (1, 2, 3)
 head = ["bricks", "steps", "penalty / 3.5e5", "iterations"] + [
-    f"{text}: error {of}" for text in TIMES.values() for of in ("[%]", "[%], penetration taken off")]
+    f"{text}: error {of}" for text in TIMES.values() for of in ("[%]", "[%], penetration taken off")
+]
 publish(
-    "billet-frictionless", "The billet without friction against the closed form", options,
-    "Upsetting with µ = 0 is homogeneous. Force on the whole billet in closed form, for a law that yields in Kirchhoff "
-    f"stress (billet's): {frictionless_force(0.9375):.2f} kN at 60 %, {frictionless_force(1.0):.2f} kN at 64 % "
-    "reduction. The die's penalty lets the billet in by pressure / penalty, which the last column of each pair takes "
-    "off (in closed form, too). Fixed steps; each run once. A dash: no step ends at this time.",
+    "billet-frictionless",
+    "The billet without friction against the closed form",
+    options,
+    (
+        "Upsetting with µ = 0 is homogeneous. Force on the whole billet in closed form, for a law that"
+        f" yields in Kirchhoff stress (billet's): {frictionless_force(0.9375):.2f} kN at 60 %,"
+        f" {frictionless_force(1.0):.2f} kN at 64 % reduction. The die's penalty lets the billet in by"
+        " pressure / penalty, which the last column of each pair takes off (in closed form, too). Fixed"
+        " steps; each run once. A dash: no step ends at this time."
+    ),
     "## Meshes and steps: no influence",
     table(head, [row(m, n, 1) for m in meshes for n in ((5, 48, 480) if m < 3 else (5, 48))]),
     "## Penalty",
-    table(head, [row(m, 48, factor) for m in meshes for factor in (0.1, 1, 10, 100)]))
+    table(head, [row(m, 48, factor) for m in meshes for factor in (0.1, 1, 10, 100)]),
+)

@@ -3,7 +3,7 @@
 
 import math
 
-from billet_runs import (Run, arguments, curve_error, mesh, n_elements, number, percent, publish, table)
+from billet_runs import Run, arguments, curve_error, mesh, n_elements, number, percent, publish, table
 
 options = arguments("billet-mesh")
 STEPS = 50
@@ -24,23 +24,58 @@ def solver(run):
     return "iterative" if any(int(row["linear_iterations"]) for row in run.rows) else "direct"
 
 
-rows = [[n_elements(level), solver(run), run.steps, run.cuts, run.iterations, number(run.seconds, 3), number(run.seconds / run.iterations, 2),
-         number(round(run.megabytes))] + [number(run.force(t), 5) for t in TIMES]
-        + ["(reference)" if run is finest else percent(curve_error(run, finest))] for level, run in runs.items()]
+rows = [
+    [
+        n_elements(level),
+        solver(run),
+        run.steps,
+        run.cuts,
+        run.iterations,
+        number(run.seconds, 3),
+        number(run.seconds / run.iterations, 2),
+        number(round(run.megabytes)),
+    ]
+    + [number(run.force(t), 5) for t in TIMES]
+    + ["(reference)" if run is finest else percent(curve_error(run, finest))]
+    for level, run in runs.items()
+]
 if len(levels) > 2:
     last = [runs[level] for level in levels[-3:]]
     orders = [order(*(run.force(t) for run in last)) for t in TIMES]
     rows.append(["order"] + [""] * 7 + [number(p, 2) for p in orders] + [""])
     step_apart = curve_error(last[0], last[1]), curve_error(last[1], last[2])
-    norm = (f"In the norm of the last column, each mesh differs from the next by {percent(step_apart[0])}, then "
-            f"{percent(step_apart[1])}: order {math.log2(step_apart[0] / step_apart[1]):.1f}.")
+    norm = (
+        f"In the norm of the last column, each mesh differs from the next by {percent(step_apart[0])}, then "
+        f"{percent(step_apart[1])}: order {math.log2(step_apart[0] / step_apart[1]):.1f}."
+    )
 else:
     norm = ""
 
 publish(
-    "billet-mesh", "The billet on finer meshes", options,
-    f"Upsetting by 64 %, µ = 0.1, the paper's penalty, {STEPS} steps, cut only where Newton asks for it; the linear solver that `automatic` takes; each run once, on a busy machine. Force on the whole billet "
-    "in kN at parts of the travel, and the difference of the whole curve from the finest mesh's, ∫|F − F*| / ∫|F*|. "
-    "The order is Richardson's from the last three meshes; a dash: the differences change sign, and there is none.",
-    table(["bricks", "linear solver", "steps", "cuts", "iterations", "CPU seconds", "for each iteration", "peak memory [MB]"] + [f"{t:g}" for t in TIMES] + ["curve"], rows),
-    norm)
+    "billet-mesh",
+    "The billet on finer meshes",
+    options,
+    (
+        f"Upsetting by 64 %, µ = 0.1, the paper's penalty, {STEPS} steps, cut only where Newton asks for it;"
+        " the linear solver that `automatic` takes; each run once, on a busy machine. Force on the whole"
+        " billet in kN at parts of the travel, and the difference of the whole curve from the finest mesh's,"
+        " ∫|F − F*| / ∫|F*|. The order is Richardson's from the last three meshes; a dash: the differences"
+        " change sign, and there is none."
+    ),
+    table(
+        [
+            "bricks",
+            "linear solver",
+            "steps",
+            "cuts",
+            "iterations",
+            "CPU seconds",
+            "for each iteration",
+            "peak memory [MB]",
+        ]
+        + [f"{t:g}" for t in TIMES]
+        + ["curve"],
+        rows,
+    ),
+    norm,
+)

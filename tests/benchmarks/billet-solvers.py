@@ -8,7 +8,18 @@ import sys
 import tempfile
 from pathlib import Path
 
-from billet_runs import PROGRAM, SCENE, arguments, mesh, n_elements, number, publish, read_scene, table, variant
+from billet_runs import (
+    PROGRAM,
+    SCENE,
+    arguments,
+    mesh,
+    n_elements,
+    number,
+    publish,
+    read_scene,
+    table,
+    variant,
+)
 
 options = arguments("billet-solvers")
 # Mesh, and part of the travel: a direct solver takes hours for all of it on the finest.
@@ -17,8 +28,18 @@ CASES = ((2, 1.0),) if options.quick else ((2, 1.0), (3, 1.0)) + (((4, 0.04),) i
 
 def run(level, end, solver):
     """History of the run, processor seconds, peak memory in MB; of one rank."""
-    text = variant(read_scene(SCENE), {**mesh(level), "Time stepping/End time": end, "Time stepping/Largest step": 0.02, "Solver/Linear solver": solver,
-                                       "Output/Format": "none", "Output/Verbosity": "quiet", "Output/Folder": "results"})
+    text = variant(
+        read_scene(SCENE),
+        {
+            **mesh(level),
+            "Time stepping/End time": end,
+            "Time stepping/Largest step": 0.02,
+            "Solver/Linear solver": solver,
+            "Output/Format": "none",
+            "Output/Verbosity": "quiet",
+            "Output/Folder": "results",
+        },
+    )
     with tempfile.TemporaryDirectory() as place:
         (Path(place) / "scene.prm").write_text(text)
         process = subprocess.Popen([PROGRAM, "scene.prm"], cwd=place)
@@ -28,7 +49,11 @@ def run(level, end, solver):
         with open(Path(place) / "results/history.csv", newline="") as file:
             rows = list(csv.DictReader(file))
     seconds = usage.ru_utime + usage.ru_stime
-    print(f"[{n_elements(level)}, {solver}] {rows[-1]['total_iterations']} iterations, {seconds:.3g} s", file=sys.stderr, flush=True)
+    print(
+        f"[{n_elements(level)}, {solver}] {rows[-1]['total_iterations']} iterations, {seconds:.3g} s",
+        file=sys.stderr,
+        flush=True,
+    )
     return rows, seconds, usage.ru_maxrss / 1024
 
 
@@ -38,12 +63,44 @@ for level, end in CASES:
         history, seconds, megabytes = run(level, end, solver)
         iterations = int(history[-1]["total_iterations"])
         linear = sum(int(row["linear_iterations"]) for row in history)
-        rows.append([n_elements(level), number(end), solver, len(history), iterations, number(linear / iterations) if linear else "direct",
-                     number(seconds), number(seconds / iterations), number(round(megabytes)),
-                     number(-4e-3 * float(history[-1]["die.force_z"]), 6)])
+        rows.append(
+            [
+                n_elements(level),
+                number(end),
+                solver,
+                len(history),
+                iterations,
+                number(linear / iterations) if linear else "direct",
+                number(seconds),
+                number(seconds / iterations),
+                number(round(megabytes)),
+                number(-4e-3 * float(history[-1]["die.force_z"]), 6),
+            ]
+        )
 
 publish(
-    "billet-solvers", "The billet by a direct and by an iterative solver", options,
-    "Upsetting with µ = 0.1, the paper's penalty, steps of at most 2 %, until that part of the travel of 64 %; each run once, on a busy machine. Linear iterations are those for "
-    "each iteration of Newton's method, forced after Eisenstat and Walker; CPU seconds are those of the whole program, and for each iteration of Newton's method; the force on the whole billet at the end in kN.",
-    table(["bricks", "travel", "solver", "steps", "iterations", "linear iterations", "CPU seconds", "for each iteration", "peak memory [MB]", "force"], rows))
+    "billet-solvers",
+    "The billet by a direct and by an iterative solver",
+    options,
+    (
+        "Upsetting with µ = 0.1, the paper's penalty, steps of at most 2 %, until that part of the travel of"
+        " 64 %; each run once, on a busy machine. Linear iterations are those for each iteration of Newton's"
+        " method, forced after Eisenstat and Walker; CPU seconds are those of the whole program, and for each"
+        " iteration of Newton's method; the force on the whole billet at the end in kN."
+    ),
+    table(
+        [
+            "bricks",
+            "travel",
+            "solver",
+            "steps",
+            "iterations",
+            "linear iterations",
+            "CPU seconds",
+            "for each iteration",
+            "peak memory [MB]",
+            "force",
+        ],
+        rows,
+    ),
+)

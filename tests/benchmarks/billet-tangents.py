@@ -28,30 +28,69 @@ def outcome(r):
 def automatic(tangent, *changes):
     # A tangent that needs thousands of steps is no choice: it may give up.
     r = run(tangent, {"Time stepping/Smallest step": 1e-4}, *changes)
-    return [f"{r.iterations} / {r.steps}", r.cuts, number(r.forces[-1], 4)] if r.converged else [outcome(r), "–", "–"]
+    return (
+        [f"{r.iterations} / {r.steps}", r.cuts, number(r.forces[-1], 4)]
+        if r.converged
+        else [outcome(r), "–", "–"]
+    )
 
 
 publish(
-    "billet-tangents", "The billet with each contact tangent", options,
-    "Upsetting by 64 %, 60 bricks, µ = 0.1, k_n = k_t = 3.5e5 N/mm³ (Bittencourt & Creus 1998, example 9.1). "
-    "Iterations count those of cut steps. Each run once: counts do not scatter. Forces are those of the whole billet "
-    "at the end, in kN.",
-    "## Automatic steps\n\n"
-    "Iterations / steps, cuts and end force with a tolerance of 1e-6 of the forces, and with the default one, 5e-3, "
-    "which is about what the paper's 1.4 iterations a step point to. Different steps give different forces: friction and plastic flow are "
-    "of first order in the step.",
-    table(["tangent", "1e-6: iterations / steps", "cuts", "force", "5e-3: iterations / steps", "cuts", "force",
-           "paper: iterations / steps"],
-          [[t] + automatic(t, TIGHT) + automatic(t) + [PAPER.get(t, "–")] for t in TANGENTS]),
-    "## Steps of 2 % of the reduction\n\n"
-    "Iterations for the 50 steps, or where (part of the travel) and why the run stopped; *inside out*: a correction "
-    "would turn elements inside out, however short. *Plain*: no line search, "
-    "no increment continued, tolerance 1e-2. *Mean dilatation*: `Element = mean dilatation`, the default of before. "
-    "Plain steps of the default element alternate in the first plastic step: it needs the line search. The paper: "
-    "only the consistent tangent still converges.",
-    table(["tangent", "default", "penalty × 10", "plain", "plain, mean dilatation",
-           "plain, mean dilatation, penalty × 10"],
-          [[t] + [outcome(run(t, fixed_steps(50), {PAIR + "Normal penalty": penalty}, changes))
-                  for changes, penalty in (({}, 3.5e5), ({}, 3.5e6), ({**PLAIN, **LOOSE}, 3.5e5),
-                                           ({**PLAIN, **LOOSE, **OLDER}, 3.5e5), ({**PLAIN, **LOOSE, **OLDER}, 3.5e6))]
-           for t in TANGENTS]))
+    "billet-tangents",
+    "The billet with each contact tangent",
+    options,
+    (
+        "Upsetting by 64 %, 60 bricks, µ = 0.1, k_n = k_t = 3.5e5 N/mm³ (Bittencourt & Creus 1998, example"
+        " 9.1). Iterations count those of cut steps. Each run once: counts do not scatter. Forces are those"
+        " of the whole billet at the end, in kN."
+    ),
+    (
+        "## Automatic steps\n\nIterations / steps, cuts and end force with a tolerance of 1e-6 of the forces,"
+        " and with the default one, 5e-3, which is about what the paper's 1.4 iterations a step point to."
+        " Different steps give different forces: friction and plastic flow are of first order in the step."
+    ),
+    table(
+        [
+            "tangent",
+            "1e-6: iterations / steps",
+            "cuts",
+            "force",
+            "5e-3: iterations / steps",
+            "cuts",
+            "force",
+            "paper: iterations / steps",
+        ],
+        [[t] + automatic(t, TIGHT) + automatic(t) + [PAPER.get(t, "–")] for t in TANGENTS],
+    ),
+    (
+        "## Steps of 2 % of the reduction\n\nIterations for the 50 steps, or where (part of the travel) and"
+        " why the run stopped; *inside out*: a correction would turn elements inside out, however short."
+        " *Plain*: no line search, no increment continued, tolerance 1e-2. *Mean dilatation*: `Element = mean"
+        " dilatation`, the default of before. Plain steps of the default element alternate in the first"
+        " plastic step: it needs the line search. The paper: only the consistent tangent still converges."
+    ),
+    table(
+        [
+            "tangent",
+            "default",
+            "penalty × 10",
+            "plain",
+            "plain, mean dilatation",
+            "plain, mean dilatation, penalty × 10",
+        ],
+        [
+            [t]
+            + [
+                outcome(run(t, fixed_steps(50), {PAIR + "Normal penalty": penalty}, changes))
+                for changes, penalty in (
+                    ({}, 3.5e5),
+                    ({}, 3.5e6),
+                    ({**PLAIN, **LOOSE}, 3.5e5),
+                    ({**PLAIN, **LOOSE, **OLDER}, 3.5e5),
+                    ({**PLAIN, **LOOSE, **OLDER}, 3.5e6),
+                )
+            ]
+            for t in TANGENTS
+        ],
+    ),
+)

@@ -1,8 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What accuracy of the billet's force curve costs: mesh, step and contact tangent."""
 
-from billet_runs import (TANGENT, Run, arguments, curve_error, fixed_steps, mesh, n_elements, number, percent, publish,
-                         table)
+from billet_runs import (
+    TANGENT,
+    Run,
+    arguments,
+    curve_error,
+    fixed_steps,
+    mesh,
+    n_elements,
+    number,
+    percent,
+    publish,
+    table,
+)
 
 options = arguments("billet-work-precision")
 TANGENTS = ("exact", "consistent", "continuum", "symmetrised lower", "symmetrised mean")
@@ -11,9 +22,9 @@ REFERENCE_STEPS = 400  # on the finest mesh
 
 
 def combinations():
-    """Mesh, steps (None: automatic) and tangent of every run. On the largest mesh the exact tangent alone, and the
-    consistent one once: the tangents' answers do not differ, and the smaller meshes tell how their costs do. The mean
-    needs thousands of automatic steps."""
+    """Mesh, steps (None: automatic) and tangent of every run. On the largest mesh the exact tangent alone,
+    and the consistent one once: the tangents' answers do not differ, and the smaller meshes tell how their
+    costs do. The mean needs thousands of automatic steps."""
     for level in levels:
         for steps in (None, 4, 10, 40, 100, REFERENCE_STEPS):
             for tangent in TANGENTS:
@@ -38,20 +49,36 @@ for (level, steps, tangent), run in runs.items():
     same_mesh = runs[level, REFERENCE_STEPS, "exact"]
     if run.converged:
         error = "(reference)" if run is reference else percent(curve_error(run, reference))
-        result = [str(run.iterations), number(run.seconds, 3), error,
-                  "–" if run is same_mesh else percent(curve_error(run, same_mesh))]
+        result = [
+            str(run.iterations),
+            number(run.seconds, 3),
+            error,
+            "–" if run is same_mesh else percent(curve_error(run, same_mesh)),
+        ]
     else:
         result = [f"stops at {run.times[-1]:.2g}", number(run.seconds, 3), "–", "–"]
     rows.append([n_elements(level), f"automatic: {run.steps}" if steps is None else steps, tangent] + result)
 
 publish(
-    "billet-work-precision", "What accuracy of the billet's force curve costs", options,
-    "Upsetting by 64 %, µ = 0.1, the paper's penalty. Cost: Newton iterations, and CPU seconds (user and system, "
-    "start included; median of three where a run takes less than 5 s, else one run; failed runs once). Error: "
-    f"∫|F − F*| / ∫|F*| of the force curve at the ends of the steps, F* that of {n_elements(levels[-1])} bricks, "
-    f"{REFERENCE_STEPS} steps and the exact tangent; beside it the part that the steps alone make: the difference from "
-    f"{REFERENCE_STEPS} steps on the same mesh. Failed runs stay, with the part of the travel that they reached."
-    + ("" if options.quick else f" Left out on {n_elements(3)} bricks for their time: all tangents but the exact one, "
-       "except the consistent one with 40 steps.") + " Left out: the upper symmetrised tangent, and with automatic steps the symmetrised mean, which take thousands of "
-    "iterations (see [billet-tangents](billet-tangents.md)). Four fixed steps of 16 % of the height are too long for every tangent.",
-    table(["bricks", "steps", "tangent", "iterations", "CPU seconds", "error", "by the steps"], rows))
+    "billet-work-precision",
+    "What accuracy of the billet's force curve costs",
+    options,
+    "Upsetting by 64 %, µ = 0.1, the paper's penalty. Cost: Newton iterations, and CPU seconds (user and"
+    " system, start included; median of three where a run takes less than 5 s, else one run; failed runs"
+    " once). Error: ∫|F − F*| / ∫|F*| of the force curve at the ends of the steps, F* that of"
+    f" {n_elements(levels[-1])} bricks, {REFERENCE_STEPS} steps and the exact tangent; beside it the part"
+    f" that the steps alone make: the difference from {REFERENCE_STEPS} steps on the same mesh. Failed runs"
+    " stay, with the part of the travel that they reached."
+    + (
+        ""
+        if options.quick
+        else (
+            f" Left out on {n_elements(3)} bricks for their time: all tangents but the exact one, "
+            "except the consistent one with 40 steps."
+        )
+    )
+    + " Left out: the upper symmetrised tangent, and with automatic steps the symmetrised mean, which take"
+    " thousands of iterations (see [billet-tangents](billet-tangents.md)). Four fixed steps of 16 % of the"
+    " height are too long for every tangent.",
+    table(["bricks", "steps", "tangent", "iterations", "CPU seconds", "error", "by the steps"], rows),
+)

@@ -48,8 +48,9 @@ def children_seconds():
 
 
 class Measured:
-    """A program that has run in `folder`: `code`, `stdout`, `stderr`, `seconds` (user and system, of all its processes) and
-    `megabytes` (at most at a time, of the largest one). After `limit` seconds of a processor the system ends it."""
+    """A program that has run in `folder`: `code`, `stdout`, `stderr`, `seconds` (user and system, of all its
+    processes) and `megabytes` (at most at a time, of the largest one). After `limit` seconds of a processor
+    the system ends it."""
 
     def __init__(self, command, folder, limit=None, **options):
         def restrict():
@@ -57,7 +58,9 @@ class Measured:
                 resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
 
         with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
-            process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=err, preexec_fn=restrict, **options)
+            process = subprocess.Popen(
+                command, cwd=folder, stdout=out, stderr=err, preexec_fn=restrict, **options
+            )
             _, status, usage = os.wait4(process.pid, 0)
             self.code = process.returncode = os.waitstatus_to_exitcode(status)
             out.seek(0), err.seek(0)
@@ -67,13 +70,21 @@ class Measured:
 
 
 class Run:
-    """A finished run: `converged`, `failure` (why not, in short), `times` and `forces` (on the whole body, in kN,
-    from time 0 on), `steps`, `iterations` (with those of cut steps), `cuts`, `seconds` (user and system, of all ranks),
-    `megabytes` (of the largest rank), `rows` of the history, what was `said` on the console. Results stay in `folder`, if there is one."""
+    """A finished run: `converged`, `failure` (why not, in short), `times` and `forces` (on the whole body, in
+    kN, from time 0 on), `steps`, `iterations` (with those of cut steps), `cuts`, `seconds` (user and system,
+    of all ranks), `megabytes` (of the largest rank), `rows` of the history, what was `said` on the console.
+    Results stay in `folder`, if there is one."""
 
     def __init__(self, changes=None, ranks=1, scene=SCENE, tool="die", folder=None):
-        text = variant(read_scene(scene), {"Output/Format": "none", "Output/Verbosity": "quiet",
-                                           "Output/Folder": "results", **(changes or {})})
+        text = variant(
+            read_scene(scene),
+            {
+                "Output/Format": "none",
+                "Output/Verbosity": "quiet",
+                "Output/Folder": "results",
+                **(changes or {}),
+            },
+        )
         command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
         with tempfile.TemporaryDirectory() as temporary:
             place = Path(folder or temporary)
@@ -87,9 +98,19 @@ class Run:
                 rows = list(csv.DictReader(file))
             self.records = read_records(place / "results/diagnostics.jsonl")
         self.converged = done.code != 3
-        self.failure = ("" if self.converged else "inside out" if "inadmissible" in done.stderr else
-                        "no convergence" if re.search("no convergence|given up", done.stderr) else
-                        done.stderr.strip())
+        self.failure = (
+            ""
+            if self.converged
+            else (
+                "inside out"
+                if "inadmissible" in done.stderr
+                else (
+                    "no convergence"
+                    if re.search("no convergence|given up", done.stderr)
+                    else done.stderr.strip()
+                )
+            )
+        )
         self.times = [0.0] + [float(row["time"]) for row in rows]
         self.forces = [0.0] + [-4e-3 * float(row[tool + ".force_z"]) for row in rows]
         self.rows, self.said = rows, done.stdout
@@ -97,8 +118,14 @@ class Run:
         self.iterations = int(rows[-1]["total_iterations"]) if rows else 0
         self.cuts = int(rows[-1]["total_cuts"]) if rows else 0
         said = ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in (changes or {}).items())
-        print(f"[{said}] {self.iterations} iterations, {self.seconds:.3g} s{'' if self.converged else ', failed'}",
-              file=sys.stderr, flush=True)
+        print(
+            (
+                f"[{said}] {self.iterations} iterations,"
+                f" {self.seconds:.3g} s{'' if self.converged else ', failed'}"
+            ),
+            file=sys.stderr,
+            flush=True,
+        )
 
     def force(self, time):
         return interpolate(self.times, self.forces, time)
@@ -106,8 +133,20 @@ class Run:
 
 def count_instructions(folder):
     """Of a run of scene.prm in this folder by callgrind, without what libraries do before it."""
-    done = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=billet::run_simulation(*", "--callgrind-out-file=/dev/null",
-                           PROGRAM, "scene.prm"], cwd=folder, capture_output=True, text=True, env={**os.environ, "OPENBLAS_CORETYPE": "Haswell"})
+    done = subprocess.run(
+        [
+            "valgrind",
+            "--tool=callgrind",
+            "--toggle-collect=billet::run_simulation(*",
+            "--callgrind-out-file=/dev/null",
+            PROGRAM,
+            "scene.prm",
+        ],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "OPENBLAS_CORETYPE": "Haswell"},
+    )
     if done.returncode != 0:
         sys.exit(f"under valgrind billet ended with {done.returncode}: {done.stderr}")
     return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
@@ -122,9 +161,9 @@ def interpolate(times, values, time):
 
 
 def frictionless_force(time, penalty=math.inf):
-    """Closed form of the force on the whole billet in kN without friction, for a law that yields in Kirchhoff stress τ:
-    along the axis ln λ = −τ/E − ε_p with τ = σ_y + H ε_p; force = τ A_0 / λ; force over current area = penalty times
-    penetration, by which the billet is less upset."""
+    """Closed form of the force on the whole billet in kN without friction, for a law that yields in Kirchhoff
+    stress τ: along the axis ln λ = −τ/E − ε_p with τ = σ_y + H ε_p; force = τ A_0 / λ; force over current
+    area = penalty times penetration, by which the billet is less upset."""
     radius, half_length, travel = 10.0, 15.0, 9.6
     E, nu, yield_stress, H = 200e3, 0.3, 700.0, 300.0
     penetration = 0.0
@@ -139,8 +178,9 @@ def frictionless_force(time, penalty=math.inf):
 
 
 def curve_error(run, reference):
-    """Integral of |F - F*| over that of |F*| by the trapezoidal rule over the ends of the run's steps: what lies
-    between them was not computed, and the jump to first yield within the first step is nobody's fault."""
+    """Integral of |F - F*| over that of |F*| by the trapezoidal rule over the ends of the run's steps: what
+    lies between them was not computed, and the jump to first yield within the first step is nobody's
+    fault."""
     if not run.converged:
         return math.nan
     times, forces = run.times[1:], run.forces[1:]
@@ -157,7 +197,7 @@ def number(value, digits=3):
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return "–"
     if isinstance(value, float):
-        return f"{value:.{digits}g}" if value == 0 or abs(value) < 10 ** digits else f"{value:.0f}"
+        return f"{value:.{digits}g}" if value == 0 or abs(value) < 10**digits else f"{value:.0f}"
     return str(value)
 
 
@@ -173,7 +213,9 @@ def table(head, rows):
 def arguments(name):
     """Command line of a benchmark; the same for all, so that `all` can pass it on."""
     parser = argparse.ArgumentParser(prog=f"scripts/benchmarks {name}")
-    parser.add_argument("--quick", action="store_true", help="leave out what takes long, where something does")
+    parser.add_argument(
+        "--quick", action="store_true", help="leave out what takes long, where something does"
+    )
     parser.add_argument("--large", action="store_true", help="add a larger mesh, where there is one")
     parser.add_argument("--ranks", type=int, default=1, help="processes to run billet on (1)")
     return parser.parse_args()
@@ -185,7 +227,10 @@ def publish(name, title, options, *parts):
     flags += [f"--ranks {options.ranks}"] if options.ranks > 1 else []
     command = " ".join(["scripts/benchmarks", name] + flags)
     ranks = "one rank" if options.ranks == 1 else f"{options.ranks} ranks"
-    page = "\n\n".join([f"# {title}", f"Written by `{command}`, on {ranks}."] + [part for part in parts if part]) + "\n"
+    page = (
+        "\n\n".join([f"# {title}", f"Written by `{command}`, on {ranks}."] + [part for part in parts if part])
+        + "\n"
+    )
     print(page)
     if options.quick:
         print(f"A quick run: doc/results/{name}.md stays as it is.")

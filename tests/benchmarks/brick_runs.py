@@ -18,13 +18,21 @@ from billet_trade.records import read_records
 ELEMENTS = ("assumed strain", "mean dilatation", "one point")
 AS, MD, OP = ELEMENTS
 STIFF, SOFT = "element-too-stiff", "element-too-soft"
-ABOUT_ELEMENTS = {STIFF, SOFT, "plastic-bending-coarse", "inverted-corners", "inverted-at-end", "coarse-on-tool", "lumped-inertia"}
+ABOUT_ELEMENTS = {
+    STIFF,
+    SOFT,
+    "plastic-bending-coarse",
+    "inverted-corners",
+    "inverted-at-end",
+    "coarse-on-tool",
+    "lumped-inertia",
+}
 E, NU = 1e5, 0.3  # unless a scene says otherwise
 
 
 class Bricks:
-    """A grid over x, y, z as a mesh of bricks; boundary ids 1 to 6 at both ends along x, y and z. `place` moves its points,
-    rows of x, y, z."""
+    """A grid over x, y, z as a mesh of bricks; boundary ids 1 to 6 at both ends along x, y and z. `place`
+    moves its points, rows of x, y, z."""
 
     def __init__(self, x, y, z, place=None):
         counts = len(x), len(y), len(z)
@@ -34,27 +42,38 @@ class Bricks:
             self.points = numpy.column_stack(place(*self.points.T))
             self.points[abs(self.points) < 1e-12] = 0.0
         self.n, square = len(self.points), ((0, 0), (1, 0), (1, 1), (0, 1))
-        self.cells = [[numbers[i + a, j + b, k + c] for c in (0, 1) for a, b in square]
-                      for k in range(counts[2] - 1) for j in range(counts[1] - 1) for i in range(counts[0] - 1)]
+        self.cells = [
+            [numbers[i + a, j + b, k + c] for c in (0, 1) for a, b in square]
+            for k in range(counts[2] - 1)
+            for j in range(counts[1] - 1)
+            for i in range(counts[0] - 1)
+        ]
         self.faces = []
         for axis in range(3):
             for side in (0, 1):
                 layer = numpy.take(numbers, -side, axis)
-                self.faces += [(2 * axis + side + 1, [layer[p + a, q + b] for a, b in square])
-                               for p in range(layer.shape[0] - 1) for q in range(layer.shape[1] - 1)]
+                self.faces += [
+                    (2 * axis + side + 1, [layer[p + a, q + b] for a, b in square])
+                    for p in range(layer.shape[0] - 1)
+                    for q in range(layer.shape[1] - 1)
+                ]
 
     def rename(self, old, new, condition):
         """Another id for the faces of this one whose centre fulfils a condition."""
-        self.faces = [(new if kind == old and condition(*self.points[face].mean(axis=0)) else kind, face) for kind, face in self.faces]
+        self.faces = [
+            (new if kind == old and condition(*self.points[face].mean(axis=0)) else kind, face)
+            for kind, face in self.faces
+        ]
 
     def add_handle(self, kind, corner, size, across=2):
-        """A brick from `corner` by `size` that shares an edge or a corner with the grid, and no more. Its face across an axis through
-        `corner` gets the id: held by that, the handle moves as a rigid body, and holds what it shares."""
+        """A brick from `corner` by `size` that shares an edge or a corner with the grid, and no more. Its
+        face across an axis through `corner` gets the id: held by that, the handle moves as a rigid body, and
+        holds what it shares."""
         cell = []
         for c in (0, 1):
             for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
                 point = numpy.array(corner) + numpy.array(size) * (a, b, c)
-                near = numpy.flatnonzero(abs(self.points[:self.n] - point).max(axis=1) < 1e-9)
+                near = numpy.flatnonzero(abs(self.points[: self.n] - point).max(axis=1) < 1e-9)
                 cell.append(near[0] if len(near) else len(self.points))
                 if not len(near):
                     self.points = numpy.vstack([self.points, point])
@@ -77,21 +96,47 @@ class Bricks:
 
 
 class Solution:
-    """A run: its `rows`, `warnings` about elements, the `work` done on the body; `moved` and `start`, positions of the nodes and where
-    they were, with their `fields`, in each picture (in single precision), if there are `pictures`. `failure` is empty if it ended;
-    after `limit` seconds of a processor the system ends it. `keys`: all its warnings. `keep`: where mesh and scene stay."""
+    """A run: its `rows`, `warnings` about elements, the `work` done on the body; `moved` and `start`,
+    positions of the nodes and where they were, with their `fields`, in each picture (in single precision), if
+    there are `pictures`. `failure` is empty if it ended; after `limit` seconds of a processor the system ends
+    it. `keys`: all its warnings. `keep`: where mesh and scene stay."""
 
     law = "Hencky"  # where none is given
 
-    def __init__(self, label, mesh, element, changes, law=None, modulus=E, nu=NU, steps=1, pictures=False, limit=None,
-                 keep=None):
+    def __init__(
+        self,
+        label,
+        mesh,
+        element,
+        changes,
+        law=None,
+        modulus=E,
+        nu=NU,
+        steps=1,
+        pictures=False,
+        limit=None,
+        keep=None,
+    ):
         body, material = "Bodies/body/", "Bodies/body/Material/"
-        scene = {body + "Mesh/Source": "file", body + "Mesh/File": "mesh.msh", body + "Element": element, material + "Law": "elastic",
-                 material + "Kinematics": law or Solution.law, material + "Young modulus": repr(modulus), material + "Poisson ratio": repr(nu),
-                 "Solver/Force tolerance": 1e-6, "Solver/Energy tolerance": 1e-10, "Solver/Linear solver": "MUMPS",
-                 "Output/Format": "vtu" if pictures else "none", "Output/Every steps": 0, "Output/Verbosity": "quiet"}
+        scene = {
+            body + "Mesh/Source": "file",
+            body + "Mesh/File": "mesh.msh",
+            body + "Element": element,
+            material + "Law": "elastic",
+            material + "Kinematics": law or Solution.law,
+            material + "Young modulus": repr(modulus),
+            material + "Poisson ratio": repr(nu),
+            "Solver/Force tolerance": 1e-6,
+            "Solver/Energy tolerance": 1e-10,
+            "Solver/Linear solver": "MUMPS",
+            "Output/Format": "vtu" if pictures else "none",
+            "Output/Every steps": 0,
+            "Output/Verbosity": "quiet",
+        }
         if steps:
-            scene.update({"Time stepping/Step control": "fixed", "Time stepping/Initial step": repr(1 / steps)})
+            scene.update(
+                {"Time stepping/Step control": "fixed", "Time stepping/Initial step": repr(1 / steps)}
+            )
         with tempfile.TemporaryDirectory() as temporary:
             folder = Path(keep or temporary)
             folder.mkdir(parents=True, exist_ok=True)
@@ -101,15 +146,25 @@ class Solution:
             if done.code not in (0, 3, *((-signal.SIGXCPU, -signal.SIGKILL) if limit else ())):
                 sys.exit(f"billet ended with {done.code}: {done.stderr}")
             with open(folder / "results/history.csv", newline="") as file:
-                self.rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+                self.rows = [
+                    {key: float(value) for key, value in row.items()} for row in csv.DictReader(file)
+                ]
             records = read_records(folder / "results/diagnostics.jsonl")
-            self.pictures = [self.read(file) for file in sorted((folder / "results").glob("fields_*.0.vtu"))] if pictures else []
+            self.pictures = (
+                [self.read(file) for file in sorted((folder / "results").glob("fields_*.0.vtu"))]
+                if pictures
+                else []
+            )
         self.failure = "it takes too long" if done.code < 0 else done.stderr.strip() if done.code else ""
         self.keys = sorted({record["key"] for record in records if record.get("severity") == "warning"})
         self.warnings = sorted(set(self.keys) & ABOUT_ELEMENTS)
         self.seconds = done.seconds
         self.work = self.rows[-1]["external_work"] if self.rows else math.nan
-        print(f"[{label}, {element}] {done.seconds:.3g} s{', failed' if self.failure else ''}", file=sys.stderr, flush=True)
+        print(
+            f"[{label}, {element}] {done.seconds:.3g} s{', failed' if self.failure else ''}",
+            file=sys.stderr,
+            flush=True,
+        )
 
     @staticmethod
     def read(file):
@@ -117,7 +172,10 @@ class Solution:
         reader.SetFileName(str(file))
         reader.Update()
         data = reader.GetOutput().GetPointData()
-        fields = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float) for i in range(data.GetNumberOfArrays())}
+        fields = {
+            data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float)
+            for i in range(data.GetNumberOfArrays())
+        }
         moved = vtk_to_numpy(reader.GetOutput().GetPoints().GetData()).astype(float)
         return moved, moved - fields["displacement"], fields
 
@@ -134,8 +192,11 @@ class Solution:
 
 def held(name, kind, components, displacement=None):
     path = f"Bodies/body/Supports/{name}/"
-    return {path + "Boundary ids": kind, path + "Components": components,
-            **({path + "Displacement": displacement} if displacement else {})}
+    return {
+        path + "Boundary ids": kind,
+        path + "Components": components,
+        **({path + "Displacement": displacement} if displacement else {}),
+    }
 
 
 def planes(text):
@@ -143,8 +204,11 @@ def planes(text):
 
 
 def plastic(yield_stress, hardening=0.0):
-    return {"Bodies/body/Material/Law": "elastoplastic", "Bodies/body/Material/Yield stress": repr(yield_stress),
-            "Bodies/body/Material/Hardening modulus": repr(hardening)}
+    return {
+        "Bodies/body/Material/Law": "elastoplastic",
+        "Bodies/body/Material/Yield stress": repr(yield_stress),
+        "Bodies/body/Material/Hardening modulus": repr(hardening),
+    }
 
 
 def signed(error):

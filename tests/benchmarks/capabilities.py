@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a scene pays for each capability that it asks for: instructions and memory, from one elastic body on."""
+"""What a scene pays for each capability that it asks for: instructions and memory, from one elastic body
+on."""
 
 import csv
 import sys
@@ -10,20 +11,25 @@ from billet_runs import PROGRAM, Measured, arguments, count_instructions, number
 
 options = arguments("capabilities")
 EDGE = 6
-# Each scene runs twice, for a part of the time and for all of it: what setting up costs is in both. Of static scenes steps, of explicit ones seconds.
+# Each scene runs twice, for a part of the time and for all of it: what setting up costs is in both. Of static
+# scenes steps, of explicit ones seconds.
 STEPS, FEW_STEPS = 3, 1
 END, SHORT_END = 1e-5, 2e-6
 
 
 def body(name, bottom, plastic, element, more):
-    supports = {"lower": "set Symmetry planes = x = 0 ; y = 0 ; z = 0", "upper": "set Symmetry planes = x = 0 ; y = 0"}
+    supports = {
+        "lower": "set Symmetry planes = x = 0 ; y = 0 ; z = 0",
+        "upper": "set Symmetry planes = x = 0 ; y = 0",
+    }
+    layers, low, high = (EDGE, 0, 10) if bottom == "lower" else (1, 10, 12)
     hardening = "set Yield stress = 300\n set Hardening modulus = 1000" if plastic else "set Law = elastic"
     return f"""subsection {name}
  {supports[bottom]}
  set Element = {element}
  subsection Mesh
  set Primitive = subdivided_hyper_rectangle
- set Arguments = {EDGE}, {EDGE}, {EDGE if bottom == "lower" else 1} : 0, 0, {0 if bottom == "lower" else 10} : 10, 10, {10 if bottom == "lower" else 12} : true
+ set Arguments = {EDGE}, {EDGE}, {layers} : 0, 0, {low} : 10, 10, {high} : true
  end
  subsection Material
  set Density = 7.8e-9
@@ -35,43 +41,83 @@ end
 """
 
 
-def scene(whole=True, explicit=False, plastic=False, element="assumed strain", tool=False, friction=False, second=False, augmented=False,
-          edges=False, self_contact=False):
-    push = (f"subsection Loads\n subsection push\n set Type = pressure\n set Boundary ids = 5\n set Pressure = 400*t/{END}\n end\n end"
-            if explicit else "subsection Supports\n subsection push\n set Boundary ids = 5\n set Components = z\n"
-            " set Displacement = 0 ; 0 ; -0.05*t\n end\n end")
+def scene(
+    whole=True,
+    explicit=False,
+    plastic=False,
+    element="assumed strain",
+    tool=False,
+    friction=False,
+    second=False,
+    augmented=False,
+    edges=False,
+    self_contact=False,
+):
+    push = (
+        "subsection Loads\n subsection push\n set Type = pressure\n set Boundary ids = 5\n set Pressure ="
+        f" 400*t/{END}\n end\n end"
+        if explicit
+        else (
+            "subsection Supports\n subsection push\n set Boundary ids = 5\n set Components = z\n"
+            " set Displacement = 0 ; 0 ; -0.05*t\n end\n end"
+        )
+    )
     pairs, time = "", "t" + (f"/{END}" if explicit else "")
-    of_pair = ("set Normal penalty = 1\n" + ("set Friction coefficient = 0.1\n" if friction else "")
-               + ("set Penetration tolerance = 1e-4\n" if augmented else "") + ("set Edges = true\n" if edges else ""))
+    of_pair = (
+        "set Normal penalty = 1\n"
+        + ("set Friction coefficient = 0.1\n" if friction else "")
+        + ("set Penetration tolerance = 1e-4\n" if augmented else "")
+        + ("set Edges = true\n" if edges else "")
+    )
     if second:
-        pairs += ("subsection block on cap\n set Body = block\n set Boundary ids = 5\n set Second body = cap\n"
-                  " set Second boundary ids = 4\n" + of_pair + "end\n")
+        pairs += (
+            "subsection block on cap\n set Body = block\n set Boundary ids = 5\n set Second body = cap\n"
+            " set Second boundary ids = 4\n" + of_pair + "end\n"
+        )
     if tool:
-        pairs += "subsection die\n set Body = block\n set Boundary ids = 1\n set Tool = die\n" + of_pair.replace("set Edges = true\n", "") + "end\n"
+        pairs += (
+            "subsection die\n set Body = block\n set Boundary ids = 1\n set Tool = die\n"
+            + of_pair.replace("set Edges = true\n", "")
+            + "end\n"
+        )
     if self_contact:
-        pairs += ("subsection folds\n set Body = block\n set Boundary ids = 1, 3\n set Second body = block\n set Normal penalty = 1\nend\n")
+        pairs += (
+            "subsection folds\n set Body = block\n set Boundary ids = 1, 3\n set Second body = block\n set"
+            " Normal penalty = 1\nend\n"
+        )
     text = "subsection Bodies\n" + body("block", "lower", plastic, element, "" if second else push)
     if second:
         text += body("cap", "upper", False, "assumed strain", push)
     text += "end\n"
     if tool:
-        text += ("subsection Tools\n subsection die\n subsection Surfaces\n subsection face\n set Point = 10, 0, 0\n set Normal = -1, 0, 0\n"
-                 f" end\n end\n subsection Motion\n set Translation = -0.01*{time} ; 0 ; 0\n end\n end\nend\n")
+        text += (
+            "subsection Tools\n subsection die\n subsection Surfaces\n subsection face\n set Point = 10, 0,"
+            f" 0\n set Normal = -1, 0, 0\n end\n end\n subsection Motion\n set Translation = -0.01*{time} ; 0"
+            " ; 0\n end\n end\nend\n"
+        )
     if pairs:
         text += "subsection Contact pairs\n" + pairs + "end\n"
     if explicit:
-        text += (f"subsection Time stepping\n set Scheme = explicit\n set End time = {END if whole else SHORT_END}\nend\n"
-                 "subsection Explicit dynamics\n set Instructions = AVX2\n"  # what valgrind knows
-                 " set Safety factor = 0.05\nend\n")  # many steps: what looks a hundred times in a run is in both runs
+        text += (
+            "subsection Time stepping\n set Scheme = explicit\n set End time ="
+            f" {END if whole else SHORT_END}\nend\n"
+            "subsection Explicit dynamics\n set Instructions = AVX2\n"  # what valgrind knows
+            # many steps: what looks a hundred times in a run is in both runs
+            " set Safety factor = 0.05\nend\n"
+        )
     else:
-        text += (f"subsection Time stepping\n set Step control = fixed\n set Initial step = {1 / STEPS!r}\n"
-                 f" set End time = {1 if whole else FEW_STEPS / STEPS!r}\nend\n")
-    return text + "subsection Output\n set Folder = results\n set Format = none\n set Verbosity = quiet\nend\n"
+        text += (
+            f"subsection Time stepping\n set Step control = fixed\n set Initial step = {1 / STEPS!r}\n"
+            f" set End time = {1 if whole else FEW_STEPS / STEPS!r}\nend\n"
+        )
+    return (
+        text + "subsection Output\n set Folder = results\n set Format = none\n set Verbosity = quiet\nend\n"
+    )
 
 
 class Run:
-    """`instructions` of a run, without what libraries do before it; `rows` of capabilities.csv by name, the `last` of the history,
-    `megabytes`."""
+    """`instructions` of a run, without what libraries do before it; `rows` of capabilities.csv by name, the
+    `last` of the history, `megabytes`."""
 
     def __init__(self, text):
         with tempfile.TemporaryDirectory() as folder:
@@ -83,10 +129,17 @@ class Run:
             self.megabytes = plain.megabytes
             self.instructions = count_instructions(place)
             with open(place / "results/capabilities.csv", newline="") as file:
-                self.rows = {row["capability"]: {key: int(row[key]) for key in ("calls", "items", "bytes")} for row in csv.DictReader(file)}
+                self.rows = {
+                    row["capability"]: {key: int(row[key]) for key in ("calls", "items", "bytes")}
+                    for row in csv.DictReader(file)
+                }
             with open(place / "results/history.csv", newline="") as file:
                 self.last = list(csv.DictReader(file))[-1]
-        print(f"{self.instructions / 1e6:.5g} million instructions, {self.megabytes:.4g} MB", file=sys.stderr, flush=True)
+        print(
+            f"{self.instructions / 1e6:.5g} million instructions, {self.megabytes:.4g} MB",
+            file=sys.stderr,
+            flush=True,
+        )
 
     def paid(self):
         return ", ".join(name.lower() for name, row in self.rows.items() if row["calls"])
@@ -113,8 +166,19 @@ def static_rows(cases):
         each = (run.instructions - short.instructions) / (run.iterations() - short.iterations())
         base = base or each
         factors = run.rows["Matrix"]["bytes"] + run.rows["Unsymmetric"]["bytes"]
-        rows.append([name, run.paid(), run.iterations() - short.iterations(), number(short.instructions / 1e6, 4), number(each / 1e6, 4), number(each / base, 3),
-                     number(factors / 1e6, 3), number(run.counted(), 3), number(run.megabytes, 4)])
+        rows.append(
+            [
+                name,
+                run.paid(),
+                run.iterations() - short.iterations(),
+                number(short.instructions / 1e6, 4),
+                number(each / 1e6, 4),
+                number(each / base, 3),
+                number(factors / 1e6, 3),
+                number(run.counted(), 3),
+                number(run.megabytes, 4),
+            ]
+        )
     return rows
 
 
@@ -123,11 +187,21 @@ def explicit_rows(cases):
     for name, changes in cases:
         short, run = runs_of({"explicit": True, **changes})
         steps = run.steps() - short.steps()
-        n_elements = EDGE ** 3 + (EDGE ** 2 if changes.get("second") else 0)
+        n_elements = EDGE**3 + (EDGE**2 if changes.get("second") else 0)
         each = (run.instructions - short.instructions) / steps / n_elements
         base = base or each
-        rows.append([name, run.paid(), steps, number(short.instructions / 1e6, 4), number(each, 4), number(each / base, 3),
-                     number(run.counted(), 3), number(run.megabytes, 4)])
+        rows.append(
+            [
+                name,
+                run.paid(),
+                steps,
+                number(short.instructions / 1e6, 4),
+                number(each, 4),
+                number(each / base, 3),
+                number(run.counted(), 3),
+                number(run.megabytes, 4),
+            ]
+        )
     return rows
 
 
@@ -138,7 +212,10 @@ STATIC = [
     ("the tool rough", {"plastic": True, "tool": True, "friction": True}),
     ("two bodies", {"plastic": True, "second": True}),
     ("two bodies, rough", {"plastic": True, "second": True, "friction": True}),
-    ("all: two bodies and a tool, rough, augmented", {"plastic": True, "tool": True, "friction": True, "second": True, "augmented": True}),
+    (
+        "all: two bodies and a tool, rough, augmented",
+        {"plastic": True, "tool": True, "friction": True, "second": True, "augmented": True},
+    ),
 ]
 EXPLICIT = [
     ("one elastic body", {}),
@@ -147,19 +224,65 @@ EXPLICIT = [
     ("the tool rough", {"plastic": True, "tool": True, "friction": True}),
     ("two bodies", {"plastic": True, "second": True}),
     ("two bodies, rough", {"plastic": True, "second": True, "friction": True}),
-    ("all: two bodies and a tool, rough, edges, self-contact",
-     {"plastic": True, "tool": True, "friction": True, "second": True, "edges": True, "self_contact": True}),
+    (
+        "all: two bodies and a tool, rough, edges, self-contact",
+        {
+            "plastic": True,
+            "tool": True,
+            "friction": True,
+            "second": True,
+            "edges": True,
+            "self_contact": True,
+        },
+    ),
 ]
 static, explicit = static_rows(STATIC), explicit_rows(EXPLICIT)
 publish(
-    "capabilities", "What capabilities cost", options,
-    f"A block of {EDGE} × {EDGE} × {EDGE} bricks that is pressed by 0.5 % (explicit: by a pressure), and what is added to it; the second body is a cap of {EDGE} × {EDGE} bricks, the tool a plane at "
-    f"the side. Instructions by callgrind: each scene runs twice, for {FEW_STEPS} of {STEPS} steps (explicit: for a fifth of the time) and whole, and their difference is what iterations "
-    "and steps cost; the first of them, with all that setting up costs, stands beside it. Memory as counted by capability in "
-    "`capabilities.csv`, and the largest of the process, of which 100 MB and more are libraries. Each line is a scene that pays for "
-    "what stands in its second column and for nothing else; `tests/cli/capabilities.py` holds each capability to that.",
-    "## Static", "The last column but three: instructions of an iteration over those of the first line.",
-    table(["scene", "pays for", "iterations", "10⁶ instructions, set-up and first step", "10⁶ of an iteration", "over the first", "MB of matrix and factors", "MB counted",
-           "MB of the process"], static),
-    "## Explicit", "AVX2. Instructions of a step and element, without set-up, and without what the program watches a hundred times in a run. Steps are a twentieth of the stable one.",
-    table(["scene", "pays for", "steps", "10⁶ instructions, set-up and a fifth of the time", "of a step and element", "over the first", "MB counted", "MB of the process"], explicit))
+    "capabilities",
+    "What capabilities cost",
+    options,
+    (
+        f"A block of {EDGE} × {EDGE} × {EDGE} bricks that is pressed by 0.5 % (explicit: by a pressure), and"
+        f" what is added to it; the second body is a cap of {EDGE} × {EDGE} bricks, the tool a plane at the"
+        f" side. Instructions by callgrind: each scene runs twice, for {FEW_STEPS} of {STEPS} steps"
+        " (explicit: for a fifth of the time) and whole, and their difference is what iterations and steps"
+        " cost; the first of them, with all that setting up costs, stands beside it. Memory as counted by"
+        " capability in `capabilities.csv`, and the largest of the process, of which 100 MB and more are"
+        " libraries. Each line is a scene that pays for what stands in its second column and for nothing"
+        " else; `tests/cli/capabilities.py` holds each capability to that."
+    ),
+    "## Static",
+    "The last column but three: instructions of an iteration over those of the first line.",
+    table(
+        [
+            "scene",
+            "pays for",
+            "iterations",
+            "10⁶ instructions, set-up and first step",
+            "10⁶ of an iteration",
+            "over the first",
+            "MB of matrix and factors",
+            "MB counted",
+            "MB of the process",
+        ],
+        static,
+    ),
+    "## Explicit",
+    (
+        "AVX2. Instructions of a step and element, without set-up, and without what the program watches a"
+        " hundred times in a run. Steps are a twentieth of the stable one."
+    ),
+    table(
+        [
+            "scene",
+            "pays for",
+            "steps",
+            "10⁶ instructions, set-up and a fifth of the time",
+            "of a step and element",
+            "over the first",
+            "MB counted",
+            "MB of the process",
+        ],
+        explicit,
+    ),
+)

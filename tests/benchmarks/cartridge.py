@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cartridge in the chamber of a revolver: where contact comes to at which pressure, contact pressure along the axis, hoop
-strain of the case, penetration."""
+"""Cartridge in the chamber of a revolver: where contact comes to at which pressure, contact pressure along
+the axis, hoop strain of the case, penetration."""
 
 import tempfile
 
@@ -26,7 +26,8 @@ def wall(z):
 
 
 class Picture:
-    """Sides of the case and the chamber that face each other, in a picture: mean values over rings at the same height."""
+    """Sides of the case and the chamber that face each other, in a picture: mean values over rings at the
+    same height."""
 
     def __init__(self, points, fields):
         start = points - fields["displacement"]
@@ -49,8 +50,12 @@ class Picture:
         outward = (start[chosen][:, :2] - [AXIS, 0]) / RADIUS
         radial = (fields["displacement"][chosen][:, :2] * outward).sum(axis=1)
         touched = mean((fields["contact_pressure"][chosen] > 0).astype(float))
-        return {"z": z, "pressure": mean(fields["contact_pressure"][chosen]), "touched": touched,
-                "hoop": mean(radial) / RADIUS}
+        return {
+            "z": z,
+            "pressure": mean(fields["contact_pressure"][chosen]),
+            "touched": touched,
+            "hoop": mean(radial) / RADIUS,
+        }
 
     def hoop(self, z):
         return float(numpy.interp(z, self.case["z"], self.case["hoop"]))
@@ -94,18 +99,32 @@ rows = []
 for i in range(2, n, 2):
     p = pictures[i]
     row = min(r.rows, key=lambda row: abs(row["time"] - times[i]))
-    rows.append([number(float(loads[i])), "–" if p.contact_from() is None else
-                 f"{number(p.contact_from())} to {number(p.contact_to())}", number(p.case["pressure"].max())]
-                + [percent(p.hoop(z)) for z in PLACES.values()] + [percent(p.strain), percent(p.penetration),
-                                                                   number(1e3 * row[PAIR + ".deepest_penetration"])])
+    rows.append(
+        [
+            number(float(loads[i])),
+            "–" if p.contact_from() is None else f"{number(p.contact_from())} to {number(p.contact_to())}",
+            number(p.case["pressure"].max()),
+        ]
+        + [percent(p.hoop(z)) for z in PLACES.values()]
+        + [percent(p.strain), percent(p.penetration), number(1e3 * row[PAIR + ".deepest_penetration"])]
+    )
 publish(
-    NAME, "Cartridge in the chamber of a revolver", options,
-    f"[`prm/cartridge.prm`](../../prm/cartridge.prm), after Bittencourt & Creus (1998), example 9.4: the case comes to lie "
-    f"against the chamber at its thin mouth first, and from there the contact goes to the bottom. {r.steps} steps, "
-    f"{number(r.seconds)} s of CPU time; largest drift of energy {percent(r.largest_drift())}; largest penetration "
-    f"{percent(max(p.penetration for p in pictures))} of the wall there, 0.9 − 0.62 (z − 3)/29 mm.",
+    NAME,
+    "Cartridge in the chamber of a revolver",
+    options,
+    (
+        "[`prm/cartridge.prm`](../../prm/cartridge.prm), after Bittencourt & Creus (1998), example 9.4: the"
+        " case comes to lie against the chamber at its thin mouth first, and from there the contact goes to"
+        f" the bottom. {r.steps} steps, {number(r.seconds)} s of CPU time; largest drift of energy"
+        f" {percent(r.largest_drift())}; largest penetration"
+        f" {percent(max(p.penetration for p in pictures))} of the wall there, 0.9 − 0.62 (z − 3)/29 mm."
+    ),
     f"![Contact pressure along the axis, hoop strain over the pressure](../images/{NAME}.png)",
-    table(["pressure [MPa]", "contact in z [mm]", "largest contact pressure, mean around [MPa]"]
-          + [f"hoop strain, {label}" for label in PLACES] + ["largest plastic strain of the case", "penetration / wall",
-                                                            "deepest [µm]"], rows),
-    "Contact: rings of nodes of the case most of which touch.")
+    table(
+        ["pressure [MPa]", "contact in z [mm]", "largest contact pressure, mean around [MPa]"]
+        + [f"hoop strain, {label}" for label in PLACES]
+        + ["largest plastic strain of the case", "penetration / wall", "deepest [µm]"],
+        rows,
+    ),
+    "Contact: rings of nodes of the case most of which touch.",
+)

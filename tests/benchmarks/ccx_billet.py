@@ -14,9 +14,15 @@ NODES, FACES_CONTACT = "NODE TO SURFACE", "SURFACE TO SURFACE"
 
 
 def read_mesh(refinements):
-    """Nodes and bricks (in VTK's order, which is Abaqus', too) of billet's mesh, from its fields at time 0."""
-    changes = {**mesh(refinements), "Time stepping/End time": 1e-3, "Time stepping/Initial step": 1e-3,
-               "Output/Folder": "results", "Output/Verbosity": "quiet"}
+    """Nodes and bricks (in VTK's order, which is Abaqus', too) of billet's mesh, from its fields at time
+    0."""
+    changes = {
+        **mesh(refinements),
+        "Time stepping/End time": 1e-3,
+        "Time stepping/Initial step": 1e-3,
+        "Output/Folder": "results",
+        "Output/Verbosity": "quiet",
+    }
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "scene.prm").write_text(variant(SCENE.read_text(), changes))
         subprocess.run([PROGRAM, "scene.prm"], cwd=folder, check=True)
@@ -25,8 +31,8 @@ def read_mesh(refinements):
 
 
 def write_deck(path, nodes, bricks, element, contact, friction, increment, part):
-    """The deck of one eighth of the billet under a die that is one brick with all nodes prescribed, until that part of the
-    travel."""
+    """The deck of one eighth of the billet under a die that is one brick with all nodes prescribed, until
+    that part of the travel."""
     count = {}
     for brick in bricks:
         for face in FACES:
@@ -41,48 +47,91 @@ def write_deck(path, nodes, bricks, element, contact, friction, increment, part)
                 slave.append(f"{number_ + 1}, S{side + 1}")
 
     def node_set(name, members):
-        lines = [", ".join(str(m + 1) for m in members[i:i + 12]) for i in range(0, len(members), 12)]
+        lines = [", ".join(str(m + 1) for m in members[i : i + 12]) for i in range(0, len(members), 12)]
         return [f"*NSET, NSET={name}"] + lines
 
     first, wide, high = len(nodes), 40.0, 55.0
-    die = [(x, y, z) for z in (15.0, high) for x, y in ((-5.0, -5.0), (wide, -5.0), (wide, wide), (-5.0, wide))]
+    die = [
+        (x, y, z) for z in (15.0, high) for x, y in ((-5.0, -5.0), (wide, -5.0), (wide, wide), (-5.0, wide))
+    ]
     lines = ["*NODE, NSET=ALL"]
     lines += [f"{i + 1}, {x:.6f}, {y:.6f}, {z:.6f}" for i, (x, y, z) in enumerate(nodes + die)]
     lines += [f"*ELEMENT, TYPE={element}, ELSET=BILLET"]
     lines += [", ".join(str(v) for v in [i + 1] + [c + 1 for c in brick]) for i, brick in enumerate(bricks)]
-    lines += ["*ELEMENT, TYPE=C3D8, ELSET=DIE",
-              ", ".join(str(v) for v in [len(bricks) + 1] + [first + 1 + i for i in range(8)])]
+    lines += [
+        "*ELEMENT, TYPE=C3D8, ELSET=DIE",
+        ", ".join(str(v) for v in [len(bricks) + 1] + [first + 1 + i for i in range(8)]),
+    ]
     for axis, name in enumerate("XYZ"):
         lines += node_set(name + "0", [i for i, node in enumerate(nodes) if node[axis] < 1e-6])
     lines += node_set("DIENODES", [first + i for i in range(8)])
     lines += ["*SURFACE, NAME=SLAVE"] + slave + ["*SURFACE, NAME=MASTER", f"{len(bricks) + 1}, S1"]
-    lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", "200e3, 0.3", "*PLASTIC", "700, 0", "2200, 5",
-              "*SOLID SECTION, ELSET=BILLET, MATERIAL=STEEL",
-              "*MATERIAL, NAME=TOOL", "*ELASTIC", "200e3, 0.3", "*SOLID SECTION, ELSET=DIE, MATERIAL=TOOL",
-              "*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{PENALTY}"]
+    lines += [
+        "*MATERIAL, NAME=STEEL",
+        "*ELASTIC",
+        "200e3, 0.3",
+        "*PLASTIC",
+        "700, 0",
+        "2200, 5",
+        "*SOLID SECTION, ELSET=BILLET, MATERIAL=STEEL",
+        "*MATERIAL, NAME=TOOL",
+        "*ELASTIC",
+        "200e3, 0.3",
+        "*SOLID SECTION, ELSET=DIE, MATERIAL=TOOL",
+        "*SURFACE INTERACTION, NAME=TOUCH",
+        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+        f"{PENALTY}",
+    ]
     lines += ["*FRICTION", f"{friction}, {PENALTY}"] if friction else []
-    lines += [f"*CONTACT PAIR, INTERACTION=TOUCH, TYPE={contact}", "SLAVE, MASTER",
-              "*BOUNDARY", "X0, 1, 1", "Y0, 2, 2", "Z0, 3, 3", "DIENODES, 1, 2",
-              "*STEP, NLGEOM, INC=10000", "*STATIC", f"{increment}, {part}, 1e-6, {increment}",
-              "*BOUNDARY", f"DIENODES, 3, 3, {-9.6 * part}",
-              "*NODE PRINT, NSET=DIENODES, TOTALS=ONLY", "RF", "*END STEP"]
+    lines += [
+        f"*CONTACT PAIR, INTERACTION=TOUCH, TYPE={contact}",
+        "SLAVE, MASTER",
+        "*BOUNDARY",
+        "X0, 1, 1",
+        "Y0, 2, 2",
+        "Z0, 3, 3",
+        "DIENODES, 1, 2",
+        "*STEP, NLGEOM, INC=10000",
+        "*STATIC",
+        f"{increment}, {part}, 1e-6, {increment}",
+        "*BOUNDARY",
+        f"DIENODES, 3, 3, {-9.6 * part}",
+        "*NODE PRINT, NSET=DIENODES, TOTALS=ONLY",
+        "RF",
+        "*END STEP",
+    ]
     path.write_text("\n".join(lines) + "\n")
 
 
 class CcxRun:
-    """A run of CalculiX until that part of the travel, of so many CPU seconds at most: `seconds`, `megabytes`, `iterations` (with those of cut increments), `steps`, `cuts`, `converged`,
-    `times` and `forces` (on the whole billet, in kN, from time 0 on), as a run of billet has them."""
+    """A run of CalculiX until that part of the travel, of so many CPU seconds at most: `seconds`,
+    `megabytes`, `iterations` (with those of cut increments), `steps`, `cuts`, `converged`, `times` and
+    `forces` (on the whole billet, in kN, from time 0 on), as a run of billet has them."""
 
     def __init__(self, nodes, bricks, element, contact, friction=0.1, increment=0.02, part=1.0, limit=None):
         with tempfile.TemporaryDirectory() as folder:
             write_deck(Path(folder, "deck.inp"), nodes, bricks, element, contact, friction, increment, part)
             job = CcxJob(folder, part, limit)
-            forces = re.findall(r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)",
-                                Path(folder, "deck.dat").read_text(), re.S)
-        self.seconds, self.megabytes, self.iterations, self.cuts = job.seconds, job.megabytes, job.iterations, job.cuts
+            forces = re.findall(
+                r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)",
+                Path(folder, "deck.dat").read_text(),
+                re.S,
+            )
+        self.seconds, self.megabytes, self.iterations, self.cuts = (
+            job.seconds,
+            job.megabytes,
+            job.iterations,
+            job.cuts,
+        )
         self.steps = len(forces)
         self.times = [0.0] + [float(time) for time, _, _, _ in forces]
         self.forces = [0.0] + [-4e-3 * float(force) for _, _, _, force in forces]
         self.converged = not job.failure
-        print(f"[ccx {element} {contact}, {len(bricks)} bricks] {self.iterations} iterations, {self.seconds:.3g} s",
-              file=sys.stderr, flush=True)
+        print(
+            (
+                f"[ccx {element} {contact}, {len(bricks)} bricks] {self.iterations} iterations,"
+                f" {self.seconds:.3g} s"
+            ),
+            file=sys.stderr,
+            flush=True,
+        )

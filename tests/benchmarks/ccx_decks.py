@@ -10,28 +10,36 @@ from pathlib import Path
 
 from billet_runs import Measured
 
-CCX_ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "CCX_NPROC_EQUATION_SOLVER": "1",
-                   "CCX_NPROC_RESULTS": "1", "NUMBER_OF_CPUS": "1"}
+CCX_ENVIRONMENT = {
+    **os.environ,
+    "OMP_NUM_THREADS": "1",
+    "CCX_NPROC_EQUATION_SOLVER": "1",
+    "CCX_NPROC_RESULTS": "1",
+    "NUMBER_OF_CPUS": "1",
+}
 FACES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))  # S1 ... S6
 
 
 def data_array(text, name, form):
-    """The values of a DataArray as deal.II writes it: base64 of (blocks, size, last size, packed sizes), then zlib."""
+    """The values of a DataArray as deal.II writes it: base64 of (blocks, size, last size, packed sizes), then
+    zlib."""
     pattern = r'<DataArray[^>]*Name="' + name + r'"[^>]*>' if name else r"<Points>\s*<DataArray[^>]*>"
     encoded = re.search(pattern + r"\s*(\S+)\s*</DataArray>", text).group(1)
     n_blocks = struct.unpack("<I", base64.b64decode(encoded[:8])[:4])[0]
     head_length = 4 * ((4 * (3 + n_blocks) + 2) // 3)
-    packed_sizes = struct.unpack(f"<{3 + n_blocks}I", base64.b64decode(encoded[:head_length])[:4 * (3 + n_blocks)])[3:]
+    packed_sizes = struct.unpack(
+        f"<{3 + n_blocks}I", base64.b64decode(encoded[:head_length])[: 4 * (3 + n_blocks)]
+    )[3:]
     packed, values, start = base64.b64decode(encoded[head_length:]), b"", 0
     for size in packed_sizes:
-        values += zlib.decompress(packed[start:start + size])
+        values += zlib.decompress(packed[start : start + size])
         start += size
     return [value for value, in struct.iter_unpack("<" + form, values)]
 
 
 def read_bodies(text, digits):
-    """Nodes, and the bricks (in VTK's order, which is Abaqus', too) of each body, of the fields that billet writes at time 0.
-    Corners of a body that agree to so many decimals are one node."""
+    """Nodes, and the bricks (in VTK's order, which is Abaqus', too) of each body, of the fields that billet
+    writes at time 0. Corners of a body that agree to so many decimals are one node."""
     flat = data_array(text, "", "f")
     points = list(zip(flat[0::3], flat[1::3], flat[2::3]))
     corners = data_array(text, "connectivity", "i")
@@ -46,7 +54,7 @@ def read_bodies(text, digits):
         of_point.append(index[key])
     bodies = {body: [] for body in sorted(set(body_of))}
     for i in range(0, len(corners), 8):
-        bodies[body_of[corners[i]]].append([of_point[corner] for corner in corners[i:i + 8]])
+        bodies[body_of[corners[i]]].append([of_point[corner] for corner in corners[i : i + 8]])
     return nodes, list(bodies.values())
 
 
@@ -57,8 +65,9 @@ def read_bricks(text, digits):
 
 
 class CcxJob:
-    """A run of `deck.inp` in `folder`, of so many seconds of a processor at most: `seconds`, `megabytes`, `iterations` (with
-    those of cut increments), `steps`, `cuts`, the `time` until which it has come, and `failure`: why not farther."""
+    """A run of `deck.inp` in `folder`, of so many seconds of a processor at most: `seconds`, `megabytes`,
+    `iterations` (with those of cut increments), `steps`, `cuts`, the `time` until which it has come, and
+    `failure`: why not farther."""
 
     def __init__(self, folder, end, limit=None):
         def records(name):
@@ -75,6 +84,14 @@ class CcxJob:
         self.steps = len(accepted)
         self.time = float(accepted[-1][4]) if accepted else 0.0
         said = [line.strip() for line in (done.stdout + done.stderr).splitlines() if "*ERROR" in line]
-        self.failure = ("" if self.time > end * (1 - 1e-6) else
-                        f"{limit} s are over" if limit and self.seconds > 0.99 * limit else
-                        re.sub(r"\s+", " ", said[0]) if said else f"ends with code {done.code}")
+        self.failure = (
+            ""
+            if self.time > end * (1 - 1e-6)
+            else (
+                f"{limit} s are over"
+                if limit and self.seconds > 0.99 * limit
+                else re.sub(r"\s+", " ", said[0])
+                if said
+                else f"ends with code {done.code}"
+            )
+        )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs of any scene, their cost, and the errors of their curves: what benchmarks of profiles and target errors share."""
+"""Runs of any scene, their cost, and the errors of their curves: what benchmarks of profiles and target
+errors share."""
 
 import copy
 import csv
@@ -27,16 +28,19 @@ def program_hash():
 
 
 class CurveRun:
-    """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it `finished`, `times`, `forces` of
-    tools and pairs of bodies by name, `energies` and `curves` (forces; of explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit scenes
-    element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`. Kept in results/runs, where the
-    same run of the same program is found again."""
+    """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it
+    `finished`, `times`, `forces` of tools and pairs of bodies by name, `energies` and `curves` (forces; of
+    explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit
+    scenes element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`. Kept
+    in results/runs, where the same run of the same program is found again."""
 
     def __init__(self, scene, changes, ranks=1):
         left_out = {key for key, value in changes.items() if value is None}
         changes = {key: value for key, value in changes.items() if value is not None}
-        text = variant(without(absolute_files(read_scene(scene), scene.parent), left_out),
-                       {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes})
+        text = variant(
+            without(absolute_files(read_scene(scene), scene.parent), left_out),
+            {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes},
+        )
         key = hashlib.sha256(f"{program_hash()} {ranks} {text}".encode()).hexdigest()[:24]
         _asked[key] += 1
         file = KEPT / f"{key}-{_asked[key]}.json"
@@ -47,9 +51,14 @@ class CurveRun:
             write_json(file, self.__dict__)
         else:
             self.__dict__.update(kept)
-        print(f"[{scene.stem}: " + ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in changes.items())
-              + f"] {self.steps} steps, {self.work}, {self.seconds:.3g} s" + ("" if self.finished else ", failed"),
-              file=sys.stderr, flush=True)
+        print(
+            f"[{scene.stem}: "
+            + ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in changes.items())
+            + f"] {self.steps} steps, {self.work}, {self.seconds:.3g} s"
+            + ("" if self.finished else ", failed"),
+            file=sys.stderr,
+            flush=True,
+        )
 
     def _run(self, text, ranks):
         with tempfile.TemporaryDirectory() as place:
@@ -74,18 +83,33 @@ class CurveRun:
         self.finished, self.failure = code != 3, self.failure.strip()
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]
         self.times = [float(row["time"]) for row in rows]
-        names = [key[:-len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
-        self.forces = {name: [tuple(float(row[f"{name}.force_{axis}"]) for axis in "xyz") for row in rows] for name in names}
-        self.energies = {"kinetic": [(float(row.get("kinetic_energy", 0.0)),) for row in rows],
-                         "stored or dissipated": [
-                             (float(row["elastic_energy"]) + float(row["plastic_work"])
-                              + float(row["friction_dissipation"]),) for row in rows]}
+        names = [key[: -len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
+        self.forces = {
+            name: [tuple(float(row[f"{name}.force_{axis}"]) for axis in "xyz") for row in rows]
+            for name in names
+        }
+        self.energies = {
+            "kinetic": [(float(row.get("kinetic_energy", 0.0)),) for row in rows],
+            "stored or dissipated": [
+                (
+                    float(row["elastic_energy"])
+                    + float(row["plastic_work"])
+                    + float(row["friction_dissipation"]),
+                )
+                for row in rows
+            ],
+        }
         self.curves = self.energies if self.is_explicit else self.forces
         self.steps = int(rows[-1]["step"]) if rows else 0
-        said_elements = [line for line in self.said.splitlines() if " elements, " in line and " dofs, " in line]
+        said_elements = [
+            line for line in self.said.splitlines() if " elements, " in line and " dofs, " in line
+        ]
         self.elements = int(said_elements[0].split()[0]) if said_elements else 0
-        self.work = self.steps * self.elements if self.is_explicit else (
-            int(rows[-1]["total_iterations"]) if rows else 0)
+        self.work = (
+            self.steps * self.elements
+            if self.is_explicit
+            else (int(rows[-1]["total_iterations"]) if rows else 0)
+        )
 
     def at(self, name, time):
         """The curve's value, straight lines between the rows, from zero at time 0."""
@@ -147,17 +171,25 @@ def absolute_files(text, folder):
 
 
 def error(run, reference):
-    """∫Σ|F − F*| dt over ∫Σ|F*| dt at the ends of the run's steps, by the trapezoidal rule, over all curves."""
+    """∫Σ|F − F*| dt over ∫Σ|F*| dt at the ends of the run's steps, by the trapezoidal rule, over all
+    curves."""
     if not run.finished or not run.times:
         return float("nan")
     off, size = [], []
     for i, time in enumerate(run.times):
         exact = {name: reference.at(name, time) for name in run.curves}
-        off.append(sum(sum((a - b)**2 for a, b in zip(run.curves[name][i], exact[name]))**0.5 for name in run.curves))
-        size.append(sum(sum(b * b for b in exact[name])**0.5 for name in run.curves))
+        off.append(
+            sum(
+                sum((a - b) ** 2 for a, b in zip(run.curves[name][i], exact[name])) ** 0.5
+                for name in run.curves
+            )
+        )
+        size.append(sum(sum(b * b for b in exact[name]) ** 0.5 for name in run.curves))
 
     def integral(values):
-        return sum(0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], run.times, run.times[1:]))
+        return sum(
+            0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], run.times, run.times[1:])
+        )
 
     return integral(off) / integral(size) if integral(size) > 0 else float("nan")
 

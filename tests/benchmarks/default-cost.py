@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the default element and the default contact cost: every shipped scene, beside the same with mean dilatation and penalties alone, the defaults of before."""
+"""What the default element and the default contact cost: every shipped scene, beside the same with mean
+dilatation and penalties alone, the defaults of before."""
 
 import os
 import re
@@ -16,17 +17,32 @@ ENDS = {"cartridge": 1e-4, "tube_crush": 2e-4, "tube_impact": 2e-4, "taylor_bar"
 
 
 def run(path, changes):
-    text = without(absolute_files(read_scene(path), path.parent), {key for key, value in changes.items() if value is None})
-    text = variant(text, {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results",
-                          **{key: value for key, value in changes.items() if value is not None}})
+    text = without(
+        absolute_files(read_scene(path), path.parent),
+        {key for key, value in changes.items() if value is None},
+    )
+    text = variant(
+        text,
+        {
+            "Output/Format": "none",
+            "Output/Verbosity": "steps",
+            "Output/Folder": "results",
+            **{key: value for key, value in changes.items() if value is not None},
+        },
+    )
     with tempfile.TemporaryDirectory() as place:
         (Path(place) / "scene.prm").write_text(text)
-        done = Measured([PROGRAM, "scene.prm"], place, env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"})
+        done = Measured(
+            [PROGRAM, "scene.prm"], place, env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"}
+        )
         if done.code not in (0, 6):
             raise SystemExit(f"{path.stem}: {done.stderr}")
         head, *rows = (Path(place) / "results/history.csv").read_text().splitlines()
     last = dict(zip(head.split(","), rows[-1].split(",")))
-    print(f"[{path.stem}] {last.get('total_iterations', '')} {done.seconds:.3g} s {done.megabytes:.0f} MB", flush=True)
+    print(
+        f"[{path.stem}] {last.get('total_iterations', '')} {done.seconds:.3g} s {done.megabytes:.0f} MB",
+        flush=True,
+    )
     elements = max([int(found) for found in re.findall(r"(\d+) elements, \d+ dofs", done.stdout)], default=0)
     return int(last["step"]), int(last.get("total_iterations", 0)), done.seconds, done.megabytes, elements
 
@@ -37,29 +53,83 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
     is_explicit = entries.get("Time stepping/Scheme") == "explicit"
     if options.quick and path.stem not in ("billet_upsetting", "taylor_bar"):
         continue
-    changes = {"Time stepping/End time": ENDS[path.stem], "Time stepping/Stops": None} if path.stem in ENDS else {}
+    changes = (
+        {"Time stepping/End time": ENDS[path.stem], "Time stepping/Stops": None} if path.stem in ENDS else {}
+    )
     bodies = {key.split("/")[1] for key in entries if key.startswith("Bodies/")}
     pairs = {key.split("/")[1] for key in entries if key.startswith("Contact pairs/")}
     # Taylor's bar sets one point.
-    changes.update({f"Bodies/{body}/Element": "assumed strain" for body in bodies if f"Bodies/{body}/Element" in entries})
+    changes.update(
+        {f"Bodies/{body}/Element": "assumed strain" for body in bodies if f"Bodies/{body}/Element" in entries}
+    )
     element = {f"Bodies/{body}/Element": "mean dilatation" for body in bodies}
-    contact = {} if entries.get("Time stepping/Scheme", "quasi-static") != "quasi-static" else {
-        f"Contact pairs/{pair}/Penetration tolerance": 0 for pair in pairs if f"Contact pairs/{pair}/Penetration tolerance" not in entries}
+    contact = (
+        {}
+        if entries.get("Time stepping/Scheme", "quasi-static") != "quasi-static"
+        else {
+            f"Contact pairs/{pair}/Penetration tolerance": 0
+            for pair in pairs
+            if f"Contact pairs/{pair}/Penetration tolerance" not in entries
+        }
+    )
     now, before = run(path, changes), run(path, {**changes, **element, **contact})
     between = run(path, {**changes, **contact}) if contact and now[1] else now
     if is_explicit:
         per_step = [seconds / steps for steps, _, seconds, _, _ in (now, before)]
-        explicit.append([path.stem, now[4], f"{before[0]} → {now[0]}", number(per_step[0] / per_step[1]), number(now[2] / before[2]), f"{before[3]:.0f} → {now[3]:.0f}"])
+        explicit.append(
+            [
+                path.stem,
+                now[4],
+                f"{before[0]} → {now[0]}",
+                number(per_step[0] / per_step[1]),
+                number(now[2] / before[2]),
+                f"{before[3]:.0f} → {now[3]:.0f}",
+            ]
+        )
     else:
         for i, result in enumerate((before, between, now)):
             sums[i] += result[1]
-        implicit.append([path.stem, now[4], before[1], between[1], now[1], f"{number(before[2])} → {number(now[2])}", f"{before[3]:.0f} → {now[3]:.0f}"])
+        implicit.append(
+            [
+                path.stem,
+                now[4],
+                before[1],
+                between[1],
+                now[1],
+                f"{number(before[2])} → {number(now[2])}",
+                f"{before[3]:.0f} → {now[3]:.0f}",
+            ]
+        )
 
 publish(
-    "default-cost", "What the default element and contact cost", options,
-    "Shipped scenes as they are, with assumed strains and the automatic penetration tolerance, beside mean dilatation and penalties alone, the defaults until 2026-11-22 (other values that a scene "
-    "sets stay). Megabytes: the largest resident size. Seconds of a shared machine. Explicit scenes end early. Each run once.",
-    f"Newton iterations in the sum: {sums[0]} before, {sums[1]} with the element alone ({number(sums[1] / max(1, sums[0]))} times), {sums[2]} with the contact, too ({number(sums[2] / max(1, sums[0]))} times; "
-    f"wanted: at most {LIMIT}).",
-    table(["implicit scene", "elements", "iterations before", "with the element", "with contact, too", "CPU seconds", "megabytes"], implicit),
-    table(["explicit scene", "elements", "steps", "seconds a step, times", "seconds, times", "megabytes"], explicit))
+    "default-cost",
+    "What the default element and contact cost",
+    options,
+    (
+        "Shipped scenes as they are, with assumed strains and the automatic penetration tolerance, beside"
+        " mean dilatation and penalties alone, the defaults until 2026-11-22 (other values that a scene sets"
+        " stay). Megabytes: the largest resident size. Seconds of a shared machine. Explicit scenes end"
+        " early. Each run once."
+    ),
+    (
+        f"Newton iterations in the sum: {sums[0]} before, {sums[1]} with the element alone"
+        f" ({number(sums[1] / max(1, sums[0]))} times), {sums[2]} with the contact, too"
+        f" ({number(sums[2] / max(1, sums[0]))} times; wanted: at most {LIMIT})."
+    ),
+    table(
+        [
+            "implicit scene",
+            "elements",
+            "iterations before",
+            "with the element",
+            "with contact, too",
+            "CPU seconds",
+            "megabytes",
+        ],
+        implicit,
+    ),
+    table(
+        ["explicit scene", "elements", "steps", "seconds a step, times", "seconds, times", "megabytes"],
+        explicit,
+    ),
+)

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far the defaults are off: every shipped scene without any numerical parameter, beside a mesh twice as fine with small steps and
-tight contact."""
+"""How far the defaults are off: every shipped scene without any numerical parameter, beside a mesh twice as
+fine with small steps and tight contact."""
 
 import math
 import re
 import subprocess
 
-from billet_runs import PROGRAM, ROOT, arguments, number, percent, publish, read_scene, table  # finds billet_trade, too
+# finds billet_trade, too
+from billet_runs import PROGRAM, ROOT, arguments, number, percent, publish, read_scene, table
 from billet_trade.knobs import make_mesh
 from billet_trade.report import short as first_sentence
 from billet_trade.scene import Scene
@@ -16,18 +17,52 @@ options = arguments("defaults")
 LIMIT = 0.03  # of the force
 
 # What is physics, or output, in the sections that are numerical otherwise.
-KEPT = {"Time stepping": ("Scheme", "End time", "Stops"),
-        "Contact pairs": ("Body", "Boundary ids", "Tool", "Second body", "Second boundary ids", "Friction law", "Friction coefficient",
-                          "Largest shear stress", "Kinetic friction coefficient", "Decay", "Reference pressure", "Pressure exponent",
-                          "Initial penetration", "Allowed initial penetration", "Ramp time", "Initial gap", "Surface correction", "Edges")}
+KEPT = {
+    "Time stepping": ("Scheme", "End time", "Stops"),
+    "Contact pairs": (
+        "Body",
+        "Boundary ids",
+        "Tool",
+        "Second body",
+        "Second boundary ids",
+        "Friction law",
+        "Friction coefficient",
+        "Largest shear stress",
+        "Kinetic friction coefficient",
+        "Decay",
+        "Reference pressure",
+        "Pressure exponent",
+        "Initial penetration",
+        "Allowed initial penetration",
+        "Ramp time",
+        "Initial gap",
+        "Surface correction",
+        "Edges",
+    ),
+}
 DROPPED = ("Element", "Kinematics")  # of bodies
 
 # Those that take long end earlier, in both runs.
-ENDS = {"cartridge": 2e-4, "tube_crush": 5e-4, "drop_hammer": 1e-3, "tube_impact": 1e-3, "turned_blocks": 5, "wagoner_punch": 0.5,
-        "wagoner_punch_mu_0": 0.5, "wagoner_punch_mu_015": 0.5, "billet_deformable_dies": 0.5, "twisted_hemisphere": 1.5}
-# Their finer meshes take longer than the rest together: the scene's own is the reference, and a coarser one runs.
-COARSER = {"twisted_hemisphere": {"Bodies/block/Mesh/Arguments": "8, 8, 3 : -1, -1, -1 : 1, 1, 0 : true",
-                                  "Bodies/punch/Mesh/Arguments": "7, 7, 3 : -1, -1, 0 : 1, 1, 1 : true"}}
+ENDS = {
+    "cartridge": 2e-4,
+    "tube_crush": 5e-4,
+    "drop_hammer": 1e-3,
+    "tube_impact": 1e-3,
+    "turned_blocks": 5,
+    "wagoner_punch": 0.5,
+    "wagoner_punch_mu_0": 0.5,
+    "wagoner_punch_mu_015": 0.5,
+    "billet_deformable_dies": 0.5,
+    "twisted_hemisphere": 1.5,
+}
+# Their finer meshes take longer than the rest together: the scene's own is the reference, and a coarser one
+# runs.
+COARSER = {
+    "twisted_hemisphere": {
+        "Bodies/block/Mesh/Arguments": "8, 8, 3 : -1, -1, -1 : 1, 1, 0 : true",
+        "Bodies/punch/Mesh/Arguments": "7, 7, 3 : -1, -1, 0 : 1, 1, 1 : true",
+    }
+}
 
 # Supports move beside a plate: how they share the force depends on the size of the facet between them.
 OF_ENERGY = ("hollow_block",)
@@ -36,6 +71,7 @@ SAME = ("patch_test", "patch_test_cut")  # a uniform stress, which any mesh has
 
 def numerical(entries):
     """What the scene sets and need not: {key: None}."""
+
     def is_numerical(key):
         section, name = key.split("/")[0], key.split("/")[-1]
         if section == "Bodies":
@@ -43,26 +79,44 @@ def numerical(entries):
         if section in KEPT:
             return name not in KEPT[section]
         return section in ("Solver", "Explicit dynamics", "Implicit dynamics")
+
     return {key: None for key in entries if is_numerical(key)}
 
 
 def tight(entries, depth):
-    """Small steps, and contact that hardly gives way: augmented to this `depth`, in facet sizes, or, without one, as it is by itself."""
+    """Small steps, and contact that hardly gives way: augmented to this `depth`, in facet sizes, or, without
+    one, as it is by itself."""
     names = sorted({key.split("/")[1] for key in entries if key.startswith("Contact pairs/")})
     end = float(entries.get("Time stepping/End time", 1))
     scheme = entries.get("Time stepping/Scheme", "quasi-static")
     if scheme != "quasi-static":
-        in_place_of = {} if scheme == "explicit" else {
-            "Time stepping/Scheme": "explicit", "Output/History interval": repr(end / 500),
-            **{key: None for key in entries if key.split("/")[0] in ("Implicit dynamics", "Solver")}}
-        return {"Explicit dynamics/Safety factor": 0.5, "Explicit dynamics/Contact resolution": 4,
-                **{f"Contact pairs/{name}/Normal penalty": 40 for name in names}, **in_place_of}
-    return {"Time stepping/Error tolerance": 1e-3, "Time stepping/Largest step": repr(end / 50), "Time stepping/Initial step": repr(end / 400),
-            "Solver/Most augmentations": 60,
-            **({f"Contact pairs/{name}/Penetration tolerance": depth for name in names} if depth else {})}
+        in_place_of = (
+            {}
+            if scheme == "explicit"
+            else {
+                "Time stepping/Scheme": "explicit",
+                "Output/History interval": repr(end / 500),
+                **{key: None for key in entries if key.split("/")[0] in ("Implicit dynamics", "Solver")},
+            }
+        )
+        return {
+            "Explicit dynamics/Safety factor": 0.5,
+            "Explicit dynamics/Contact resolution": 4,
+            **{f"Contact pairs/{name}/Normal penalty": 40 for name in names},
+            **in_place_of,
+        }
+    return {
+        "Time stepping/Error tolerance": 1e-3,
+        "Time stepping/Largest step": repr(end / 50),
+        "Time stepping/Initial step": repr(end / 400),
+        "Solver/Most augmentations": 60,
+        **({f"Contact pairs/{name}/Penetration tolerance": depth for name in names} if depth else {}),
+    }
 
 
-parameters = subprocess.run([PROGRAM, "--print-parameters"], check=True, capture_output=True, text=True).stdout
+parameters = subprocess.run(
+    [PROGRAM, "--print-parameters"], check=True, capture_output=True, text=True
+).stdout
 rows, csv_rows, within, told, missed = [], [], [], [], []
 for path in sorted((ROOT / "prm").glob("*.prm")):
     if options.quick and path.stem not in ("billet_upsetting", "ring_crush", "patch_test"):
@@ -87,27 +141,103 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
         seen, right = (with_curves(of, impulses(of)) for of in (run, exact))
     off = error(seen, right) if run.finished and exact.finished else math.nan
     warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", run.said + run.failure)))
-    verdict = "no reference" if run.finished and not exact.finished else "stops: " + first_sentence(run.failure) if not run.finished else \
-        "within" if off <= LIMIT else "told" if warnings else "missed"
+    verdict = (
+        "no reference"
+        if run.finished and not exact.finished
+        else (
+            "stops: " + first_sentence(run.failure)
+            if not run.finished
+            else "within"
+            if off <= LIMIT
+            else "told"
+            if warnings
+            else "missed"
+        )
+    )
     {"within": within, "told": told}.get(verdict, missed).append(path.stem)
-    changed = (["until " + f"{ENDS[path.stem]:g}"] if path.stem in ENDS else []) + (["coarser"] if coarser else ["same mesh"] if path.stem in SAME else [])
-    rows.append([path.stem + (f" ({', '.join(changed)})" if changed else ""), run.elements, exact.elements, run.work, number(run.seconds),
-                 number(exact.seconds), percent(off), verdict, ", ".join(f"`{w}`" for w in warnings)])
-    csv_rows.append([path.stem, run.finished, run.elements, exact.finished, exact.elements, run.work, f"{run.seconds:.4g}", f"{exact.seconds:.4g}",
-                     f"{off:.4g}", " ".join(warnings)])
+    changed = (["until " + f"{ENDS[path.stem]:g}"] if path.stem in ENDS else []) + (
+        ["coarser"] if coarser else ["same mesh"] if path.stem in SAME else []
+    )
+    rows.append(
+        [
+            path.stem + (f" ({', '.join(changed)})" if changed else ""),
+            run.elements,
+            exact.elements,
+            run.work,
+            number(run.seconds),
+            number(exact.seconds),
+            percent(off),
+            verdict,
+            ", ".join(f"`{w}`" for w in warnings),
+        ]
+    )
+    csv_rows.append(
+        [
+            path.stem,
+            run.finished,
+            run.elements,
+            exact.finished,
+            exact.elements,
+            run.work,
+            f"{run.seconds:.4g}",
+            f"{exact.seconds:.4g}",
+            f"{off:.4g}",
+            " ".join(warnings),
+        ]
+    )
 
 publish(
-    "defaults", "How far the defaults are off", options,
-    "Every shipped scene without any numerical parameter: no element, law of rates, penalty, tolerance, step or solver is set; geometry, "
-    "mesh, material, friction and motion are. Some end earlier. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of explicit "
-    "scenes of kinetic energy and of what is stored or dissipated. F* has elements of half the size along each edge, an error tolerance of 1e-3 and at least 50 steps, "
-    "contact augmented to 1e-3 of a facet (of a uniform stress 1e-7; as by default where that finds no end); explicit: 40 E/h, a contact resolution of 4, half the stable step. Of implicit dynamics "
-    "that is the reference, too, and impulses are compared, since forces vibrate. Of the hollow block energy is compared: its supports share the "
-    "force with the plates, by the size of the facet between them. So what the finer mesh leaves is not in it: a third again where the order is two, as much again "
-    "where it is one. A run counts as told if it warns of anything, whether or not that is the reason. *coarser*: a coarser mesh beside the scene's own; *same mesh*: a uniform stress, which any mesh has. Each run once.",
-    f"{len(within)} of {len(rows)} are within {100 * LIMIT:g} %; of the others {len(told)} say so by a warning"
-    + (f" ({', '.join(told)})" if told else "") + (f", and {len(missed)} do not ({', '.join(missed)})" if missed else "") + ".",
-    table(["scene", "elements", "of the reference", "work", "CPU seconds", "of the reference", "error", "", "warnings"], rows))
+    "defaults",
+    "How far the defaults are off",
+    options,
+    (
+        "Every shipped scene without any numerical parameter: no element, law of rates, penalty, tolerance,"
+        " step or solver is set; geometry, mesh, material, friction and motion are. Some end earlier. Error:"
+        " ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of explicit scenes of kinetic"
+        " energy and of what is stored or dissipated. F* has elements of half the size along each edge, an"
+        " error tolerance of 1e-3 and at least 50 steps, contact augmented to 1e-3 of a facet (of a uniform"
+        " stress 1e-7; as by default where that finds no end); explicit: 40 E/h, a contact resolution of 4,"
+        " half the stable step. Of implicit dynamics that is the reference, too, and impulses are compared,"
+        " since forces vibrate. Of the hollow block energy is compared: its supports share the force with the"
+        " plates, by the size of the facet between them. So what the finer mesh leaves is not in it: a third"
+        " again where the order is two, as much again where it is one. A run counts as told if it warns of"
+        " anything, whether or not that is the reason. *coarser*: a coarser mesh beside the scene's own;"
+        " *same mesh*: a uniform stress, which any mesh has. Each run once."
+    ),
+    f"{len(within)} of {len(rows)} are within {100 * LIMIT:g} %; of the others {len(told)} say so by a"
+    " warning"
+    + (f" ({', '.join(told)})" if told else "")
+    + (f", and {len(missed)} do not ({', '.join(missed)})" if missed else "")
+    + ".",
+    table(
+        [
+            "scene",
+            "elements",
+            "of the reference",
+            "work",
+            "CPU seconds",
+            "of the reference",
+            "error",
+            "",
+            "warnings",
+        ],
+        rows,
+    ),
+)
 if not options.quick:
-    write_csv("defaults", ["scene", "finished", "elements", "reference_finished", "reference_elements", "work", "cpu_seconds",
-                           "reference_cpu_seconds", "error", "warnings"], csv_rows)
+    write_csv(
+        "defaults",
+        [
+            "scene",
+            "finished",
+            "elements",
+            "reference_finished",
+            "reference_elements",
+            "work",
+            "cpu_seconds",
+            "reference_cpu_seconds",
+            "error",
+            "warnings",
+        ],
+        csv_rows,
+    )

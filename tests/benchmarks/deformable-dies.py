@@ -4,7 +4,18 @@
 import tempfile
 from pathlib import Path
 
-from billet_runs import ROOT, Run, arguments, curve_error, fixed_steps, number, percent, publish, read_scene, table
+from billet_runs import (
+    ROOT,
+    Run,
+    arguments,
+    curve_error,
+    fixed_steps,
+    number,
+    percent,
+    publish,
+    read_scene,
+    table,
+)
 from curve_runs import without
 
 options = arguments("deformable-dies")
@@ -35,32 +46,63 @@ def line(*changes):
     if not run.converged:
         return [f"{run.failure} at {number(run.times[-1])}"] + ["–"] * 4
     difference = max(abs(f / g - 1) for f, g in zip(run.forces[1:], rigid.forces[1:]))
-    return [number(run.forces[-1], 4), percent(run.forces[-1] / rigid.forces[-1] - 1), percent(difference),
-            percent(curve_error(run, rigid)), run.iterations]
+    return [
+        number(run.forces[-1], 4),
+        percent(run.forces[-1] / rigid.forces[-1] - 1),
+        percent(difference),
+        percent(curve_error(run, rigid)),
+        run.iterations,
+    ]
 
 
 def at_ease(*changes):
     """Figures of the scene as it is, in automatic steps, with the way up."""
     joined = {key: value for change in changes for key, value in change.items()}
     run = Run(joined, options.ranks, SCENE, "billet on die")
-    return [run.steps, run.iterations, run.cuts, number(-run.forces[-1] if run.forces[-1] else 0.0)] if run.converged else \
-        [f"{run.failure} at {number(run.times[-1])}"] + ["–"] * 3
+    return (
+        [run.steps, run.iterations, run.cuts, number(-run.forces[-1] if run.forces[-1] else 0.0)]
+        if run.converged
+        else [f"{run.failure} at {number(run.times[-1])}"] + ["–"] * 3
+    )
 
 
-HEAD = ["final force [kN]", "final force against the rigid die's", "largest difference of the force",
-        "difference of the curves (integral)", "iterations in 50 steps",
-        "automatic: steps", "iterations", "failed steps", "force after unloading"]
+HEAD = [
+    "final force [kN]",
+    "final force against the rigid die's",
+    "largest difference of the force",
+    "difference of the curves (integral)",
+    "iterations in 50 steps",
+    "automatic: steps",
+    "iterations",
+    "failed steps",
+    "force after unloading",
+]
 publish(
-    "deformable-dies", "The billet between elastic dies", options,
-    "`prm/billet_deformable_dies.prm`: the billet of `prm/billet_upsetting.prm` (60 bricks, µ = 0.1, upset by 64 %, k_n = 3.5·10⁵ "
-    "N/mm³) between elastic blocks (400 bricks, 10 mm thick) instead of rigid planes. Forces are compared step by step with those of the rigid "
-    f"dies, in the same 50 equal steps; the rigid dies' final force is {number(rigid.forces[-1], 4)} kN, and they take {rigid.iterations} iterations. "
-    "The automatic steps are those of the whole scene, in which the dies leave the billet again.",
+    "deformable-dies",
+    "The billet between elastic dies",
+    options,
+    (
+        "`prm/billet_deformable_dies.prm`: the billet of `prm/billet_upsetting.prm` (60 bricks, µ = 0.1,"
+        " upset by 64 %, k_n = 3.5·10⁵ N/mm³) between elastic blocks (400 bricks, 10 mm thick) instead of"
+        " rigid planes. Forces are compared step by step with those of the rigid dies, in the same 50 equal"
+        f" steps; the rigid dies' final force is {number(rigid.forces[-1], 4)} kN, and they take"
+        f" {rigid.iterations} iterations. The automatic steps are those of the whole scene, in which the dies"
+        " leave the billet again."
+    ),
     "## Young's modulus of the dies (overlap)",
     table(["die / billet"] + HEAD, [[ratio] + line(die(ratio)) + at_ease(die(ratio)) for ratio in RATIOS]),
-    "What does not go away with stiff dies is not compliance: overlapping facets meet the billet's outermost facets in the part that "
-    "touches, a rigid die in their nodes.",
+    (
+        "What does not go away with stiff dies is not compliance: overlapping facets meet the billet's"
+        " outermost facets in the part that touches, a rigid die in their nodes."
+    ),
     "## Facets, dies a thousand times as stiff",
-    table(["facets", "passes"] + HEAD,
-          [[facets, passes] + line(die(1000), method(facets, passes)) + at_ease(die(1000), method(facets, passes))
-           for facets, passes in METHODS]))
+    table(
+        ["facets", "passes"] + HEAD,
+        [
+            [facets, passes]
+            + line(die(1000), method(facets, passes))
+            + at_ease(die(1000), method(facets, passes))
+            for facets, passes in METHODS
+        ],
+    ),
+)

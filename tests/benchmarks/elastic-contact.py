@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Two elastic cylinders against Hertz, over meshes and facets; a round punch twisted on a block, over its angle."""
+"""Two elastic cylinders against Hertz, over meshes and facets; a round punch twisted on a block, over its
+angle."""
 
 import math
 import tempfile
@@ -13,14 +14,26 @@ options = arguments("elastic-contact")
 
 
 def cylinders(n, facets, passes, augmented):
-    """Half-width and largest pressure relative to Hertz's for the load that is transmitted, from p² linear in x²."""
-    mesh = {"Bodies/lower/Mesh/Arguments": f"{n}, 1, {n // 2} : 0, 0, -1 : 1, 0.1, 0 : true",
-            "Bodies/upper/Mesh/Arguments": f"{round(0.85 * n)}, 1, {n // 2} : 0, 0, 0 : 1, 0.1, 1 : true"}
+    """Half-width and largest pressure relative to Hertz's for the load that is transmitted, from p² linear in
+    x²."""
+    mesh = {
+        "Bodies/lower/Mesh/Arguments": f"{n}, 1, {n // 2} : 0, 0, -1 : 1, 0.1, 0 : true",
+        "Bodies/upper/Mesh/Arguments": f"{round(0.85 * n)}, 1, {n // 2} : 0, 0, 0 : 1, 0.1, 1 : true",
+    }
     pair = "Contact pairs/faces/"
     with tempfile.TemporaryDirectory() as folder:
-        run = ExplicitRun(ROOT / "prm/hertz_cylinders.prm",
-                          {**mesh, pair + "Facets": facets, pair + "Passes": passes, pair + "Penetration tolerance": augmented,
-                           "Output/Every steps": 1000}, folder, options.ranks)
+        run = ExplicitRun(
+            ROOT / "prm/hertz_cylinders.prm",
+            {
+                **mesh,
+                pair + "Facets": facets,
+                pair + "Passes": passes,
+                pair + "Penetration tolerance": augmented,
+                "Output/Every steps": 1000,
+            },
+            folder,
+            options.ranks,
+        )
         if not run.finished:
             return ["fails", "", "", "", ""]
         points, fields = run.picture()
@@ -34,16 +47,29 @@ def cylinders(n, facets, passes, augmented):
     inner = x < 0.8 * b
     slope, constant = numpy.polyfit(x[inner] ** 2, p[inner] ** 2, 1)
     exact = p0 * numpy.sqrt(numpy.clip(1 - (x / b) ** 2, 0, None))
-    return [int(run.rows[-1]["total_iterations"]), number(b, 4), percent(math.sqrt(constant / -slope) / b - 1),
-            percent(math.sqrt(constant) / p0 - 1), percent(float(numpy.abs(p - exact)[inner].max()) / p0)]
+    return [
+        int(run.rows[-1]["total_iterations"]),
+        number(b, 4),
+        percent(math.sqrt(constant / -slope) / b - 1),
+        percent(math.sqrt(constant) / p0 - 1),
+        percent(float(numpy.abs(p - exact)[inner].max()) / p0),
+    ]
 
 
 def twist():
     """Torque over the angle relative to full sliding, and the radius to which nodes stick."""
     with tempfile.TemporaryDirectory() as folder:
-        mesh = {"Bodies/block/Mesh/Arguments": "10, 10, 4 : -1, -1, -1 : 1, 1, 0 : true",
-                "Bodies/punch/Mesh/Arguments": "9, 9, 4 : -1, -1, 0 : 1, 1, 1 : true"} if options.quick else {}
-        run = ExplicitRun(ROOT / "prm/twisted_hemisphere.prm", {**mesh, "Output/Every steps": 1}, folder, options.ranks)
+        mesh = (
+            {
+                "Bodies/block/Mesh/Arguments": "10, 10, 4 : -1, -1, -1 : 1, 1, 0 : true",
+                "Bodies/punch/Mesh/Arguments": "9, 9, 4 : -1, -1, 0 : 1, 1, 1 : true",
+            }
+            if options.quick
+            else {}
+        )
+        run = ExplicitRun(
+            ROOT / "prm/twisted_hemisphere.prm", {**mesh, "Output/Every steps": 1}, folder, options.ranks
+        )
         rows = []
         for index, row in enumerate(run.rows, 1):
             if not 1 <= row["time"] <= 2.5 + 1e-9:
@@ -57,22 +83,63 @@ def twist():
             start = points - fields["displacement"]
             reference = numpy.hypot(start[:, 0], start[:, 1])
             angle = 0.16 * (row["time"] - 1) if row["time"] <= 2 else 0.16 - 0.016 * (row["time"] - 2)
-            rows.append([f"{row['time']:.2f}", f"{angle:.4f}", number(load, 4), f"{abs(row['face.moment_z']) / full:.3f}",
-                         f"{reference[stuck].max() / radius:.2f}" if stuck.any() else "none sticks"])
+            rows.append(
+                [
+                    f"{row['time']:.2f}",
+                    f"{angle:.4f}",
+                    number(load, 4),
+                    f"{abs(row['face.moment_z']) / full:.3f}",
+                    f"{reference[stuck].max() / radius:.2f}" if stuck.any() else "none sticks",
+                ]
+            )
         return rows, int(run.rows[-1]["total_iterations"]), len(run.rows)
 
 
-METHODS = [("overlap", "one", 0), ("overlap", "one", 1e-3), ("planed", "one", 0), ("planed", "two", 0), ("bilinear", "two", 0)]
+METHODS = [
+    ("overlap", "one", 0),
+    ("overlap", "one", 1e-3),
+    ("planed", "one", 0),
+    ("planed", "two", 0),
+    ("bilinear", "two", 0),
+]
 sizes = (20, 40) if options.quick else (20, 40, 80)
-lines = [[n, facets, passes, f"{augmented:g}" if augmented else "–"] + cylinders(n, facets, passes, augmented)
-         for n in sizes for facets, passes, augmented in METHODS]
+lines = [
+    [n, facets, passes, f"{augmented:g}" if augmented else "–"] + cylinders(n, facets, passes, augmented)
+    for n in sizes
+    for facets, passes, augmented in METHODS
+]
 rows, iterations, steps = twist()
 publish(
-    "elastic-contact", "Elastic bodies: two cylinders, and a twisted punch", options,
-    "## Two cylinders\n\n`prm/hertz_cylinders.prm`, without friction, on coarser and finer meshes that do not fit (elements along the lower face; 85 % of them along the upper). "
-    "Half-width and largest pressure by least squares of p² over x² within 0.8 b, relative to Hertz's for the load that is transmitted (half-spaces, which the cylinders, b/R "
-    "up to a tenth, are not quite); the last column is the largest difference of a node's pressure there, in parts of p_0. Penalties of 10 E/h, alone or augmented.",
-    table(["elements", "facets", "passes", "augmented to", "iterations", "b [mm]", "half-width", "largest pressure", "a node's pressure"], lines),
-    f"## A round punch, twisted\n\n`prm/twisted_hemisphere.prm`: {steps} steps, {iterations} iterations. Torque about the axis over that of full sliding under Hertz's pressure, "
-    "3π/16 µ P a with a³ = 3 P R/(4 E*), and the largest radius at which a node of the punch sticks, over a; from 2 on it is turned back.",
-    table(["time", "angle", "load [N]", "torque / full sliding", "sticking radius / a"], rows))
+    "elastic-contact",
+    "Elastic bodies: two cylinders, and a twisted punch",
+    options,
+    (
+        "## Two cylinders\n\n`prm/hertz_cylinders.prm`, without friction, on coarser and finer meshes that do"
+        " not fit (elements along the lower face; 85 % of them along the upper). Half-width and largest"
+        " pressure by least squares of p² over x² within 0.8 b, relative to Hertz's for the load that is"
+        " transmitted (half-spaces, which the cylinders, b/R up to a tenth, are not quite); the last column"
+        " is the largest difference of a node's pressure there, in parts of p_0. Penalties of 10 E/h, alone"
+        " or augmented."
+    ),
+    table(
+        [
+            "elements",
+            "facets",
+            "passes",
+            "augmented to",
+            "iterations",
+            "b [mm]",
+            "half-width",
+            "largest pressure",
+            "a node's pressure",
+        ],
+        lines,
+    ),
+    (
+        f"## A round punch, twisted\n\n`prm/twisted_hemisphere.prm`: {steps} steps, {iterations} iterations."
+        " Torque about the axis over that of full sliding under Hertz's pressure, 3π/16 µ P a with a³ = 3 P"
+        " R/(4 E*), and the largest radius at which a node of the punch sticks, over a; from 2 on it is"
+        " turned back."
+    ),
+    table(["time", "angle", "load [N]", "torque / full sliding", "sticking radius / a"], rows),
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Elements and plasticity kinematics of implicit scenes on the billet: force, iterations, and what they cost."""
+"""Elements and plasticity kinematics of implicit scenes on the billet: force, iterations, and what they
+cost."""
 
 import csv
 import os
@@ -8,15 +9,38 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from billet_runs import (PAIR, PROGRAM, SCENE, TANGENT, Run, arguments, count_instructions, curve_error, fixed_steps, mesh, n_elements, number, percent,
-                         publish, read_scene, table, variant)
+from billet_runs import (
+    PAIR,
+    PROGRAM,
+    SCENE,
+    TANGENT,
+    Run,
+    arguments,
+    count_instructions,
+    curve_error,
+    fixed_steps,
+    mesh,
+    n_elements,
+    number,
+    percent,
+    publish,
+    read_scene,
+    table,
+    variant,
+)
 
 options = arguments("elements")
 COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/element_cost")
 ELEMENT, KINEMATICS = "Bodies/billet/Element", "Bodies/billet/Material/Kinematics"
 ELEMENTS, LAWS = ("assumed strain", "mean dilatation", "one point"), ("Hencky", "neo-Hookean", "hypoelastic")
-CLASSES = {"AssumedStrainElement": "assumed strain", "MeanDilatationElement": "mean dilatation", "OnePointElement": "one point",
-           "HenckyPlasticity": "Hencky", "NeoHookeanPlasticity": "neo-Hookean", "HypoelasticPlasticity": "hypoelastic"}
+CLASSES = {
+    "AssumedStrainElement": "assumed strain",
+    "MeanDilatationElement": "mean dilatation",
+    "OnePointElement": "one point",
+    "HenckyPlasticity": "Hencky",
+    "NeoHookeanPlasticity": "neo-Hookean",
+    "HypoelasticPlasticity": "hypoelastic",
+}
 STEPS = 50
 FRICTIONLESS = {PAIR + "Friction coefficient": 0}
 
@@ -30,17 +54,28 @@ def force(result):
 
 
 def evaluation_instructions(what):
-    """Instructions of one evaluation by (element, law): callgrind's inclusive count of LawBlock::evaluate()."""
+    """Instructions of one evaluation by (element, law): callgrind's inclusive count of
+    LawBlock::evaluate()."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
-        done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=" + out, COST, what],
-                              capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            ["valgrind", "--tool=callgrind", "--callgrind-out-file=" + out, COST, what],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         n = int(done.stdout)
-        said = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", out], capture_output=True,
-                              text=True, check=True).stdout
+        said = subprocess.run(
+            ["callgrind_annotate", "--inclusive=yes", "--threshold=100", out],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
     counts = {}
     for line in said.splitlines():
-        found = re.match(r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::(\w+)<.*>::evaluate\(", line)
+        found = re.match(
+            r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::(\w+)<.*>::evaluate\(", line
+        )
         if found and found.group(2) in CLASSES:
             key = CLASSES[found.group(2)], CLASSES[found.group(3)]
             counts[key] = max(counts.get(key, 0), int(found.group(1).replace(",", "")) / n)
@@ -65,38 +100,100 @@ def instructions_of_each(text_of, column):
 
 def implicit_scene(element, law):
     """The billet of 60 bricks, in its first steps; to `end` of them."""
-    return lambda end: variant(read_scene(SCENE), {
-        ELEMENT: element, KINEMATICS: law, **mesh(1), **fixed_steps(STEPS), "Time stepping/End time": repr(round(10 * end) / STEPS),
-        "Output/Format": "none", "Output/Verbosity": "quiet", "Output/Folder": "results"})
+    return lambda end: variant(
+        read_scene(SCENE),
+        {
+            ELEMENT: element,
+            KINEMATICS: law,
+            **mesh(1),
+            **fixed_steps(STEPS),
+            "Time stepping/End time": repr(round(10 * end) / STEPS),
+            "Output/Format": "none",
+            "Output/Verbosity": "quiet",
+            "Output/Folder": "results",
+        },
+    )
 
 
 def explicit_scene(element, law):
     """A block of 6³ bricks that yields at once."""
-    return lambda end: variant("", {
-        "Bodies/block/Symmetry planes": "x = 0 ; y = 0 ; z = 0", "Bodies/block/Element": element, "Bodies/block/Initial velocity": "0 ; 0 ; -1000*z",
-        "Bodies/block/Mesh/Primitive": "subdivided_hyper_rectangle", "Bodies/block/Mesh/Arguments": "6, 6, 6 : 0, 0, 0 : 6, 6, 6 : true",
-        "Bodies/block/Material/Density": "7.8e-9", "Bodies/block/Material/Young modulus": "200e3", "Bodies/block/Material/Kinematics": law,
-        "Bodies/block/Material/Yield stress": 100, "Bodies/block/Material/Hardening modulus": 1000,
-        "Time stepping/Scheme": "explicit", "Time stepping/End time": repr(1e-4 * end), "Explicit dynamics/Instructions": "AVX2",
-        "Output/Format": "none", "Output/Verbosity": "quiet", "Output/Folder": "results"})
+    return lambda end: variant(
+        "",
+        {
+            "Bodies/block/Symmetry planes": "x = 0 ; y = 0 ; z = 0",
+            "Bodies/block/Element": element,
+            "Bodies/block/Initial velocity": "0 ; 0 ; -1000*z",
+            "Bodies/block/Mesh/Primitive": "subdivided_hyper_rectangle",
+            "Bodies/block/Mesh/Arguments": "6, 6, 6 : 0, 0, 0 : 6, 6, 6 : true",
+            "Bodies/block/Material/Density": "7.8e-9",
+            "Bodies/block/Material/Young modulus": "200e3",
+            "Bodies/block/Material/Kinematics": law,
+            "Bodies/block/Material/Yield stress": 100,
+            "Bodies/block/Material/Hardening modulus": 1000,
+            "Time stepping/Scheme": "explicit",
+            "Time stepping/End time": repr(1e-4 * end),
+            "Explicit dynamics/Instructions": "AVX2",
+            "Output/Format": "none",
+            "Output/Verbosity": "quiet",
+            "Output/Folder": "results",
+        },
+    )
 
 
 def beside_mean_dilatation(rows_of_runs):
-    """What iterations and steps cost over those with mean dilatation, the default until 2026-11-22, and what was wanted."""
+    """What iterations and steps cost over those with mean dilatation, the default until 2026-11-22, and what
+    was wanted."""
     found, some = [], LAWS[:1] if options.quick else LAWS
     for law in some:
-        each = {element: instructions_of_each(implicit_scene(element, law), "total_iterations") for element in ELEMENTS}
-        found.append(["an iteration of 60 bricks", law, *(number(each[e] / each["mean dilatation"], 3) for e in ("assumed strain", "one point")), "1.2, –"])
+        each = {
+            element: instructions_of_each(implicit_scene(element, law), "total_iterations")
+            for element in ELEMENTS
+        }
+        found.append(
+            [
+                "an iteration of 60 bricks",
+                law,
+                *(number(each[e] / each["mean dilatation"], 3) for e in ("assumed strain", "one point")),
+                "1.2, –",
+            ]
+        )
     for law in some:
-        found.append(["one evaluation with matrix", law,
-                      *(number(tangents[e, law] / tangents["mean dilatation", law], 3) for e in ("assumed strain", "one point")), "1.2, –"])
+        found.append(
+            [
+                "one evaluation with matrix",
+                law,
+                *(
+                    number(tangents[e, law] / tangents["mean dilatation", law], 3)
+                    for e in ("assumed strain", "one point")
+                ),
+                "1.2, –",
+            ]
+        )
     for law in some:
         each = {element: instructions_of_each(explicit_scene(element, law), "step") for element in ELEMENTS}
-        found.append(["an explicit step", law, *(number(each[e] / each["mean dilatation"], 3) for e in ("assumed strain", "one point")), "1.4, 0.45"])
+        found.append(
+            [
+                "an explicit step",
+                law,
+                *(number(each[e] / each["mean dilatation"], 3) for e in ("assumed strain", "one point")),
+                "1.4, 0.45",
+            ]
+        )
     for law in LAWS:
-        clock = {e: float(row[-1]) for e in ELEMENTS for row in rows_of_runs if row[0] == n_elements(levels[-1]) and row[1:3] == [e, law]}
-        found.append([f"an iteration of {n_elements(levels[-1])} bricks, on the clock", law,
-                      *(number(clock[e] / clock["mean dilatation"], 3) for e in ("assumed strain", "one point")), "1.2, –"])
+        clock = {
+            e: float(row[-1])
+            for e in ELEMENTS
+            for row in rows_of_runs
+            if row[0] == n_elements(levels[-1]) and row[1:3] == [e, law]
+        }
+        found.append(
+            [
+                f"an iteration of {n_elements(levels[-1])} bricks, on the clock",
+                law,
+                *(number(clock[e] / clock["mean dilatation"], 3) for e in ("assumed strain", "one point")),
+                "1.2, –",
+            ]
+        )
     return found
 
 
@@ -111,10 +208,23 @@ for level in levels:
             result = run(element, law, {**mesh(level), **fixed_steps(STEPS)})
             usual = usual or result
             cost = result.seconds / max(result.iterations, 1) / (usual.seconds / usual.iterations)
-            rows.append([n_elements(level), element, law,
-                         f"{result.steps}{'' if result.converged else ', then ' + result.failure}", result.iterations,
-                         force(result), percent(curve_error(result, usual)) if result is not usual else "",
-                         percent(curve_error(result, reference)) if level < finest or result is not usual else "(reference)", number(cost, 2)])
+            rows.append(
+                [
+                    n_elements(level),
+                    element,
+                    law,
+                    f"{result.steps}{'' if result.converged else ', then ' + result.failure}",
+                    result.iterations,
+                    force(result),
+                    percent(curve_error(result, usual)) if result is not usual else "",
+                    (
+                        percent(curve_error(result, reference))
+                        if level < finest or result is not usual
+                        else "(reference)"
+                    ),
+                    number(cost, 2),
+                ]
+            )
 
 step_rows = []
 for steps in (10, 20, 50, 100) if options.quick else (10, 20, 50, 100, 200):
@@ -122,44 +232,102 @@ for steps in (10, 20, 50, 100) if options.quick else (10, 20, 50, 100, 200):
     step_rows.append([steps] + [force(result) for result in results])
 
 tangent_rows = []
-for element, law in (("assumed strain", "neo-Hookean"), ("assumed strain", "hypoelastic"), ("one point", "hypoelastic")):
+for element, law in (
+    ("assumed strain", "neo-Hookean"),
+    ("assumed strain", "hypoelastic"),
+    ("one point", "hypoelastic"),
+):
     cells = []
     for tolerance in (1e-6, 1e-11):
         for tangent in ("exact", "symmetrised"):
-            result = run(element, law, {TANGENT: "exact", "Solver/Force tolerance": tolerance,
-                                        "Solver/Material tangent": tangent, **fixed_steps(25)})
+            result = run(
+                element,
+                law,
+                {
+                    TANGENT: "exact",
+                    "Solver/Force tolerance": tolerance,
+                    "Solver/Material tangent": tangent,
+                    **fixed_steps(25),
+                },
+            )
             cells.append(str(result.iterations) if result.converged else result.failure)
     tangent_rows.append([element, law] + cells)
 
 forces, tangents = evaluation_instructions("forces"), evaluation_instructions("tangents")
 base = tangents["assumed strain", "Hencky"]
-cost_rows = [[element, law, number(forces[element, law] / 1e3, 3), number(tangents[element, law] / 1e3, 3),
-              number(tangents[element, law] / base, 2)] for element in ELEMENTS for law in LAWS]
+cost_rows = [
+    [
+        element,
+        law,
+        number(forces[element, law] / 1e3, 3),
+        number(tangents[element, law] / 1e3, 3),
+        number(tangents[element, law] / base, 2),
+    ]
+    for element in ELEMENTS
+    for law in LAWS
+]
 
 publish(
-    "elements", "Elements and kinematics in implicit scenes", options,
-    f"The billet, upset by 64 %, µ = 0.1, the paper's penalty, {STEPS} fixed steps. Force on the whole billet at the end in kN; difference of "
-    "the force curve, ∫|F − F*| / ∫|F*|, from the usual element and law on the same mesh, and from the same on "
-    f"{n_elements(finest)} bricks; CPU seconds of an iteration, all counted, over those of the usual ones. Each run once: the "
-    "last column is rough.",
-    table(["bricks", "element", "kinematics", "steps", "iterations", "force", "from the usual", "from the finer mesh", "cost of an iteration"], rows),
+    "elements",
+    "Elements and kinematics in implicit scenes",
+    options,
+    (
+        f"The billet, upset by 64 %, µ = 0.1, the paper's penalty, {STEPS} fixed steps. Force on the whole"
+        " billet at the end in kN; difference of the force curve, ∫|F − F*| / ∫|F*|, from the usual element"
+        f" and law on the same mesh, and from the same on {n_elements(finest)} bricks; CPU seconds of an"
+        " iteration, all counted, over those of the usual ones. Each run once: the last column is rough."
+    ),
+    table(
+        [
+            "bricks",
+            "element",
+            "kinematics",
+            "steps",
+            "iterations",
+            "force",
+            "from the usual",
+            "from the finer mesh",
+            "cost of an iteration",
+        ],
+        rows,
+    ),
     "## One evaluation",
-    "Thousands of instructions of one element in which all points yield, linear hardening, exact tangents, by callgrind: forces alone, and with the "
-    "matrix; the latter over that of the usual element.",
+    (
+        "Thousands of instructions of one element in which all points yield, linear hardening, exact"
+        " tangents, by callgrind: forces alone, and with the matrix; the latter over that of the usual"
+        " element."
+    ),
     table(["element", "kinematics", "forces", "with matrix", "over the usual"], cost_rows),
     "## Over mean dilatation",
-    "What an iteration and a step cost over those with mean dilatation, the default until 2026-11-22, in instructions by callgrind, and what was "
-    "wanted of assumed strains and of one point. An iteration is that of the billet, its first ten steps, with factors of MUMPS and contact. A step is "
-    "that of a block of 6³ bricks that yields, AVX2, double. Set-up is not in them, nor what the program watches a hundred times in a run.",
-    table(["what", "kinematics", "assumed strain", "one point", "wanted, at most"], beside_mean_dilatation(rows)),
-    "Above its limit are the evaluation, by callgrind, and the explicit step: a point's strains have six tensors that vary, where mean dilatation has "
-    "gradients alone. Explicit steps of assumed strains are 1.04 to 1.29 times as long, so that the shipped explicit scenes take 0.92 to 1.0 of the "
-    "time ([default-cost](default-cost.md)).",
+    (
+        "What an iteration and a step cost over those with mean dilatation, the default until 2026-11-22, in"
+        " instructions by callgrind, and what was wanted of assumed strains and of one point. An iteration is"
+        " that of the billet, its first ten steps, with factors of MUMPS and contact. A step is that of a"
+        " block of 6³ bricks that yields, AVX2, double. Set-up is not in them, nor what the program watches a"
+        " hundred times in a run."
+    ),
+    table(
+        ["what", "kinematics", "assumed strain", "one point", "wanted, at most"], beside_mean_dilatation(rows)
+    ),
+    (
+        "Above its limit are the evaluation, by callgrind, and the explicit step: a point's strains have six"
+        " tensors that vary, where mean dilatation has gradients alone. Explicit steps of assumed strains are"
+        " 1.04 to 1.29 times as long, so that the shipped explicit scenes take 0.92 to 1.0 of the time"
+        " ([default-cost](default-cost.md))."
+    ),
     "## Steps",
-    "Without friction, where the Hencky law integrates exactly: force at the end in kN on 60 bricks with so many steps. The closed form is 877.02 "
-    "for Hencky's law and a rigid die.",
+    (
+        "Without friction, where the Hencky law integrates exactly: force at the end in kN on 60 bricks with"
+        " so many steps. The closed form is 877.02 for Hencky's law and a rigid die."
+    ),
     table(["steps"] + list(LAWS), step_rows),
     "## Symmetric part of the tangent",
-    "Iterations with friction in 25 steps on 60 bricks, exact contact tangent, to tolerances of 1e-6 and 1e-11. Without friction, where the "
-    "billet's deformation is uniform, the two are alike.",
-    table(["element", "kinematics", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"], tangent_rows))
+    (
+        "Iterations with friction in 25 steps on 60 bricks, exact contact tangent, to tolerances of 1e-6 and"
+        " 1e-11. Without friction, where the billet's deformation is uniform, the two are alike."
+    ),
+    table(
+        ["element", "kinematics", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"],
+        tangent_rows,
+    ),
+)

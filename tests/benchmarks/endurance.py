@@ -24,7 +24,8 @@ class WatchedRun:
     def __init__(self, scene, changes, folder):
         self.folder = Path(folder)
         (self.folder / "scene.prm").write_text(
-            variant(read_scene(scene), {"Output/Folder": "results", "Output/Verbosity": "quiet", **changes}))
+            variant(read_scene(scene), {"Output/Folder": "results", "Output/Verbosity": "quiet", **changes})
+        )
         process = subprocess.Popen([PROGRAM, "scene.prm"], cwd=folder, stdout=subprocess.DEVNULL)
         history, self.memory = self.folder / "results/history.csv", []
         while process.poll() is None:
@@ -59,19 +60,35 @@ def window(rows, key, low, high):
 memory = []
 with tempfile.TemporaryDirectory() as folder:
     end = N_STEPS * STEP
-    run = WatchedRun(ROOT / "tests/benchmarks/resting_stack.prm",
-                     {"Time stepping/End time": end, "Output/Interval": end / 10}, folder)
+    run = WatchedRun(
+        ROOT / "tests/benchmarks/resting_stack.prm",
+        {"Time stepping/End time": end, "Output/Interval": end / 10},
+        folder,
+    )
     n_steps = int(run.rows[-1]["step"])
     middle, late = (0.45 * end, 0.55 * end), (0.9 * end, end)  # well after the blocks have come to rest
-    quantities = (("elastic energy [J]", "elastic_energy"), ("energy in contact springs [J]", "contact_energy"),
-                  ("force on the ground [N]", "ground.force_z"), ("penetration below the lowest block [m]", "ground.deepest_penetration"),
-                  ("between middle and lowest [m]", "middle on lowest.deepest_penetration"),
-                  ("taken by friction [J]", "friction_dissipation"), ("energy drift [J]", "energy_drift"))
+    quantities = (
+        ("elastic energy [J]", "elastic_energy"),
+        ("energy in contact springs [J]", "contact_energy"),
+        ("force on the ground [N]", "ground.force_z"),
+        ("penetration below the lowest block [m]", "ground.deepest_penetration"),
+        ("between middle and lowest [m]", "middle on lowest.deepest_penetration"),
+        ("taken by friction [J]", "friction_dissipation"),
+        ("energy drift [J]", "energy_drift"),
+    )
     rows = []
     for name, key in quantities:
         (first, width), (last, last_width) = window(run.rows, key, *middle), window(run.rows, key, *late)
-        rows.append([name, f"{first:.9g}", f"{last:.9g}", number(abs(last - first) / max(abs(first), 1e-300), 2),
-                     number(width, 2), number(last_width, 2)])
+        rows.append(
+            [
+                name,
+                f"{first:.9g}",
+                f"{last:.9g}",
+                number(abs(last - first) / max(abs(first), 1e-300), 2),
+                number(width, 2),
+                number(last_width, 2),
+            ]
+        )
     kinetic = [window(run.rows, "kinetic_energy", *span)[0] for span in (middle, late)]
     weight = 3 * 0.1**3 * 1000 * 9.81
     largest_side = max(abs(row[f"ground.force_{i}"]) for row in run.rows if row["time"] > 1.5 for i in "xy")
@@ -81,39 +98,82 @@ with tempfile.TemporaryDirectory() as folder:
 
 with tempfile.TemporaryDirectory() as folder:
     n = 1000 if options.quick else 10_000
-    turned = WatchedRun(ROOT / "prm/turned_blocks.prm", {"Time stepping/Initial step": 47 / n, "Output/Format": "none"}, folder)
-    memory.append(["two blocks turned by 360°, implicit", int(turned.rows[-1]["step"])]
-                  + [number(turned.at(part), 4) for part in (0.05, 0.5, 1.0)])
+    turned = WatchedRun(
+        ROOT / "prm/turned_blocks.prm",
+        {"Time stepping/Initial step": 47 / n, "Output/Format": "none"},
+        folder,
+    )
+    memory.append(
+        ["two blocks turned by 360°, implicit", int(turned.rows[-1]["step"])]
+        + [number(turned.at(part), 4) for part in (0.05, 0.5, 1.0)]
+    )
 
 with tempfile.TemporaryDirectory() as folder:
     n_cycles = 1000 if options.quick else 100_000
-    cycled = WatchedRun(ROOT / "tests/benchmarks/friction_cycles.prm", {"Time stepping/End time": n_cycles}, folder)
-    memory.append([f"{n_cycles} cycles of friction, implicit", int(cycled.rows[-1]["step"])]
-                  + [number(cycled.at(part), 4) for part in (0.05, 0.5, 1.0)])
+    cycled = WatchedRun(
+        ROOT / "tests/benchmarks/friction_cycles.prm", {"Time stepping/End time": n_cycles}, folder
+    )
+    memory.append(
+        [f"{n_cycles} cycles of friction, implicit", int(cycled.rows[-1]["step"])]
+        + [number(cycled.at(part), 4) for part in (0.05, 0.5, 1.0)]
+    )
 
 
 def cycle(rows, last):
-    """Largest sideways force of the four steps of the cycle that ends then, the force down, and what friction takes in it."""
+    """Largest sideways force of the four steps of the cycle that ends then, the force down, and what friction
+    takes in it."""
     steps = {row["time"]: row for row in rows if last - 1 <= row["time"] <= last}
-    return (max(steps[last - part]["plate.force_x"] for part in (0, 0.25, 0.5, 0.75)), steps[last]["plate.force_z"],
-            steps[last]["friction_dissipation"] - steps[last - 1]["friction_dissipation"])
+    return (
+        max(steps[last - part]["plate.force_x"] for part in (0, 0.25, 0.5, 0.75)),
+        steps[last]["plate.force_z"],
+        steps[last]["friction_dissipation"] - steps[last - 1]["friction_dissipation"],
+    )
 
 
 early_cycle, last_cycle = cycle(cycled.rows, 100), cycle(cycled.rows, n_cycles)
-cycles = [[name, f"{a:.15g}", f"{b:.15g}", number(abs(b / a - 1), 2)] for name, a, b in zip(
-    ("largest sideways force [N]", "force down [N]", "taken by friction in the cycle [mJ]"), early_cycle, last_cycle)]
+cycles = [
+    [name, f"{a:.15g}", f"{b:.15g}", number(abs(b / a - 1), 2)]
+    for name, a, b in zip(
+        ("largest sideways force [N]", "force down [N]", "taken by friction in the cycle [mJ]"),
+        early_cycle,
+        last_cycle,
+    )
+]
 
 publish(
-    "endurance", "Long runs", options,
-    f"## A stack at rest\n\nThree blocks of rubber on each other and on the ground (`tests/benchmarks/resting_stack.prm`), friction 0.3, "
-    f"{n_steps} explicit steps; gravity grows within the first second. Means over a tenth of the time, in the middle and at the "
-    f"end, their relative difference, and how far single values lie apart within each.",
-    table(["quantity", "in the middle", "at the end", "difference", "apart, in the middle", "apart, at the end"], rows),
-    f"Kinetic energy: {number(kinetic[0], 2)} J in the middle, {number(kinetic[1], 2)} J at the end, of {number(rows and float(rows[0][1]), 3)} J "
-    f"elastic energy. Largest sideways force on the ground after 1.5 s: {number(largest_side / weight, 2)} of the weight. Displacements of "
-    f"all nodes between half of the time and the end: at most {number(moved, 2)} of the largest one (pictures hold single precision).",
-    f"## Cycles of friction\n\nA brick under a plate that presses it and goes to and fro with friction (`tests/benchmarks/friction_cycles.prm`), {n_cycles} "
-    "cycles of four steps: what a cycle gives early and at the end. Friction's work is a difference of sums that grow, whose last bits are lost.",
+    "endurance",
+    "Long runs",
+    options,
+    (
+        "## A stack at rest\n\nThree blocks of rubber on each other and on the ground"
+        f" (`tests/benchmarks/resting_stack.prm`), friction 0.3, {n_steps} explicit steps; gravity grows"
+        " within the first second. Means over a tenth of the time, in the middle and at the end, their"
+        " relative difference, and how far single values lie apart within each."
+    ),
+    table(
+        [
+            "quantity",
+            "in the middle",
+            "at the end",
+            "difference",
+            "apart, in the middle",
+            "apart, at the end",
+        ],
+        rows,
+    ),
+    (
+        f"Kinetic energy: {number(kinetic[0], 2)} J in the middle, {number(kinetic[1], 2)} J at the end, of"
+        f" {number(rows and float(rows[0][1]), 3)} J elastic energy. Largest sideways force on the ground"
+        f" after 1.5 s: {number(largest_side / weight, 2)} of the weight. Displacements of all nodes between"
+        f" half of the time and the end: at most {number(moved, 2)} of the largest one (pictures hold single"
+        " precision)."
+    ),
+    (
+        "## Cycles of friction\n\nA brick under a plate that presses it and goes to and fro with friction"
+        f" (`tests/benchmarks/friction_cycles.prm`), {n_cycles} cycles of four steps: what a cycle gives"
+        " early and at the end. Friction's work is a difference of sums that grow, whose last bits are lost."
+    ),
     table(["quantity", "cycle 100", f"cycle {n_cycles}", "difference"], cycles),
     "## Memory\n\nResident memory in MB when 5, 50 and 100 % of the steps were done, sampled twice a second.",
-    table(["run", "steps", "5 %", "50 %", "100 %"], memory))
+    table(["run", "steps", "5 %", "50 %", "100 %"], memory),
+)

@@ -59,32 +59,52 @@ subsection Contact pairs
 end
 """
 ONE = {"block": "47, 47, 46 : -0.235, -0.235, -0.23 : 0.235, 0.235, 0.23"}
-TWO = {"lower": "50, 50, 20 : -0.25, -0.25, -0.2 : 0.25, 0.25, 0",
-       "upper": "50, 50, 20 : -0.25, -0.25, 0 : 0.25, 0.25, 0.2"}
+TWO = {
+    "lower": "50, 50, 20 : -0.25, -0.25, -0.2 : 0.25, 0.25, 0",
+    "upper": "50, 50, 20 : -0.25, -0.25, 0 : 0.25, 0.25, 0.2",
+}
 SHIFTED = dict(TWO, upper="50, 50, 20 : -0.247, -0.246, 0 : 0.253, 0.254, 0.2")
 BODIES = {"one": ONE, "apart": TWO, "fitting": TWO, "not fitting": SHIFTED}
-KERNELS = {"one point, hypoelastic": ("one point", "hypoelastic"),
-           "8 points, hypoelastic": ("assumed strain", "hypoelastic"),
-           "8 points, neo-Hookean": ("assumed strain", "neo-Hookean"),
-           "8 points, Hencky": ("assumed strain", "Hencky")}
+KERNELS = {
+    "one point, hypoelastic": ("one point", "hypoelastic"),
+    "8 points, hypoelastic": ("assumed strain", "hypoelastic"),
+    "8 points, neo-Hookean": ("assumed strain", "neo-Hookean"),
+    "8 points, Hencky": ("assumed strain", "Hencky"),
+}
 GOALS = {"AVX-512": (65, 170, 190, 260), "AVX2": (85, 220, 260, 370)}
 
 
 def measure(kernel, instructions, number_type, bodies, more=""):
-    """(by the clock, of the process) ns per element and step, or nothing if the machine has no such instructions."""
+    """(by the clock, of the process) ns per element and step, or nothing if the machine has no such
+    instructions."""
     element, kinematics = KERNELS[kernel]
-    text = "subsection Bodies" + "".join(BODY.format(name=name, element=element, mesh=mesh, kinematics=kinematics)
-                                         for name, mesh in bodies.items()) + "end\n"
-    text += f"subsection Explicit dynamics\n  set Instructions = {instructions}\n  set Number type = {number_type}\nend\n" + REST + more
+    text = (
+        "subsection Bodies"
+        + "".join(
+            BODY.format(name=name, element=element, mesh=mesh, kinematics=kinematics)
+            for name, mesh in bodies.items()
+        )
+        + "end\n"
+    )
+    text += (
+        f"subsection Explicit dynamics\n  set Instructions = {instructions}\n  set Number type ="
+        f" {number_type}\nend\n" + REST + more
+    )
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "scene.prm").write_text(text)
         done = subprocess.run([PROGRAM, "scene.prm"], cwd=folder, capture_output=True, text=True)
     if "instruction set is not available" in done.stderr:
         return None
-    found = re.search(r"(\d+) steps of (\d+) elements in \S+ s: (\S+) ns for each element and step, (\S+) of", done.stdout)
+    found = re.search(
+        r"(\d+) steps of (\d+) elements in \S+ s: (\S+) ns for each element and step, (\S+) of", done.stdout
+    )
     if done.returncode or not found:
         sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
-    print(f"[{kernel}, {instructions}, {number_type}, {len(bodies)} bodies] {found.group(0)} this process", file=sys.stderr, flush=True)
+    print(
+        f"[{kernel}, {instructions}, {number_type}, {len(bodies)} bodies] {found.group(0)} this process",
+        file=sys.stderr,
+        flush=True,
+    )
     return float(found.group(3)), float(found.group(4))
 
 
@@ -92,7 +112,10 @@ def probe():
     said = subprocess.run([str(PROBE), "0"], capture_output=True, text=True, check=True).stdout
     triad = [float(value) for value in re.findall(r"triad (\S+) GB/s", said)]
     names = {"scalar": "scalar", "sse2": "SSE2", "avx2": "AVX2", "avx512": "AVX-512"}
-    peaks = {names[name]: float(value) for name, value in re.findall(r"^(scalar|sse2|avx2|avx512)\s+double\s+(\S+)", said, re.M)}
+    peaks = {
+        names[name]: float(value)
+        for name, value in re.findall(r"^(scalar|sse2|avx2|avx512)\s+double\s+(\S+)", said, re.M)
+    }
     return triad, peaks
 
 
@@ -100,9 +123,19 @@ SETS = ("AVX-512",) if options.quick else ("scalar", "SSE2", "AVX2", "AVX-512")
 SLOW = ("scalar", "SSE2")
 TYPES = ("double", "float")
 CONTACT_KERNELS = ("one point, hypoelastic", "8 points, Hencky")
-cases = {(kernel, instructions, number_type, "one"): [] for instructions in SETS for kernel in KERNELS for number_type in TYPES}
-cases.update({(kernel, "automatic", "double", name): [] for kernel in CONTACT_KERNELS
-              for name in ("apart", "not fitting", "fitting")})
+cases = {
+    (kernel, instructions, number_type, "one"): []
+    for instructions in SETS
+    for kernel in KERNELS
+    for number_type in TYPES
+}
+cases.update(
+    {
+        (kernel, "automatic", "double", name): []
+        for kernel in CONTACT_KERNELS
+        for name in ("apart", "not fitting", "fitting")
+    }
+)
 triads, peaks, loads = [], {}, []
 for repetition in range(REPEAT):  # alternately, so that what else the machine does hits all alike
     triad, peak = probe()
@@ -132,42 +165,81 @@ for instructions in SETS:
     if instructions not in peaks:
         continue
     for number_type in TYPES:
-        rows.append([f"{instructions}, {number_type}", number(statistics.median(peaks[instructions]), 3) if number_type == "double" else ""]
-                    + [show(cases[kernel, instructions, number_type, "one"]) for kernel in KERNELS])
-    rows.append([f"{instructions}, float/double", ""] + [
-        f"{middle(cases[k, instructions, 'float', 'one']) / middle(cases[k, instructions, 'double', 'one']):.2f} ("
-        f"{min(t[1] for t in cases[k, instructions, 'float', 'one']) / min(t[1] for t in cases[k, instructions, 'double', 'one']):.2f})"
-        for k in KERNELS])
+        rows.append(
+            [
+                f"{instructions}, {number_type}",
+                number(statistics.median(peaks[instructions]), 3) if number_type == "double" else "",
+            ]
+            + [show(cases[kernel, instructions, number_type, "one"]) for kernel in KERNELS]
+        )
+    rows.append(
+        [f"{instructions}, float/double", ""]
+        + [
+            f"{middle(single) / middle(double):.2f}"
+            f" ({min(t[1] for t in single) / min(t[1] for t in double):.2f})"
+            for single, double in (
+                [cases[kernel, instructions, number_type, "one"] for number_type in ("float", "double")]
+                for kernel in KERNELS
+            )
+        ]
+    )
     if instructions in GOALS:
         rows.append([f"goal, {instructions}, double", ""] + list(GOALS[instructions]))
 flops = []
 for instructions in SETS:
     if instructions in peaks:
         peak, bandwidth = statistics.median(peaks[instructions]), statistics.median(triads)
-        flops.append([instructions] + [f"{middle(cases[k, instructions, 'double', 'one']) * peak:.0f} / "
-                                       f"{middle(cases[k, instructions, 'double', 'one']) * bandwidth:.0f}" for k in KERNELS])
+        flops.append(
+            [instructions]
+            + [
+                f"{middle(cases[k, instructions, 'double', 'one']) * peak:.0f} / "
+                f"{middle(cases[k, instructions, 'double', 'one']) * bandwidth:.0f}"
+                for k in KERNELS
+            ]
+        )
 contact = []
 for kernel in CONTACT_KERNELS:
     apart = cases[kernel, "automatic", "double", "apart"]
     for name in ("not fitting", "fitting"):
         touching = cases[kernel, "automatic", "double", name]
-        contact.append([kernel, name, show(apart), show(touching), f"{middle(touching) / middle(apart):.2f}",
-                        f"{min(t[1] for t in touching) / min(t[1] for t in apart):.2f}"])
+        contact.append(
+            [
+                kernel,
+                name,
+                show(apart),
+                show(touching),
+                f"{middle(touching) / middle(apart):.2f}",
+                f"{min(t[1] for t in touching) / min(t[1] for t in apart):.2f}",
+            ]
+        )
 
 publish(
-    "explicit", "Explicit dynamics, per element and step", options,
-    "A block of 101,614 bricks (47 × 47 × 46, edges of 1 cm) of steel that yields at 100 MPa, pressed along one axis "
-    "by its initial velocities, so that nearly all of it yields from the second step on; 40 to 50 steps, output off, "
-    "one core. The stepping loop alone, as the program prints it at its end: forces, contact, energies, velocities, "
-    "displacements, the choice of the step. Nanoseconds per element and step: by the clock / of processor time, "
-    f"each the median of {REPEAT} (scalar and SSE2: one run), and in brackets the least processor time. Scenes alternate, and before each round "
-    f"the machine was probed: triad {min(triads):.1f} to {max(triads):.1f} GB/s, median {statistics.median(triads):.1f}; "
-    f"load average {min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores, so that other work shared core and cache.",
+    "explicit",
+    "Explicit dynamics, per element and step",
+    options,
+    (
+        "A block of 101,614 bricks (47 × 47 × 46, edges of 1 cm) of steel that yields at 100 MPa, pressed"
+        " along one axis by its initial velocities, so that nearly all of it yields from the second step on;"
+        " 40 to 50 steps, output off, one core. The stepping loop alone, as the program prints it at its"
+        " end: forces, contact, energies, velocities, displacements, the choice of the step. Nanoseconds per"
+        f" element and step: by the clock / of processor time, each the median of {REPEAT} (scalar and SSE2:"
+        " one run), and in brackets the least processor time. Scenes alternate, and before each round the"
+        f" machine was probed: triad {min(triads):.1f} to {max(triads):.1f} GB/s, median"
+        f" {statistics.median(triads):.1f}; load average {min(loads):.1f} to {max(loads):.1f} on"
+        f" {os.cpu_count()} cores, so that other work shared core and cache."
+    ),
     table(["instructions", "peak GF/s"] + list(KERNELS), rows),
-    "Kernels in float (`Number type = float`) have the history in float, too. Those in double as ratios to what the machine gave (medians): floating-point operations at peak / bytes at triad in that time.",
+    (
+        "Kernels in float (`Number type = float`) have the history in float, too. Those in double as ratios"
+        " to what the machine gave (medians): floating-point operations at peak / bytes at triad in that"
+        " time."
+    ),
     table(["instructions"] + list(KERNELS), flops),
-    "## Contact\n\nTwo blocks of 50 × 50 × 20 bricks on each other, 5 % of the nodes on the faces that touch: without and "
-    "with contact (planed facets, two passes), best instruction set. Either the meshes do not fit (the upper block is 3 and "
-    "4 mm aside), or all nodes lie on nodes and are shared by four facets each, which is the dearest there is. Wanted: at "
-    "most 1.5 times.",
-    table(["kernel", "meshes", "without", "with", "ratio of medians", "of the least"], contact))
+    (
+        "## Contact\n\nTwo blocks of 50 × 50 × 20 bricks on each other, 5 % of the nodes on the faces that"
+        " touch: without and with contact (planed facets, two passes), best instruction set. Either the"
+        " meshes do not fit (the upper block is 3 and 4 mm aside), or all nodes lie on nodes and are shared"
+        " by four facets each, which is the dearest there is. Wanted: at most 1.5 times."
+    ),
+    table(["kernel", "meshes", "without", "with", "ratio of medians", "of the least"], contact),
+)

@@ -14,14 +14,15 @@ from billet_runs import PROGRAM, children_seconds, read_scene, variant
 
 
 class ExplicitRun:
-    """A run in `folder`: `rows` of the history as numbers, `seconds` (user and system, of all ranks), whether it
-    `finished`, what was `said`, and `failure`."""
+    """A run in `folder`: `rows` of the history as numbers, `seconds` (user and system, of all ranks), whether
+    it `finished`, what was `said`, and `failure`."""
 
     def __init__(self, scene, changes, folder, ranks=1):
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / "scene.prm").write_text(
-            variant(read_scene(scene), {"Output/Folder": "results", "Output/Verbosity": "quiet", **changes}))
+            variant(read_scene(scene), {"Output/Folder": "results", "Output/Verbosity": "quiet", **changes})
+        )
         command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
         before = children_seconds()
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
@@ -40,8 +41,11 @@ class ExplicitRun:
 
     def largest_drift(self):
         """Of the energy ledger, relative to the largest sum of energies."""
-        kinds = [key for key in self.rows[0] if key.endswith(("_energy", "_work", "_dissipation"))
-                 and key not in ("external_work",)]
+        kinds = [
+            key
+            for key in self.rows[0]
+            if key.endswith(("_energy", "_work", "_dissipation")) and key not in ("external_work",)
+        ]
         largest = max(sum(row[kind] for kind in kinds) for row in self.rows)
         return max(abs(row["energy_drift"]) for row in self.rows) / largest
 
@@ -53,10 +57,12 @@ class ExplicitRun:
         reader.Update()
         grid = reader.GetOutput()
         data = grid.GetPointData()
-        fields = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float)
-                  for i in range(data.GetNumberOfArrays())}
+        fields = {
+            data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float)
+            for i in range(data.GetNumberOfArrays())
+        }
         return vtk_to_numpy(grid.GetPoints().GetData()).astype(float), fields
 
 
 def norm(vectors, axes):
-    return numpy.sqrt(sum(vectors[:, axis]**2 for axis in axes))
+    return numpy.sqrt(sum(vectors[:, axis] ** 2 for axis in axes))

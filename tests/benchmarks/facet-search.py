@@ -18,20 +18,38 @@ def exponent(column):
     """Of the whole cost over n log n, fitted to all sizes: 0 where the two grow alike."""
     points = [(math.log(row[0]), math.log(row[column] / math.log(row[0]))) for row in rows]
     mean = [sum(values) / len(points) for values in zip(*points)]
-    return (sum((x - mean[0]) * (y - mean[1]) for x, y in points) /
-            sum((x - mean[0])**2 for x, _ in points))
+    return sum((x - mean[0]) * (y - mean[1]) for x, y in points) / sum((x - mean[0]) ** 2 for x, _ in points)
 
 
 names = {"making lists": 1, "a step, planed": 2, "a step, bilinear": 3}
 publish(
-    "facet-search", "Search of facets near nodes", options,
-    "Two curved sheets of facets, one sliding on the other with all nodes near; all nodes are slaves. Per facet, in ns: making "
-    "the lists of candidates; a step, in which nodes choose among their lists (planed, bilinear facets). Lists last for the "
-    "number of steps in the last column, at a hundredth of a facet's size a step. One run, one core.",
-    table(["facets", "lists [ns]", "step, planed [ns]", "step, bilinear [ns]", "candidates of a node", "touching nodes",
-           "steps between lists"],
-          [[f"{row[0]:.0f}"] + [number(value, 3) for value in row[1:4]] + [number(row[4], 2), f"{row[5]:.0f}",
-                                                                       number(row[6], 2)] for row in rows]),
-    "The cost over n log n changes with the power of n of " +
-    ", ".join(f"{exponent(column):+.2f} ({name})" for name, column in names.items()) +
-    ": below 0 it grows more slowly than n log n.")
+    "facet-search",
+    "Search of facets near nodes",
+    options,
+    (
+        "Two curved sheets of facets, one sliding on the other with all nodes near; all nodes are slaves. Per"
+        " facet, in ns: making the lists of candidates; a step, in which nodes choose among their lists"
+        " (planed, bilinear facets). Lists last for the number of steps in the last column, at a hundredth of"
+        " a facet's size a step. One run, one core."
+    ),
+    table(
+        [
+            "facets",
+            "lists [ns]",
+            "step, planed [ns]",
+            "step, bilinear [ns]",
+            "candidates of a node",
+            "touching nodes",
+            "steps between lists",
+        ],
+        [
+            [f"{row[0]:.0f}"]
+            + [number(value, 3) for value in row[1:4]]
+            + [number(row[4], 2), f"{row[5]:.0f}", number(row[6], 2)]
+            for row in rows
+        ],
+    ),
+    "The cost over n log n changes with the power of n of "
+    + ", ".join(f"{exponent(column):+.2f} ({name})" for name, column in names.items())
+    + ": below 0 it grows more slowly than n log n.",
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Deformable bodies in contact in billet and in CalculiX: the shipped scenes on the same meshes, with the same penalties."""
+"""Deformable bodies in contact in billet and in CalculiX: the shipped scenes on the same meshes, with the
+same penalties."""
 
 import argparse
 import json
@@ -20,7 +21,9 @@ parser.add_argument("--quick", action="store_true", help="ironing, press fit, He
 parser.add_argument("--large", action="store_true", help="nothing more")
 parser.add_argument("--ranks", type=int, default=1, help="of no use: CalculiX has one")
 parser.add_argument("--scene", action="append", help="only these; the page stays as it is")
-parser.add_argument("--keep", type=Path, help="folder for the rows of each scene; what is there already does not run again")
+parser.add_argument(
+    "--keep", type=Path, help="folder for the rows of each scene; what is there already does not run again"
+)
 options = parser.parse_args()
 options.large, options.ranks = False, 1
 LIMIT = 120  # seconds of a processor for each run of CalculiX
@@ -33,12 +36,19 @@ class Deck:
     """A shipped scene in CalculiX's words: the mesh, sets by conditions on nodes, one contact pair, steps."""
 
     def __init__(self, scene, materials, digits=5, turn=None, plates=()):
-        """Of each body its element, Young's modulus, Poisson's ratio, and yield stresses over plastic strains, if any. Plates, which
-        stand for plane tools, are bricks between two corners, the last bodies."""
+        """Of each body its element, Young's modulus, Poisson's ratio, and yield stresses over plastic
+        strains, if any. Plates, which stand for plane tools, are bricks between two corners, the last
+        bodies."""
         with tempfile.TemporaryDirectory() as folder:
-            begin = {"Time stepping/End time": 1e-3, "Time stepping/Initial step": 1e-3, "Time stepping/Stops": ""}
+            begin = {
+                "Time stepping/End time": 1e-3,
+                "Time stepping/Initial step": 1e-3,
+                "Time stepping/Stops": "",
+            }
             ExplicitRun(ROOT / f"prm/{scene}.prm", begin, folder)
-            self.nodes, self.bodies = read_bodies(Path(folder, "results/fields_00000.0.vtu").read_text(), digits)
+            self.nodes, self.bodies = read_bodies(
+                Path(folder, "results/fields_00000.0.vtu").read_text(), digits
+            )
         if turn is not None:
             self.nodes = [tuple(turn @ numpy.array(node)) for node in self.nodes]
         for (x0, y0, z0), (x1, y1, z1) in plates:
@@ -57,7 +67,7 @@ class Deck:
 
     def node_set(self, name, members):
         self.lines += [f"*NSET, NSET={name}"]
-        self.lines += [", ".join(str(m + 1) for m in members[i:i + 12]) for i in range(0, len(members), 12)]
+        self.lines += [", ".join(str(m + 1) for m in members[i : i + 12]) for i in range(0, len(members), 12)]
         return members
 
     def surface(self, name, body, condition):
@@ -96,22 +106,39 @@ class Deck:
         lines += [f"{i + 1}, {x:.7g}, {y:.7g}, {z:.7g}" for i, (x, y, z) in enumerate(self.nodes)]
         for body, bricks in enumerate(self.bodies):
             lines += [f"*ELEMENT, TYPE={self.materials[body][0]}, ELSET=BODY{body}"]
-            lines += [", ".join(str(v) for v in [i] + [c + 1 for c in brick]) for i, brick in zip(self.numbers[body], bricks)]
+            lines += [
+                ", ".join(str(v) for v in [i] + [c + 1 for c in brick])
+                for i, brick in zip(self.numbers[body], bricks)
+            ]
         lines += self.lines
         for body, (_, young, poisson, *plastic) in enumerate(self.materials):
             lines += [f"*MATERIAL, NAME=MATERIAL{body}", "*ELASTIC", f"{young}, {poisson}"]
-            # With plasticity, though it never yields, elasticity is one of large strain; without, Saint-Venant and
-            # Kirchhoff's, which grows soft in compression.
-            lines += ["*PLASTIC"] + [f"{stress:g}, {strain:g}" for stress, strain in plastic or ((1e3 * young, 0), (2e3 * young, 1))]
+            # With plasticity, though it never yields, elasticity is one of large strain; without,
+            # Saint-Venant and Kirchhoff's, which grows soft in compression.
+            lines += ["*PLASTIC"] + [
+                f"{stress:g}, {strain:g}"
+                for stress, strain in plastic or ((1e3 * young, 0), (2e3 * young, 1))
+            ]
             lines += [f"*SOLID SECTION, ELSET=BODY{body}, MATERIAL=MATERIAL{body}"]
         for i, (slave, master, own_penalty) in enumerate(self.pairs):
-            lines += [f"*SURFACE INTERACTION, NAME=TOUCH{i}", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
-                      f"{own_penalty or penalty:.6g}"]
+            lines += [
+                f"*SURFACE INTERACTION, NAME=TOUCH{i}",
+                "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+                f"{own_penalty or penalty:.6g}",
+            ]
             lines += ["*FRICTION", f"{friction}, {penalty:.6g}"] if friction else []
             lines += [f"*CONTACT PAIR, INTERACTION=TOUCH{i}, TYPE={contact}", f"{slave}, {master}"]
         for period, first, largest, motion in self.steps:
-            lines += ["*STEP, NLGEOM, INC=100000", "*STATIC", f"{first / shorter}, {period}, 1e-6, {largest / shorter}"]
-            lines += ["*BOUNDARY"] + [f"{name}, {i}, {i}, {value:.9g}" for (name, i), value in motion.items()] if motion else []
+            lines += [
+                "*STEP, NLGEOM, INC=100000",
+                "*STATIC",
+                f"{first / shorter}, {period}, 1e-6, {largest / shorter}",
+            ]
+            lines += (
+                ["*BOUNDARY"] + [f"{name}, {i}, {i}, {value:.9g}" for (name, i), value in motion.items()]
+                if motion
+                else []
+            )
             lines += prints + ["*END STEP"]
         Path(path).write_text("\n".join(lines) + "\n")
         return sum(step[0] for step in self.steps)
@@ -123,7 +150,9 @@ NODAL = ["*NODE PRINT, NSET=HELD", "RF"]
 
 def totals(folder):
     """Times and sums of reactions."""
-    found = re.findall(r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)", Path(folder, "deck.dat").read_text(), re.S)
+    found = re.findall(
+        r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)", Path(folder, "deck.dat").read_text(), re.S
+    )
     return [tuple(float(x) for x in line) for line in found]
 
 
@@ -147,7 +176,8 @@ def at(rows, time, column=0):
     return row if row is not None and abs(row[column] - time) < 1e-6 * max(1.0, time) else None
 
 
-# --- the scenes: a deck, what friction, what it prints, and a result of both programs ----------------------------
+# --- the scenes: a deck, what friction, what it prints, and a result of both programs -------------
+
 
 class Ironing:
     name, friction, prints = "ironing", 0.3, TOTALS
@@ -155,10 +185,14 @@ class Ironing:
 
     def deck(self):
         deck = Deck("ironing", [("C3D8", 100, 0.3), ("C3D8", 1000, 0.3)])
-        deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 7 + math.sqrt(16 - (x - 4)**2)) < NEAR)
+        deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 7 + math.sqrt(16 - (x - 4) ** 2)) < NEAR)
         deck.surface("MASTER", 0, lambda x, y, z: abs(z - 3) < NEAR)
         deck.hold("BASE", deck.members(0, lambda x, y, z: z < NEAR), 1, 2, 3)
-        deck.hold("SIDES", [i for body in (0, 1) for i in deck.members(body, lambda x, y, z: y < NEAR or y > 0.5 - NEAR)], 2)
+        deck.hold(
+            "SIDES",
+            [i for body in (0, 1) for i in deck.members(body, lambda x, y, z: y < NEAR or y > 0.5 - NEAR)],
+            2,
+        )
         deck.node_set("HELD", deck.members(1, lambda x, y, z: abs(z - 4.5) < NEAR))
         deck.step(1, 0.05, 0.1, {("HELD", 1): 0, ("HELD", 2): 0, ("HELD", 3): -0.6})
         deck.step(2, 0.05, 0.1, {("HELD", 1): 10})
@@ -188,7 +222,9 @@ class PressFit:
         deck.surface("SLAVE", 0, lambda x, y, z: abs(math.hypot(x, y) - 20.01) < NEAR)
         deck.surface("MASTER", 1, lambda x, y, z: abs(math.hypot(x, y) - 20) < NEAR)
         for axis, name in enumerate("XY"):
-            deck.hold(name, [i for body in (0, 1) for i in deck.members(body, lambda *x: x[axis] < NEAR)], axis + 1)
+            deck.hold(
+                name, [i for body in (0, 1) for i in deck.members(body, lambda *x: x[axis] < NEAR)], axis + 1
+            )
         deck.hold("Z", [i for body in (0, 1) for i in deck.members(body, lambda x, y, z: True)], 3)
         deck.node_set("HELD", deck.members(1, lambda x, y, z: x < NEAR))
         deck.step(1, 0.5, 0.5, {})
@@ -213,8 +249,14 @@ class Hertz:
         deck.surface("MASTER", 0, lambda x, y, z: abs(z + 20 - math.sqrt(400 - x * x)) < 1e-5)
         deck.hold("BASE", deck.members(0, lambda x, y, z: z < -8 + NEAR), 1, 2, 3)
         both = (0, 1)
-        deck.hold("MIDDLE", [i for body in both for i in deck.members(body, lambda x, y, z: x < NEAR and -7.9 < z < 7.9)], 1)
-        deck.hold("SIDES", [i for body in both for i in deck.members(body, lambda x, y, z: -7.9 < z < 7.9)], 2)
+        deck.hold(
+            "MIDDLE",
+            [i for body in both for i in deck.members(body, lambda x, y, z: x < NEAR and -7.9 < z < 7.9)],
+            1,
+        )
+        deck.hold(
+            "SIDES", [i for body in both for i in deck.members(body, lambda x, y, z: -7.9 < z < 7.9)], 2
+        )
         deck.node_set("HELD", deck.members(1, lambda x, y, z: z > 8 - NEAR))
         deck.step(1, 0.1, 0.1, {("HELD", 1): 0, ("HELD", 2): 0, ("HELD", 3): -0.04})
         return deck
@@ -232,12 +274,22 @@ class Dies:
     result = "force on the whole billet at the end of the upsetting [kN]"
 
     def deck(self):
-        deck = Deck("billet_deformable_dies", [("C3D8R", 200e3, 0.3, (700, 0), (2200, 5)), ("C3D8", 20e6, 0.3)])
+        deck = Deck(
+            "billet_deformable_dies", [("C3D8R", 200e3, 0.3, (700, 0), (2200, 5)), ("C3D8", 20e6, 0.3)]
+        )
         deck.surface("SLAVE", 0, lambda x, y, z: z > 15 - NEAR or math.hypot(x, y) > 9.9)
         deck.surface("MASTER", 1, lambda x, y, z: z < 15 + NEAR)
         for axis, name in enumerate("XYZ"):
             bodies = (0, 1) if axis < 2 else (0,)
-            deck.hold(name, [i for body in bodies for i in deck.members(body, lambda *x: x[axis] < NEAR and x[2] < 25 - NEAR)], axis + 1)
+            deck.hold(
+                name,
+                [
+                    i
+                    for body in bodies
+                    for i in deck.members(body, lambda *x: x[axis] < NEAR and x[2] < 25 - NEAR)
+                ],
+                axis + 1,
+            )
         deck.node_set("HELD", deck.members(1, lambda x, y, z: z > 25 - NEAR))
         deck.step(1, 0.02, 0.1, {("HELD", 1): 0, ("HELD", 2): 0, ("HELD", 3): -9.6})
         deck.step(0.1, 0.02, 0.1, {("HELD", 3): -8.6})
@@ -331,7 +383,7 @@ def deviation(stresses):
     s = numpy.array(stresses)  # xx, yy, zz, xy, xz, yz
     weight = numpy.array([1, 1, 1, 2, 2, 2])
     mean = s.mean(axis=0)
-    return percent(math.sqrt(((s - mean)**2 @ weight).max() / (mean**2 @ weight)))
+    return percent(math.sqrt(((s - mean) ** 2 @ weight).max() / (mean**2 @ weight)))
 
 
 class Patch:
@@ -349,7 +401,11 @@ class Patch:
         deck.surface("SLAVE", 1, in_cut)
         deck.surface("MASTER", 0, in_cut)
         for axis, name in enumerate("XY"):
-            deck.hold(name, [i for body in (0, 1) for i in deck.members(body, lambda *x: not NEAR < x[axis] < 2 - NEAR)], axis + 1)
+            deck.hold(
+                name,
+                [i for body in (0, 1) for i in deck.members(body, lambda *x: not NEAR < x[axis] < 2 - NEAR)],
+                axis + 1,
+            )
         deck.hold("BASE", deck.members(0, lambda x, y, z: z < -2 + NEAR), 3)
         deck.node_set("HELD", deck.members(1, lambda x, y, z: z > 2 - NEAR))
         deck.step(1, 0.5, 0.5, {("HELD", 1): 0, ("HELD", 2): 0, ("HELD", 3): self.travel})
@@ -357,8 +413,15 @@ class Patch:
 
     def billet(self, run):
         _, fields = run.picture()
-        found = deviation(numpy.stack([fields["stress_" + i].reshape(-1, 8).mean(axis=1)
-                                       for i in ("xx", "yy", "zz", "xy", "xz", "yz")], axis=1))
+        found = deviation(
+            numpy.stack(
+                [
+                    fields["stress_" + i].reshape(-1, 8).mean(axis=1)
+                    for i in ("xx", "yy", "zz", "xy", "xz", "yz")
+                ],
+                axis=1,
+            )
+        )
         return "< 1e-5 %" if float(found.split()[0]) < 1e-4 and self.friction == 0 else found
 
     def ccx(self, folder, deck):
@@ -433,7 +496,11 @@ class HollowBlock:
         side = 1 / deck.sizes["SIDE"][1]  # E/h, the scene's
         deck.surface("UPPER", 1, lambda x, y, z: z < 5 + NEAR)
         deck.surface("LOWER", 2, lambda x, y, z: z > -5 - NEAR)
-        deck.sizes, deck.pairs = inside, [("SLAVE", "SLAVE", None), ("SIDE", "UPPER", side), ("SIDE", "LOWER", side)]
+        deck.sizes, deck.pairs = inside, [
+            ("SLAVE", "SLAVE", None),
+            ("SIDE", "UPPER", side),
+            ("SIDE", "LOWER", side),
+        ]
         deck.hold("X", deck.members(0, lambda x, y, z: x < NEAR), 1)
         deck.hold("Y", deck.members(0, lambda x, y, z: True), 2)
         deck.hold("Z", deck.members(0, lambda x, y, z: z < -5 + NEAR), 3)
@@ -458,12 +525,25 @@ class HollowBlock:
             return "–"
         work, squeezing = 0.0, None  # trapezoidal, as billet's
         for before, after in zip(rows, rows[1:]):
-            work += 0.5 * (before[3] + after[3]) * 5 * (after[0] - before[0]) * (-1 if after[0] < 1 + 1e-6 else 1)
+            work += (
+                0.5 * (before[3] + after[3]) * 5 * (after[0] - before[0]) * (-1 if after[0] < 1 + 1e-6 else 1)
+            )
             squeezing = work if abs(after[0] - 1) < 1e-6 else squeezing
         return self.text(squeezing, work)
 
 
-SCENES = [Ironing(), PressFit(), Hertz(), Dies(), Spheres(), Twist(), Patch(), CutPatch(), TurnedBlocks(), HollowBlock()]
+SCENES = [
+    Ironing(),
+    PressFit(),
+    Hertz(),
+    Dies(),
+    Spheres(),
+    Twist(),
+    Patch(),
+    CutPatch(),
+    TurnedBlocks(),
+    HollowBlock(),
+]
 if options.quick:
     SCENES = SCENES[:4]
 if options.scene:
@@ -477,20 +557,46 @@ def compare(scene):
         return json.loads(kept.read_text())
     rows = []
     augmented = getattr(scene, "augmented", None)
-    variants = {"billet, augmented": {}, "billet, penalty alone": {augmented: 0}} if augmented else {"billet": {}}
+    variants = (
+        {"billet, augmented": {}, "billet, penalty alone": {augmented: 0}} if augmented else {"billet": {}}
+    )
     for name, changes in variants.items():
         with tempfile.TemporaryDirectory() as folder:
             run = ExplicitRun(ROOT / f"prm/{scene.name}.prm", changes, folder)
-            rows.append(["" if rows else f"`{scene.name}`", name, run.steps, int(run.rows[-1]["total_cuts"]),
-                         int(run.rows[-1]["total_iterations"]), number(run.seconds), scene.billet(run), "" if run.finished else run.failure])
+            rows.append(
+                [
+                    "" if rows else f"`{scene.name}`",
+                    name,
+                    run.steps,
+                    int(run.rows[-1]["total_cuts"]),
+                    int(run.rows[-1]["total_iterations"]),
+                    number(run.seconds),
+                    scene.billet(run),
+                    "" if run.finished else run.failure,
+                ]
+            )
     deck = scene.deck()
     penalty = getattr(scene, "penalty", None) or deck.penalty()
-    for contact, shorter in [(NODES, 1), (FACES_CONTACT, 1)] + ([(NODES, 10), (FACES_CONTACT, 10)] if scene.name in SHORTER else []):
+    for contact, shorter in [(NODES, 1), (FACES_CONTACT, 1)] + (
+        [(NODES, 10), (FACES_CONTACT, 10)] if scene.name in SHORTER else []
+    ):
         with tempfile.TemporaryDirectory() as folder:
-            end = deck.write(Path(folder, "deck.inp"), contact, scene.friction, penalty, scene.prints, shorter)
+            end = deck.write(
+                Path(folder, "deck.inp"), contact, scene.friction, penalty, scene.prints, shorter
+            )
             job = CcxJob(folder, end, LIMIT)
-            rows.append(["", "ccx, " + contact.lower() + (f", steps of a {shorter}th" if shorter > 1 else ""), job.steps, job.cuts, job.iterations, number(job.seconds), scene.ccx(folder, deck),
-                         f"stops at {job.time:.3g} of {end:.3g}: {job.failure}" if job.failure else ""])
+            rows.append(
+                [
+                    "",
+                    "ccx, " + contact.lower() + (f", steps of a {shorter}th" if shorter > 1 else ""),
+                    job.steps,
+                    job.cuts,
+                    job.iterations,
+                    number(job.seconds),
+                    scene.ccx(folder, deck),
+                    f"stops at {job.time:.3g} of {end:.3g}: {job.failure}" if job.failure else "",
+                ]
+            )
             print(rows[-1], flush=True)
     found = rows, [f"`{scene.name}`", f"{penalty:.3g}", scene.friction or "none", scene.result]
     if kept:
@@ -501,22 +607,46 @@ def compare(scene):
 
 if __name__ == "__main__":
     compared = [compare(scene) for scene in SCENES]
-    version = re.search(r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout).group(1)
+    version = re.search(
+        r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout
+    ).group(1)
     options.quick = options.quick or bool(options.scene)
     publish(
-        "implicit-ccx", "Deformable bodies in billet and in CalculiX", options,
-        "The scenes of `prm/` in which deformable bodies touch each other, as they are, and the same in CalculiX "
-        f"{version}: the mesh that billet has written, the same penalty, friction, motion, and first, smallest and largest steps; C3D8 (the billet C3D8R, "
-        "see [billet-ccx](billet-ccx.md)); node-to-surface and surface-to-surface penalty contact; defaults otherwise: it stops at 0.5 % of the force, as billet does "
-        "where the scene sets no tolerance. Elastic bodies get a yield stress beyond reach, since CalculiX's elasticity is one of large strain with plasticity only: with "
-        "`*ELASTIC` alone it grows soft in compression, and the ironed slab resists with 28 N instead of 42 N. billet's logarithmic law and CalculiX's differ at large strain "
-        "all the same. The turn of the twisted hemisphere is one of ten straight parts in CalculiX.",
-        f"Each run once, on one core of a busy machine, CalculiX for {LIMIT} CPU seconds at most: CPU seconds (user and system) are to be read as ratios; 0.3 to 0.6 of billet's are its start. "
-        "Iterations count those of failed steps. What CalculiX says when it stops is quoted.",
-        table(["scene", "program", "steps", "cuts", "iterations", "CPU s", "result", "fails"], [row for rows, _ in compared for row in rows]),
+        "implicit-ccx",
+        "Deformable bodies in billet and in CalculiX",
+        options,
+        (
+            "The scenes of `prm/` in which deformable bodies touch each other, as they are, and the same in"
+            f" CalculiX {version}: the mesh that billet has written, the same penalty, friction, motion, and"
+            " first, smallest and largest steps; C3D8 (the billet C3D8R, see [billet-ccx](billet-ccx.md));"
+            " node-to-surface and surface-to-surface penalty contact; defaults otherwise: it stops at 0.5 %"
+            " of the force, as billet does where the scene sets no tolerance. Elastic bodies get a yield"
+            " stress beyond reach, since CalculiX's elasticity is one of large strain with plasticity only:"
+            " with `*ELASTIC` alone it grows soft in compression, and the ironed slab resists with 28 N"
+            " instead of 42 N. billet's logarithmic law and CalculiX's differ at large strain all the same."
+            " The turn of the twisted hemisphere is one of ten straight parts in CalculiX."
+        ),
+        (
+            f"Each run once, on one core of a busy machine, CalculiX for {LIMIT} CPU seconds at most: CPU"
+            " seconds (user and system) are to be read as ratios; 0.3 to 0.6 of billet's are its start."
+            " Iterations count those of failed steps. What CalculiX says when it stops is quoted."
+        ),
+        table(
+            ["scene", "program", "steps", "cuts", "iterations", "CPU s", "result", "fails"],
+            [row for rows, _ in compared for row in rows],
+        ),
         "## What is compared",
         table(["scene", "penalty [N/mm³]", "friction", "result"], [row for _, row in compared]),
-        "Penalties are billet's own: ten times E/h of both sides in series, h the root of the faces' mean area, unless the scene has a number; billet augments two scenes, and is shown "
-        "with the penalty alone, too.",
-        "## Self-contact\n\nCalculiX knows pairs of a slave and a master surface. It takes one surface as both, as here the inside of `hollow_block`, whose plates are bricks: nodes against faces it stops, "
-        "faces against faces it comes through. `ring_crush` has a tool with fillets, which CalculiX, without analytical surfaces, would need as a mesh: it has not been tried (billet: 60 steps, 316 iterations).")
+        (
+            "Penalties are billet's own: ten times E/h of both sides in series, h the root of the faces' mean"
+            " area, unless the scene has a number; billet augments two scenes, and is shown with the penalty"
+            " alone, too."
+        ),
+        (
+            "## Self-contact\n\nCalculiX knows pairs of a slave and a master surface. It takes one surface as"
+            " both, as here the inside of `hollow_block`, whose plates are bricks: nodes against faces it"
+            " stops, faces against faces it comes through. `ring_crush` has a tool with fillets, which"
+            " CalculiX, without analytical surfaces, would need as a mesh: it has not been tried (billet: 60"
+            " steps, 316 iterations)."
+        ),
+    )

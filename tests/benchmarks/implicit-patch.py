@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Patch tests in statics: stress errors of facets, passes, penalties and augmentation on distorted meshes that do not match."""
+"""Patch tests in statics: stress errors of facets, passes, penalties and augmentation on distorted meshes
+that do not match."""
 
 import tempfile
 
@@ -11,17 +12,34 @@ from explicit_runs import ExplicitRun
 options = arguments("implicit-patch")
 PAIR = "Contact pairs/cut/"
 UNIT = 2e5 / 0.5  # E/h of the lower part
-METHODS = [("overlap", "one"), ("overlap", "two"), ("planed", "one"), ("planed", "two"), ("bilinear", "one"), ("bilinear", "two")]
+METHODS = [
+    ("overlap", "one"),
+    ("overlap", "two"),
+    ("planed", "one"),
+    ("planed", "two"),
+    ("bilinear", "one"),
+    ("bilinear", "two"),
+]
 PENALTIES = (0.01, 1, 10, 100) if options.quick else (0.01, 0.1, 1, 10, 100, 1e4)
 
 
 def solve(scene, facets, passes, penalty, tolerance, changes):
     """Largest deviation of an element's stress from the mean, relative to the mean, and Newton iterations."""
     with tempfile.TemporaryDirectory() as folder:
-        r = ExplicitRun(ROOT / "prm" / scene, {PAIR + "Facets": facets, PAIR + "Passes": passes, PAIR + "Normal penalty": penalty,
-                                               PAIR + "Penetration tolerance": tolerance, "Output/Every steps": 0,
-                                               "Solver/Most augmentations": 100, **changes},
-                        folder, options.ranks)
+        r = ExplicitRun(
+            ROOT / "prm" / scene,
+            {
+                PAIR + "Facets": facets,
+                PAIR + "Passes": passes,
+                PAIR + "Normal penalty": penalty,
+                PAIR + "Penetration tolerance": tolerance,
+                "Output/Every steps": 0,
+                "Solver/Most augmentations": 100,
+                **changes,
+            },
+            folder,
+            options.ranks,
+        )
         if not r.finished:
             return "–"
         fields = r.picture()[1]
@@ -30,12 +48,17 @@ def solve(scene, facets, passes, penalty, tolerance, changes):
     weights = numpy.array([1, 1, 1, 2, 2, 2])
     mean = stress.mean(axis=0)
     error = float(numpy.sqrt(((stress - mean) ** 2 @ weights).max() / (mean**2 @ weights)))
-    return ("< 1e-7" if error < 1e-7 else f"{100 * error:.2g} %") + f" ({int(r.rows[-1]['total_iterations'])})"
+    return (
+        "< 1e-7" if error < 1e-7 else f"{100 * error:.2g} %"
+    ) + f" ({int(r.rows[-1]['total_iterations'])})"
 
 
 def rows(scene, tolerance=0, unit=UNIT, changes=None, penalties=PENALTIES):
-    return [[facets, passes] + [solve(scene, facets, passes, unit * k, tolerance, changes or {}) for k in penalties]
-            for facets, passes in METHODS]
+    return [
+        [facets, passes]
+        + [solve(scene, facets, passes, unit * k, tolerance, changes or {}) for k in penalties]
+        for facets, passes in METHODS
+    ]
 
 
 HEAD = ["facets", "passes"] + [f"{k:g} E/h" for k in PENALTIES]
@@ -43,19 +66,27 @@ STIFF = [k for k in PENALTIES if k >= 1]
 STIFF_HEAD = ["facets", "passes"] + [f"{k:g} E/h" for k in STIFF]
 FACTOR = {PAIR + "Penalty unit": "factor"}
 publish(
-    "implicit-patch", "Patch tests in statics", options,
-    "Two parts of a block, 4 elements across on 3, all vertices within them and on the interface moved by 22 % of an element "
-    "of the lower and 30 % of the upper part. "
-    "Largest deviation of an element's stress from the mean of all, relative to that, and in parentheses Newton iterations, of "
-    "two steps. Pictures hold single precision: what is below 1e-7 is uniform to that; the test `implicit_patch` asserts 1e-8. "
-    "A dash: no solution, without cuts of the steps; at 0.01 and 0.1 E/h nodes would go deeper than contact follows them. The nodal elements, which hold nodes out of facets, cannot be exact, "
-    "whatever their penalty.",
+    "implicit-patch",
+    "Patch tests in statics",
+    options,
+    (
+        "Two parts of a block, 4 elements across on 3, all vertices within them and on the interface moved by"
+        " 22 % of an element of the lower and 30 % of the upper part. Largest deviation of an element's"
+        " stress from the mean of all, relative to that, and in parentheses Newton iterations, of two steps."
+        " Pictures hold single precision: what is below 1e-7 is uniform to that; the test `implicit_patch`"
+        " asserts 1e-8. A dash: no solution, without cuts of the steps; at 0.01 and 0.1 E/h nodes would go"
+        " deeper than contact follows them. The nodal elements, which hold nodes out of facets, cannot be"
+        " exact, whatever their penalty."
+    ),
     "CalculiX 2.20 on undistorted meshes that do not match (own measurements): node-to-surface 14 to 31 %.",
     "## Turned block (`prm/patch_test.prm`)\n\n" + table(HEAD, rows("patch_test.prm")),
-    "## The same, augmented to a penetration of 1e-6 facet sizes\n\n" +
-    table(STIFF_HEAD, rows("patch_test.prm", 1e-6, penalties=STIFF)),
-    "## The same with penalties as factors\n\nOverlapping facets take the mean factor of E/h for a whole surface; for nodes "
-    "it is larger where facets are smaller.\n\n" + table(HEAD, rows("patch_test.prm", unit=1, changes=FACTOR)),
-    "## Inclined cut with friction (`prm/patch_test_cut.prm`)\n\nThe penetration displaces the upper part along the cut, beyond "
-    "whose ends it finds nothing: that error goes with the penetration. At 10000 E/h round-off of positions times the penalty is "
-    "all that is left of the forces.\n\n" + table(HEAD, rows("patch_test_cut.prm")))
+    "## The same, augmented to a penetration of 1e-6 facet sizes\n\n"
+    + table(STIFF_HEAD, rows("patch_test.prm", 1e-6, penalties=STIFF)),
+    "## The same with penalties as factors\n\nOverlapping facets take the mean factor of E/h for a whole"
+    " surface; for nodes it is larger where facets are smaller.\n\n"
+    + table(HEAD, rows("patch_test.prm", unit=1, changes=FACTOR)),
+    "## Inclined cut with friction (`prm/patch_test_cut.prm`)\n\nThe penetration displaces the upper part"
+    " along the cut, beyond whose ends it finds nothing: that error goes with the penetration. At 10000 E/h"
+    " round-off of positions times the penalty is all that is left of the forces.\n\n"
+    + table(HEAD, rows("patch_test_cut.prm")),
+)

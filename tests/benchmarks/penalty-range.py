@@ -3,7 +3,7 @@
 
 import math
 
-from billet_runs import ROOT, Run, arguments, number, percent, publish, table
+from billet_runs import ROOT, Run, arguments, percent, publish, table
 
 options = arguments("penalty-range")
 FACTORS = (0.1, 1, 10, 1e3, 1e5) if options.quick else (0.1, 1, 10, 100, 1e3, 1e4, 1e5, 1e6)
@@ -21,7 +21,11 @@ def run(scene, pair, column, changes):
 
 def force(result, column):
     """Largest component at the end."""
-    return max(abs(float(result.rows[-1][f"{column}.force_{i}"])) for i in "xyz") if result.converged else math.nan
+    return (
+        max(abs(float(result.rows[-1][f"{column}.force_{i}"])) for i in "xyz")
+        if result.converged
+        else math.nan
+    )
 
 
 parts = []
@@ -32,9 +36,19 @@ for scene, (pair, column, _) in SCENES.items():
     settings = {f"Contact pairs/{pair}/Penalty unit": "factor"}
 
     def at(factor, tolerance, **more):
-        return run(scene, pair, column, {**settings, f"Contact pairs/{pair}/Normal penalty": factor,
-                                         f"Contact pairs/{pair}/Penetration tolerance": tolerance, "Solver/Most augmentations": 60,
-                                         "Solver/Force tolerance": 1e-8, **more})
+        return run(
+            scene,
+            pair,
+            column,
+            {
+                **settings,
+                f"Contact pairs/{pair}/Normal penalty": factor,
+                f"Contact pairs/{pair}/Penetration tolerance": tolerance,
+                "Solver/Most augmentations": 60,
+                "Solver/Force tolerance": 1e-8,
+                **more,
+            },
+        )
 
     exact = force(at(10, 1e-6), column)
     rows = []
@@ -42,22 +56,59 @@ for scene, (pair, column, _) in SCENES.items():
         result = at(factor, 0)
         tight = at(factor, 0, **{"Solver/Force tolerance": 1e-15, "Solver/Energy tolerance": 1e-24})
         residual = max(float(row["residual"]) for row in tight.rows) if tight.converged else math.nan
-        rows.append([f"{factor:g}", "–", result.steps if result.converged else "fails", result.cuts, result.iterations,
-                     percent(abs(force(result, column) / exact - 1)) if result.converged else "–",
-                     f"{residual:.0e}" if tight.converged else "not reached"])
+        rows.append(
+            [
+                f"{factor:g}",
+                "–",
+                result.steps if result.converged else "fails",
+                result.cuts,
+                result.iterations,
+                percent(abs(force(result, column) / exact - 1)) if result.converged else "–",
+                f"{residual:.0e}" if tight.converged else "not reached",
+            ]
+        )
     for tolerance in TOLERANCES:
         for factor in (1, 10, 100):
             result = at(factor, tolerance)
-            rows.append([f"{factor:g}", f"{tolerance:g}", result.steps if result.converged else "fails", result.cuts, result.iterations,
-                         percent(abs(force(result, column) / exact - 1)) if result.converged else "–", ""])
-    parts.append(f"## {scene}\n\n" + table(["penalty [E/h]", "augmented to", "steps", "cuts", "iterations", "error of the force",
-                                            "residual at best"], rows))
+            rows.append(
+                [
+                    f"{factor:g}",
+                    f"{tolerance:g}",
+                    result.steps if result.converged else "fails",
+                    result.cuts,
+                    result.iterations,
+                    percent(abs(force(result, column) / exact - 1)) if result.converged else "–",
+                    "",
+                ]
+            )
+    parts.append(
+        f"## {scene}\n\n"
+        + table(
+            [
+                "penalty [E/h]",
+                "augmented to",
+                "steps",
+                "cuts",
+                "iterations",
+                "error of the force",
+                "residual at best",
+            ],
+            rows,
+        )
+    )
 
 publish(
-    "penalty-range", "Eight decades of the penalty", options,
-    "The billet until half of its travel, two cylinders, a press fit, as shipped but for the penalty, in parts of E/h, and the augmentation, in facet sizes. "
-    "Residuals below 1e-8 of the forces. Errors are of the force at the end, from that of 10 E/h augmented to 1e-6 of a facet on the same mesh. The last column: what is "
-    "left of the residual where Newton's method is asked for 1e-15, the largest of all steps, of which three last bits of a position times the penalty are taken "
-    "as nothing: how many of sixteen digits the penalty takes. Where errors no longer fall as the penalty "
-    "grows they are the reference's.",
-    *parts)
+    "penalty-range",
+    "Eight decades of the penalty",
+    options,
+    (
+        "The billet until half of its travel, two cylinders, a press fit, as shipped but for the penalty, in"
+        " parts of E/h, and the augmentation, in facet sizes. Residuals below 1e-8 of the forces. Errors are"
+        " of the force at the end, from that of 10 E/h augmented to 1e-6 of a facet on the same mesh. The"
+        " last column: what is left of the residual where Newton's method is asked for 1e-15, the largest of"
+        " all steps, of which three last bits of a position times the penalty are taken as nothing: how many"
+        " of sixteen digits the penalty takes. Where errors no longer fall as the penalty grows they are the"
+        " reference's."
+    ),
+    *parts,
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What penetration alone takes of the forces by default, beside penalties of 10 E/h alone, which were the default before."""
+"""What penetration alone takes of the forces by default, beside penalties of 10 E/h alone, which were the
+default before."""
 
 import math
 import re
@@ -21,13 +22,23 @@ def scene(name):
 
 
 SCENES = [  # label, file, changes
-    ("hollow block", scene("hollow_block"), {}), ("passing spheres", scene("passing_spheres"), {}), ("turned blocks", scene("turned_blocks"), {}),
-    ("Hertz, cylinders", scene("hertz_cylinders"), {}), ("press fit", scene("press_fit"), {}), ("thin slab", SLAB, {}), ("stacked plates", PLATES, {}),
-    ("thin slab", SLAB, {SCHEME: "implicit dynamics", **IN_MOTION}), ("stacked plates", PLATES, {SCHEME: "implicit dynamics"}),
+    ("hollow block", scene("hollow_block"), {}),
+    ("passing spheres", scene("passing_spheres"), {}),
+    ("turned blocks", scene("turned_blocks"), {}),
+    ("Hertz, cylinders", scene("hertz_cylinders"), {}),
+    ("press fit", scene("press_fit"), {}),
+    ("thin slab", SLAB, {}),
+    ("stacked plates", PLATES, {}),
+    ("thin slab", SLAB, {SCHEME: "implicit dynamics", **IN_MOTION}),
+    ("stacked plates", PLATES, {SCHEME: "implicit dynamics"}),
     ("drop hammer", scene("drop_hammer"), {}),
-    ("thin slab", SLAB, {SCHEME: "explicit", "Time stepping/Initial step": None, **IN_MOTION}), ("stacked plates", PLATES, {SCHEME: "explicit"}),
-    ("Taylor's bar", scene("taylor_bar"), {}), ("tubes", scene("tube_impact"), {}), ("tube crush, to 1 ms", scene("tube_crush"), {"Time stepping/End time": "1e-3"}),
-    ("cartridge, to 0.3 ms", scene("cartridge"), {"Time stepping/End time": "3e-4"})]
+    ("thin slab", SLAB, {SCHEME: "explicit", "Time stepping/Initial step": None, **IN_MOTION}),
+    ("stacked plates", PLATES, {SCHEME: "explicit"}),
+    ("Taylor's bar", scene("taylor_bar"), {}),
+    ("tubes", scene("tube_impact"), {}),
+    ("tube crush, to 1 ms", scene("tube_crush"), {"Time stepping/End time": "1e-3"}),
+    ("cartridge, to 0.3 ms", scene("cartridge"), {"Time stepping/End time": "3e-4"}),
+]
 if options.quick:
     SCENES = [row for row in SCENES if row[1] in (SLAB, PLATES)]
 
@@ -36,7 +47,9 @@ def impulse_error(run, exact):
     if not run.finished or not exact.finished:
         return math.nan
     found, right = ({name: sums[-1] for name, sums in impulses(of).items()} for of in (run, exact))
-    return sum(math.dist(found[name], right[name]) for name in right) / sum(math.hypot(*right[name]) for name in right)
+    return sum(math.dist(found[name], right[name]) for name in right) / sum(
+        math.hypot(*right[name]) for name in right
+    )
 
 
 rows, told, worst = [], [], {}
@@ -44,16 +57,35 @@ for label, path, changes in SCENES:
     entries = read_entries(path)
     kind = changes.get(SCHEME, entries.get(SCHEME, "quasi-static"))
     pairs = sorted({key.split("/")[1] for key in entries if key.startswith("Contact pairs/")})
-    bare = {**changes, **{key: None for key in entries if key.startswith("Contact pairs/") and key.split("/")[-1] in OF_PENALTIES}}
+    bare = {
+        **changes,
+        **{
+            key: None
+            for key in entries
+            if key.startswith("Contact pairs/") and key.split("/")[-1] in OF_PENALTIES
+        },
+    }
 
     def each(**values):
-        return {f"Contact pairs/{pair}/{key.replace('_', ' ')}": value for pair in pairs for key, value in values.items()}
+        return {
+            f"Contact pairs/{pair}/{key.replace('_', ' ')}": value
+            for pair in pairs
+            for key, value in values.items()
+        }
 
     flat = 20 if path == SLAB else 1  # facet over thickness
     if kind == "quasi-static":
-        error, before, tight = curve_error, each(Penetration_tolerance=0), {**each(Penetration_tolerance=repr(1e-5 / flat**2)), "Solver/Most augmentations": 60}
+        error, before, tight = (
+            curve_error,
+            each(Penetration_tolerance=0),
+            {**each(Penetration_tolerance=repr(1e-5 / flat**2)), "Solver/Most augmentations": 60},
+        )
     else:
-        error, before, tight = impulse_error, each(Normal_penalty=10), each(Normal_penalty=(40 if path.stem == "drop_hammer" else 1000) * flat)
+        error, before, tight = (
+            impulse_error,
+            each(Normal_penalty=10),
+            each(Normal_penalty=(40 if path.stem == "drop_hammer" else 1000) * flat),
+        )
         if kind == "explicit":
             tight = {**tight, "Explicit dynamics/Safety factor": "0.7"}
     exact, run, old = (CurveRun(path, {**bare, **more}, options.ranks) for more in (tight, {}, before))
@@ -61,17 +93,50 @@ for label, path, changes in SCENES:
     warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", run.said + run.failure)))
     worst.setdefault(kind, []).append((off, label, "contact-too-soft" in warnings))
     raised = re.findall(r"raised to ([0-9.e+]+) E/h", run.said)
-    rows.append([label, kind, percent(was), percent(off), f"{old.work} → {run.work}", f"{number(old.seconds)} → {number(run.seconds)}",
-                 ", ".join(raised[-2:]), ", ".join(f"`{w}`" for w in warnings)])
+    rows.append(
+        [
+            label,
+            kind,
+            percent(was),
+            percent(off),
+            f"{old.work} → {run.work}",
+            f"{number(old.seconds)} → {number(run.seconds)}",
+            ", ".join(raised[-2:]),
+            ", ".join(f"`{w}`" for w in warnings),
+        ]
+    )
 
 said = []
 for kind, found in worst.items():
     above = [f"{label} {percent(off)}" for off, label, _ in found if not off <= LIMIT]
-    said.append(f"{kind}: {len(found) - len(above)} of {len(found)} within {100 * LIMIT:g} %" + (f" (not {', '.join(above)})" if above else ""))
+    said.append(
+        f"{kind}: {len(found) - len(above)} of {len(found)} within {100 * LIMIT:g} %"
+        + (f" (not {', '.join(above)})" if above else "")
+    )
 publish(
-    "penetration", "What penetration takes of the forces", options,
-    "Shipped scenes, a slab of one layer and three plates, with the penalties that the program chooses, beside 10 E/h alone, the default until 2026-11-22. Meshes, "
-    "steps and tolerances are the scenes'. References: statics augmented to 1e-5 of a facet (slab: 2.5e-8), motion with 1000 E/h (slab: of its thickness; drop hammer 40, more takes hours). Errors: in statics ∫Σ|F − F*| dt over ∫Σ|F*| dt of all tools and "
-    "pairs; in motion the same of the impulses ∫F dt, since forces vibrate. Work: Newton iterations; of explicit scenes element updates. Seconds of a shared machine. Each run once.",
+    "penetration",
+    "What penetration takes of the forces",
+    options,
+    (
+        "Shipped scenes, a slab of one layer and three plates, with the penalties that the program chooses,"
+        " beside 10 E/h alone, the default until 2026-11-22. Meshes, steps and tolerances are the scenes'."
+        " References: statics augmented to 1e-5 of a facet (slab: 2.5e-8), motion with 1000 E/h (slab: of its"
+        " thickness; drop hammer 40, more takes hours). Errors: in statics ∫Σ|F − F*| dt over ∫Σ|F*| dt of"
+        " all tools and pairs; in motion the same of the impulses ∫F dt, since forces vibrate. Work: Newton"
+        " iterations; of explicit scenes element updates. Seconds of a shared machine. Each run once."
+    ),
     "; ".join(said) + ".",
-    table(["scene", "scheme", "error before", "error", "work", "CPU seconds", "penalties raised to [E/h]", "warnings"], rows))
+    table(
+        [
+            "scene",
+            "scheme",
+            "error before",
+            "error",
+            "work",
+            "CPU seconds",
+            "penalties raised to [E/h]",
+            "warnings",
+        ],
+        rows,
+    ),
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Press fit of two rings: contact pressure and stresses against Lamé, over mesh, with penalty alone and augmented."""
+"""Press fit of two rings: contact pressure and stresses against Lamé, over mesh, with penalty alone and
+augmented."""
 
 import math
 import tempfile
@@ -12,13 +13,24 @@ from explicit_runs import ExplicitRun
 options = arguments("press-fit")
 PAIR = "Contact pairs/fit/"
 A, B, C, INTERFERENCE, E, NU = 10.0, 20.0, 30.0, 0.01, 2e5, 0.3
-PRESSURE = E / (1 - NU**2) * INTERFERENCE / B * (B**2 - A**2) * (C**2 - B**2) / (2 * B**2 * (C**2 - A**2))
+PRESSURE = (
+    E
+    / (1 - NU**2)
+    * INTERFERENCE
+    / B
+    * (B**2 - A**2)
+    * (C**2 - B**2)
+    / (2 * B**2 * (C**2 - A**2))
+)
 
 
 def exact(r, sign):
     """Hoop (sign 1) or radial (sign -1) stress."""
-    return numpy.where(r < B, -PRESSURE * B**2 / (B**2 - A**2) * (1 + sign * A**2 / r**2),
-                       PRESSURE * B**2 / (C**2 - B**2) * (1 + sign * C**2 / r**2))
+    return numpy.where(
+        r < B,
+        -PRESSURE * B**2 / (B**2 - A**2) * (1 + sign * A**2 / r**2),
+        PRESSURE * B**2 / (C**2 - B**2) * (1 + sign * C**2 / r**2),
+    )
 
 
 def layers(around):
@@ -27,11 +39,16 @@ def layers(around):
 
 
 def solve(inner, outer, tolerance):
-    """Errors of force, pressures, hoop and radial stresses (root mean squares over the elements) and iterations, with so many
-    elements around the quarters; None without a solution."""
-    changes = {"Bodies/inner/Mesh/Arguments": f"{layers(inner)}, {inner}, 1 : {A}, 0, 0 : {B + INTERFERENCE}, 90, 1 : true",
-               "Bodies/outer/Mesh/Arguments": f"{layers(outer)}, {outer}, 1 : {B}, 0, 0 : {C}, 90, 1 : true",
-               PAIR + "Penetration tolerance": tolerance, "Output/Every steps": 0}
+    """Errors of force, pressures, hoop and radial stresses (root mean squares over the elements) and
+    iterations, with so many elements around the quarters; None without a solution."""
+    changes = {
+        "Bodies/inner/Mesh/Arguments": (
+            f"{layers(inner)}, {inner}, 1 : {A}, 0, 0 : {B + INTERFERENCE}, 90, 1 : true"
+        ),
+        "Bodies/outer/Mesh/Arguments": f"{layers(outer)}, {outer}, 1 : {B}, 0, 0 : {C}, 90, 1 : true",
+        PAIR + "Penetration tolerance": tolerance,
+        "Output/Every steps": 0,
+    }
     with tempfile.TemporaryDirectory() as folder:
         r = ExplicitRun(ROOT / "prm/press_fit.prm", changes, folder, options.ranks)
         if not r.finished:
@@ -50,8 +67,14 @@ def solve(inner, outer, tolerance):
         right = exact(radius, sign)
         return math.sqrt(((found - right) ** 2).mean() / (right**2).mean())
 
-    return (abs(r.rows[-1]["fit.force_x"]) / (PRESSURE * B) - 1, abs(pressures).max(), deviation(hoop, 1), deviation(radial, -1),
-            r.rows[-1]["fit.contact_area"] / (math.pi / 2 * B), int(r.rows[-1]["total_iterations"]))
+    return (
+        abs(r.rows[-1]["fit.force_x"]) / (PRESSURE * B) - 1,
+        abs(pressures).max(),
+        deviation(hoop, 1),
+        deviation(radial, -1),
+        r.rows[-1]["fit.contact_area"] / (math.pi / 2 * B),
+        int(r.rows[-1]["total_iterations"]),
+    )
 
 
 def rows(pairs, tolerance):
@@ -67,25 +90,52 @@ def rows(pairs, tolerance):
         def order(now, before):
             return number(math.log2(before / now), 2) if last else ""
 
-        lines.append([f"{inner} in {outer}", f"{100 * force:+.2g} %", percent(pressure), percent(hoop), order(hoop, last and last[2]),
-                      percent(radial), order(radial, last and last[3]), percent(area, 3), iterations])
+        lines.append(
+            [
+                f"{inner} in {outer}",
+                f"{100 * force:+.2g} %",
+                percent(pressure),
+                percent(hoop),
+                order(hoop, last and last[2]),
+                percent(radial),
+                order(radial, last and last[3]),
+                percent(area, 3),
+                iterations,
+            ]
+        )
         last = found
     return lines
 
 
-HEAD = ["elements around", "force", "largest of a pressure", "hoop stress", "order", "radial stress", "order", "area in contact",
-        "iterations"]
+HEAD = [
+    "elements around",
+    "force",
+    "largest of a pressure",
+    "hoop stress",
+    "order",
+    "radial stress",
+    "order",
+    "area in contact",
+    "iterations",
+]
 SAME = [(n, n) for n in ((8, 16, 32) if options.quick else (8, 16, 32, 64))]
 OTHER = [(3 * n, 2 * n) for n in ((6, 12, 24) if options.quick else (6, 12, 24, 48, 96))]
 publish(
-    "press-fit", "Press fit of two rings", options,
-    "`prm/press_fit.prm`: interference 0.01 at a radius of 20, `Initial penetration = ramp`, plane strain, half as many elements "
-    "across a ring as around it (24 of 288 and of 192), two steps. Errors against Lamé's pressure and stresses: of the force between the halves, the largest of a node's "
-    "pressure, the stresses as root mean squares over elements. Lamé's law is linear and does not know whose radius is 20; that is some "
-    "0.05 % here.",
+    "press-fit",
+    "Press fit of two rings",
+    options,
+    (
+        "`prm/press_fit.prm`: interference 0.01 at a radius of 20, `Initial penetration = ramp`, plane"
+        " strain, half as many elements across a ring as around it (24 of 288 and of 192), two steps. Errors"
+        " against Lamé's pressure and stresses: of the force between the halves, the largest of a node's"
+        " pressure, the stresses as root mean squares over elements. Lamé's law is linear and does not know"
+        " whose radius is 20; that is some 0.05 % here."
+    ),
     "## Meshes that match, penalty alone (10 E/h in series)\n\n" + table(HEAD, rows(SAME, 0)),
     "## The same, augmented to 1e-5 facet sizes\n\n" + table(HEAD, rows(SAME, 1e-5)),
-    "## Meshes that do not match, penalty alone\n\nFaces are flat facets: chords of different lengths leave their circle by different "
-    "heights, h²/(8 R), at 18 facets in 12 more than the interference. They touch where corners are, and fit tighter than the circles. "
-    "The error of the force falls with the square of the facet size; the pressure becomes smooth only where h²/(8 R) is smaller than what "
-    "it takes to press a facet flat, about h p/E.\n\n" + table(HEAD, rows(OTHER, 0)))
+    "## Meshes that do not match, penalty alone\n\nFaces are flat facets: chords of different lengths leave"
+    " their circle by different heights, h²/(8 R), at 18 facets in 12 more than the interference. They touch"
+    " where corners are, and fit tighter than the circles. The error of the force falls with the square of"
+    " the facet size; the pressure becomes smooth only where h²/(8 R) is smaller than what it takes to press"
+    " a facet flat, about h p/E.\n\n" + table(HEAD, rows(OTHER, 0)),
+)

@@ -13,8 +13,15 @@ PROFILES = ("fast", "balanced", "accurate")
 
 # What profiles set, in any scheme: scenes are run without it, so that it is the profile's.
 PROFILED = {
-    "Time stepping": ("Initial step", "Smallest step", "Largest step", "Error tolerance", "Few iterations", "Many iterations",
-                      "Growth factor"),
+    "Time stepping": (
+        "Initial step",
+        "Smallest step",
+        "Largest step",
+        "Error tolerance",
+        "Few iterations",
+        "Many iterations",
+        "Growth factor",
+    ),
     "Implicit dynamics": ("Error tolerance",),
     "Solver": ("Force tolerance", "Energy tolerance", "Displacement tolerance", "Linear tolerance"),
     "Contact pairs": ("Penetration tolerance",),
@@ -28,20 +35,29 @@ CUT = {
     "wagoner_punch_mu_0": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "wagoner_punch_mu_015": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "passing_spheres": {"Bodies/upper/Mesh/Refinements": 1, "Bodies/lower/Mesh/Refinements": 1},
-    "twisted_hemisphere": {"Bodies/block/Mesh/Arguments": "8, 8, 3 : -1, -1, -1 : 1, 1, 0 : true",
-                           "Bodies/punch/Mesh/Arguments": "7, 7, 3 : -1, -1, 0 : 1, 1, 1 : true"},
+    "twisted_hemisphere": {
+        "Bodies/block/Mesh/Arguments": "8, 8, 3 : -1, -1, -1 : 1, 1, 0 : true",
+        "Bodies/punch/Mesh/Arguments": "7, 7, 3 : -1, -1, 0 : 1, 1, 1 : true",
+    },
     "tube_crush": {"Time stepping/End time": 5e-5},
     "cartridge": {"Time stepping/End time": 4e-5},
     "drop_hammer": {"Time stepping/End time": 2e-3},
-    "hertz_cylinders": {"Bodies/lower/Mesh/Arguments": "20, 1, 10 : 0, 0, -1 : 1, 0.1, 0 : true",
-                        "Bodies/upper/Mesh/Arguments": "17, 1, 10 : 0, 0, 0 : 1, 0.1, 1 : true"},
-    "press_fit": {"Bodies/inner/Mesh/Arguments": "4, 12, 1 : 10, 0, 0 : 20.01, 90, 1 : true",
-                  "Bodies/outer/Mesh/Arguments": "4, 12, 1 : 20, 0, 0 : 30, 90, 1 : true"},
+    "hertz_cylinders": {
+        "Bodies/lower/Mesh/Arguments": "20, 1, 10 : 0, 0, -1 : 1, 0.1, 0 : true",
+        "Bodies/upper/Mesh/Arguments": "17, 1, 10 : 0, 0, 0 : 1, 0.1, 1 : true",
+    },
+    "press_fit": {
+        "Bodies/inner/Mesh/Arguments": "4, 12, 1 : 10, 0, 0 : 20.01, 90, 1 : true",
+        "Bodies/outer/Mesh/Arguments": "4, 12, 1 : 20, 0, 0 : 30, 90, 1 : true",
+    },
     "turned_blocks": {"Time stepping/End time": 5},
     "tube_impact": {"Time stepping/End time": 1e-4},
     "taylor_bar": {"Bodies/bar/Mesh/Refinements": 1, "Bodies/bar/Mesh/Layers": 24, "Output/Interval": 0},
-    "billet_deformable_dies": {"Time stepping/End time": 0.5, "Time stepping/Stops": None,
-                               "Bodies/die/Mesh/Arguments": "5, 5, 2 : 0, 0, 15 : 20, 20, 25 : true"},
+    "billet_deformable_dies": {
+        "Time stepping/End time": 0.5,
+        "Time stepping/Stops": None,
+        "Bodies/die/Mesh/Arguments": "5, 5, 2 : 0, 0, 15 : 20, 20, 25 : true",
+    },
     "ring_crush": {"Time stepping/End time": 1, "Time stepping/Stops": None},
     "hollow_block": {"Time stepping/End time": 1, "Time stepping/Stops": None},
     "ironing": {"Time stepping/End time": 1.6, "Time stepping/Stops": 1},
@@ -55,27 +71,48 @@ def left_to_profiles(path):
     found = {}
     for key in entries:
         section, name = key.split("/")[0], key.split("/")[-1]
-        if name in PROFILED.get(section, ()) and not (scheme == "implicit dynamics" and section == "Time stepping"):
+        if name in PROFILED.get(section, ()) and not (
+            scheme == "implicit dynamics" and section == "Time stepping"
+        ):
             found[key] = None
-        if scheme == "explicit" and name == "Normal penalty" and entries.get(
-                key.replace(name, "Penalty unit"), "factor") == "factor":
+        if (
+            scheme == "explicit"
+            and name == "Normal penalty"
+            and entries.get(key.replace(name, "Penalty unit"), "factor") == "factor"
+        ):
             found[key] = None
     return found
 
 
 def without_time(changes, path):
-    """A run that has hardly begun, but has (shorter first steps fail on Wagoner's punch): what setting up costs."""
+    """A run that has hardly begun, but has (shorter first steps fail on Wagoner's punch): what setting up
+    costs."""
     entries = {**read_entries(path), **{key: value for key, value in changes.items() if value is not None}}
     end = float(entries.get("Time stepping/End time", 1))
-    steps = {} if entries.get("Time stepping/Scheme") == "explicit" else {
-        f"Time stepping/{name} step": repr(1e-5 * end) for name in (
-            ("Initial",) if entries.get("Time stepping/Step control") == "fixed" else ("Initial", "Smallest", "Largest"))}
+    steps = (
+        {}
+        if entries.get("Time stepping/Scheme") == "explicit"
+        else {
+            f"Time stepping/{name} step": repr(1e-5 * end)
+            for name in (
+                ("Initial",)
+                if entries.get("Time stepping/Step control") == "fixed"
+                else ("Initial", "Smallest", "Largest")
+            )
+        }
+    )
     return {**changes, **steps, "Time stepping/End time": repr(1e-5 * end), "Time stepping/Stops": None}
 
 
-# Of static and implicit scenes: penetration tolerance, residual, and error tolerance of dynamics, tightest first; where contacts come and go
-# the tightest may find no end.
-TIGHT = ((1e-6, 1e-10, 1e-6), (1e-5, 1e-10, 1e-6), (1e-4, 1e-10, 1e-6), (3e-4, 1e-9, 3e-6), (1e-3, 1e-8, 1e-5))
+# Of static and implicit scenes: penetration tolerance, residual, and error tolerance of dynamics, tightest
+# first; where contacts come and go the tightest may find no end.
+TIGHT = (
+    (1e-6, 1e-10, 1e-6),
+    (1e-5, 1e-10, 1e-6),
+    (1e-4, 1e-10, 1e-6),
+    (3e-4, 1e-9, 3e-6),
+    (1e-3, 1e-8, 1e-5),
+)
 
 
 def reference(path, changes, depth, residual, dynamic):
@@ -84,16 +121,30 @@ def reference(path, changes, depth, residual, dynamic):
     end = float(entries.get("Time stepping/End time", 1))
     names = sorted({key.split("/")[1] for key in entries if key.startswith("Contact pairs/")})
     if entries.get("Time stepping/Scheme") == "explicit":
-        return {"Explicit dynamics/Safety factor": 0.3, "Explicit dynamics/Contact resolution": 4,
-                **{f"Contact pairs/{name}/Normal penalty": 100 for name in names
-                   if entries.get(f"Contact pairs/{name}/Penalty unit", "factor") == "factor"},
-                **{f"Bodies/{key.split('/')[1]}/Element": entries.get(f"Bodies/{key.split('/')[1]}/Element",
-                                                                      "assumed strain")
-                   for key in entries if key.startswith("Bodies/")}}
-    if entries.get("Time stepping/Scheme") == "implicit dynamics":  # nodes that come in cannot stop within a step
+        return {
+            "Explicit dynamics/Safety factor": 0.3,
+            "Explicit dynamics/Contact resolution": 4,
+            **{
+                f"Contact pairs/{name}/Normal penalty": 100
+                for name in names
+                if entries.get(f"Contact pairs/{name}/Penalty unit", "factor") == "factor"
+            },
+            **{
+                f"Bodies/{key.split('/')[1]}/Element": entries.get(
+                    f"Bodies/{key.split('/')[1]}/Element", "assumed strain"
+                )
+                for key in entries
+                if key.startswith("Bodies/")
+            },
+        }
+    # nodes that come in cannot stop within a step
+    if entries.get("Time stepping/Scheme") == "implicit dynamics":
         return {"Solver/Force tolerance": max(residual, 1e-9), "Implicit dynamics/Error tolerance": dynamic}
-    result = {"Solver/Force tolerance": residual, "Solver/Most augmentations": 60,
-              **{f"Contact pairs/{name}/Penetration tolerance": depth for name in names}}
+    result = {
+        "Solver/Force tolerance": residual,
+        "Solver/Most augmentations": 60,
+        **{f"Contact pairs/{name}/Penetration tolerance": depth for name in names},
+    }
     result["Time stepping/Initial step"] = repr(end / 400)
     if entries.get("Time stepping/Step control") != "fixed":
         result["Time stepping/Largest step"] = repr(end / 400)
@@ -103,8 +154,12 @@ def reference(path, changes, depth, residual, dynamic):
 rows, csv_rows, errors, failures, looser = [], [], {}, {}, {}
 for path in sorted((ROOT / "prm").glob("*.prm")):
     cut = {**left_to_profiles(path), **CUT.get(path.stem, {})}
-    exact, *runs = run_all(path, [{**cut, **reference(path, cut, *TIGHT[0])}] + [{**cut, "Profile": profile} for profile in PROFILES],
-                           options.ranks, at_once=2)
+    exact, *runs = run_all(
+        path,
+        [{**cut, **reference(path, cut, *TIGHT[0])}] + [{**cut, "Profile": profile} for profile in PROFILES],
+        options.ranks,
+        at_once=2,
+    )
     for tight in TIGHT[1:] if not exact.finished and not exact.is_explicit else ():
         exact = CurveRun(path, {**cut, **reference(path, cut, *tight)}, options.ranks)
         if exact.finished:
@@ -119,32 +174,68 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
         off = error(run, exact) if exact.finished and run.finished else math.nan
         errors.setdefault(path.stem, {})[profile] = off
         unit = "element updates" if run.is_explicit else "iterations"
-        csv_rows.append([path.stem, profile, run.finished, run.steps, run.work, unit, f"{run.seconds:.4g}", f"{off:.4g}"])
-        done = [run.steps, run.work, number(run.seconds), percent(off)] if run.finished else \
-            [f"stops at {run.times[-1] if run.times else 0:.2g}", run.work, number(run.seconds), "–"]
+        csv_rows.append(
+            [path.stem, profile, run.finished, run.steps, run.work, unit, f"{run.seconds:.4g}", f"{off:.4g}"]
+        )
+        done = (
+            [run.steps, run.work, number(run.seconds), percent(off)]
+            if run.finished
+            else [f"stops at {run.times[-1] if run.times else 0:.2g}", run.work, number(run.seconds), "–"]
+        )
         ratio = ""
         if profile == "fast" and run.finished and runs["accurate"].finished:
             spent = [max(one.seconds - set_up, 0.01) for one in (runs["accurate"], run)]
             ratio = f"{spent[0] / spent[1]:.1f} / {runs['accurate'].work / run.work:.1f}"
         rows.append([path.stem + (" (cut)" if path.stem in CUT else ""), profile] + done + [ratio])
-    csv_rows.append([path.stem, "reference", exact.finished, exact.steps, exact.work, unit, f"{exact.seconds:.4g}", ""])
+    csv_rows.append(
+        [path.stem, "reference", exact.finished, exact.steps, exact.work, unit, f"{exact.seconds:.4g}", ""]
+    )
 
 cheaper = sum(1 for row in rows if row[-1] and float(row[-1].split("/")[0]) >= 4.0)
 shown = sum(1 for row in rows if row[-1])
 publish(
-    "profiles", "What the profiles cost, and how far they are off", options,
-    "Every shipped scene with `Profile` = fast, balanced and accurate, without what the scene itself sets of it (in absolute units "
-    "penalties stay); those marked cut with less time or a coarser mesh, as in the script. Work: Newton iterations with those of failed steps and of estimates, of explicit scenes element "
-    "updates. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of explicit scenes of "
-    "kinetic energy and of what is stored or dissipated, against a reference on the same mesh: 400 steps (implicit dynamics: an "
-    "error tolerance of 1e-6, and the penalties of the scene, whose error is not in it), augmented to 1e-6 of a facet, residuals below 1e-10; explicit: assumed "
-    "strains, the scene's law, a penalty factor of 100 where penalties are factors, a safety factor of 0.3 and a contact "
-    "resolution of 4. What the mesh makes is not in it. The last column: CPU seconds / work of accurate over fast, "
-    "the seconds without those of setting up, which are those of a run of 1e-5 of the time (the less of two; none where that fails; at least 0.01 s are left of each, so that the largest ratios are rough). Each run once.",
-    f"fast takes a quarter of accurate's CPU seconds or less in {cheaper} of {shown} scenes in which both end. " + " ".join(filter(None, (
-        no_better(errors), without_errors(failures), "" if not looser else "The reference is a looser one, since the tightest finds no end, in " + ", ".join(
-            f"{name} (augmented to {depth:g} of a facet)" for name, depth in looser.items())
-        + ": errors near those of accurate are no more than an order of magnitude there."))),
-    table(["scene", "profile", "steps", "work", "CPU seconds", "error", "accurate / fast"], rows))
+    "profiles",
+    "What the profiles cost, and how far they are off",
+    options,
+    (
+        "Every shipped scene with `Profile` = fast, balanced and accurate, without what the scene itself sets"
+        " of it (in absolute units penalties stay); those marked cut with less time or a coarser mesh, as in"
+        " the script. Work: Newton iterations with those of failed steps and of estimates, of explicit scenes"
+        " element updates. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of"
+        " explicit scenes of kinetic energy and of what is stored or dissipated, against a reference on the"
+        " same mesh: 400 steps (implicit dynamics: an error tolerance of 1e-6, and the penalties of the"
+        " scene, whose error is not in it), augmented to 1e-6 of a facet, residuals below 1e-10; explicit:"
+        " assumed strains, the scene's law, a penalty factor of 100 where penalties are factors, a safety"
+        " factor of 0.3 and a contact resolution of 4. What the mesh makes is not in it. The last column: CPU"
+        " seconds / work of accurate over fast, the seconds without those of setting up, which are those of a"
+        " run of 1e-5 of the time (the less of two; none where that fails; at least 0.01 s are left of each,"
+        " so that the largest ratios are rough). Each run once."
+    ),
+    f"fast takes a quarter of accurate's CPU seconds or less in {cheaper} of {shown} scenes in which both"
+    " end. "
+    + " ".join(
+        filter(
+            None,
+            (
+                no_better(errors),
+                without_errors(failures),
+                (
+                    ""
+                    if not looser
+                    else "The reference is a looser one, since the tightest finds no end, in "
+                    + ", ".join(
+                        f"{name} (augmented to {depth:g} of a facet)" for name, depth in looser.items()
+                    )
+                    + ": errors near those of accurate are no more than an order of magnitude there."
+                ),
+            ),
+        )
+    ),
+    table(["scene", "profile", "steps", "work", "CPU seconds", "error", "accurate / fast"], rows),
+)
 if not options.quick:
-    write_csv("profiles", ["scene", "profile", "finished", "steps", "work", "unit", "cpu_seconds", "error"], csv_rows)
+    write_csv(
+        "profiles",
+        ["scene", "profile", "finished", "steps", "work", "unit", "cpu_seconds", "error"],
+        csv_rows,
+    )

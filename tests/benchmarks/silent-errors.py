@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs scenes by the hundred and counts those that are wrong in silence: off, with exit code 0 and no warning."""
+"""Runs scenes by the hundred and counts those that are wrong in silence: off, with exit code 0 and no
+warning."""
 
 import argparse
 import hashlib
@@ -14,12 +15,18 @@ from silent_errors_runs import OUTCOMES, SECONDS, Runner, prm
 from silent_errors_scenes import ABOUT, FAMILIES
 
 parser = argparse.ArgumentParser(prog="scripts/benchmarks silent-errors")
-parser.add_argument("--family", action="append", choices=FAMILIES, help="only these; more than once for more than one")
+parser.add_argument(
+    "--family", action="append", choices=FAMILIES, help="only these; more than once for more than one"
+)
 parser.add_argument("--every", type=int, default=1, metavar="N", help="every N-th run of each family (1)")
 parser.add_argument("--quick", action="store_true", help="every tenth run, and no page")
-parser.add_argument("--kept", action="store_true", help="report the runs that are kept, with their references")
+parser.add_argument(
+    "--kept", action="store_true", help="report the runs that are kept, with their references"
+)
 parser.add_argument("--jobs", type=int, default=1, help="runs at a time (1)")
-parser.add_argument("--folder", default=str(ROOT / "results/silent-errors"), help="where runs are kept (%(default)s)")
+parser.add_argument(
+    "--folder", default=str(ROOT / "results/silent-errors"), help="where runs are kept (%(default)s)"
+)
 parser.add_argument("--only", default="", help="runs whose name has this in it")
 options = parser.parse_args()
 options.large, options.ranks = False, 1
@@ -28,12 +35,21 @@ is_part = options.family or options.only
 runner = Runner(options.folder)
 families = options.family or list(FAMILIES)
 every = 10 if options.quick else options.every
-cases = [case for name in families for case in [c for c in FAMILIES[name]() if options.only in c.name][::every]]
+cases = [
+    case for name in families for case in [c for c in FAMILIES[name]() if options.only in c.name][::every]
+]
 planned = Counter(case.family for case in cases)
 if options.kept:
     # What was stopped was compared with nothing.
-    cases = [case for case in cases if runner.has(case.scene)
-             and (not runner.run(case.scene).finished or all(runner.has(r.scene) for r in case.references if r.scene))]
+    cases = [
+        case
+        for case in cases
+        if runner.has(case.scene)
+        and (
+            not runner.run(case.scene).finished
+            or all(runner.has(r.scene) for r in case.references if r.scene)
+        )
+    ]
 options.quick = options.quick or bool(is_part)  # only a whole run is published
 
 
@@ -48,7 +64,11 @@ def judged(case):
     if outcome not in ("right", "warned"):
         said = " ".join(why.split())[:300]
         file_of(case).write_text(f"# {outcome}: {said}\n" + prm.text(case.scene))
-        print(f"{outcome:8} {case.family}: {case.name}: {said} [{time.monotonic() - begin:.0f} s]", file=sys.stderr, flush=True)
+        print(
+            f"{outcome:8} {case.family}: {case.name}: {said} [{time.monotonic() - begin:.0f} s]",
+            file=sys.stderr,
+            flush=True,
+        )
     return case, outcome, " ".join(why.split()), errors
 
 
@@ -64,24 +84,49 @@ for family in families:
     total = sum(of.values())
     ended = sum(of[name] for name in ("right", "warned", "wrong", "unclear"))
     if total:
-        rows.append([family, total if total == planned[family] else f"{total} of {planned[family]}"] + [of[name] for name in OUTCOMES] + [f"{100 * ended / total:.0f} %"])
+        rows.append(
+            [family, total if total == planned[family] else f"{total} of {planned[family]}"]
+            + [of[name] for name in OUTCOMES]
+            + [f"{100 * ended / total:.0f} %"]
+        )
 bad = [[case.family, case.name, why] for case, outcome, why, _ in results if outcome == "wrong"]
-others = [[case.family, outcome, case.name, why[:200].replace("|", "/")] for case, outcome, why, _ in results
-          if outcome in ("no end", "crashed", "refused", "unclear")]
+others = [
+    [case.family, outcome, case.name, why[:200].replace("|", "/")]
+    for case, outcome, why, _ in results
+    if outcome in ("no end", "crashed", "refused", "unclear")
+]
 
-reasons = Counter((case.family, re.sub(r"\d[\d.e+-]*|'[^']*'", "…", why)[:160].replace("|", "/")) for case, outcome, why, _ in results if outcome == "stopped")
+reasons = Counter(
+    (case.family, re.sub(r"\d[\d.e+-]*|'[^']*'", "…", why)[:160].replace("|", "/"))
+    for case, outcome, why, _ in results
+    if outcome == "stopped"
+)
 stops = [[family, times, why] for (family, why), times in sorted(reasons.items())]
 
 publish(
-    "silent-errors", "Runs that are wrong in silence", options,
-    f"Each run counts once. *Right*: its force (of impacts: the impulse) is what the reference has. *Warned*: it is off and a warning says so. *Stopped*: the program ended it "
-    f"with a message. *Wrong*: it is off, or ended without a message, in silence. *No end*: within {SECONDS} s of a processor. *Unclear*: it is off by less than three times what "
-    "two references differ by. Where the reference has the run's own mesh, no warning about the mesh excuses a difference."
+    "silent-errors",
+    "Runs that are wrong in silence",
+    options,
+    "Each run counts once. *Right*: its force (of impacts: the impulse) is what the reference has. *Warned*:"
+    " it is off and a warning says so. *Stopped*: the program ended it with a message. *Wrong*: it is off,"
+    f" or ended without a message, in silence. *No end*: within {SECONDS} s of a processor. *Unclear*: it is"
+    " off by less than three times what two references differ by. Where the reference has the run's own"
+    " mesh, no warning about the mesh excuses a difference."
     + (f" Every {every}th run of each family (`--every {every}`)." if every > 1 else "")
-    + (" Only some runs of the plan, those that were kept (`--kept`)." if options.kept and len(cases) < sum(planned.values()) else ""),
+    + (
+        " Only some runs of the plan, those that were kept (`--kept`)."
+        if options.kept and len(cases) < sum(planned.values())
+        else ""
+    ),
     table(["family", "runs"] + list(OUTCOMES) + ["finished"], rows),
-    "## What runs are compared with", table(["family", "scenes", "reference"], [[name, *ABOUT[name]] for name in families]),
-    *(["## Wrong in silence", table(["family", "settings", "how far"], bad)] if bad else ["No run is wrong in silence."]),
+    "## What runs are compared with",
+    table(["family", "scenes", "reference"], [[name, *ABOUT[name]] for name in families]),
+    *(
+        ["## Wrong in silence", table(["family", "settings", "how far"], bad)]
+        if bad
+        else ["No run is wrong in silence."]
+    ),
     *(["## Not judged", table(["family", "outcome", "settings", "why"], others)] if others else []),
-    *(["## Stopped", table(["family", "times", "with"], stops)] if stops else []))
+    *(["## Stopped", table(["family", "times", "with"], stops)] if stops else []),
+)
 sys.exit(1 if bad else 0)

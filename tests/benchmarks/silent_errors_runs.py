@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs of the benchmark silent-errors: kept in a folder, so that it can be interrupted, and judged against references."""
+"""Runs of the benchmark silent-errors: kept in a folder, so that it can be interrupted, and judged against
+references."""
 
 import csv
 import hashlib
@@ -21,9 +22,19 @@ from billet_trade.runs import read_json, write_json  # noqa: E402
 from extremes import prm  # noqa: E402
 from extremes.runner import ALONE  # noqa: E402
 
-# Warnings about the mesh hold for a reference on the same mesh, too: they do not explain a difference from it.
-OF_THE_MESH = {"bricks-may-lock", "coarse-on-tool", "element-too-soft", "element-too-stiff", "faceted-curvature",
-               "few-contact-nodes", "flat-elements", "pressure-checkerboard", "tool-smaller-than-facets"}
+# Warnings about the mesh hold for a reference on the same mesh, too: they do not explain a difference from
+# it.
+OF_THE_MESH = {
+    "bricks-may-lock",
+    "coarse-on-tool",
+    "element-too-soft",
+    "element-too-stiff",
+    "faceted-curvature",
+    "few-contact-nodes",
+    "flat-elements",
+    "pressure-checkerboard",
+    "tool-smaller-than-facets",
+}
 OUTCOMES = ("right", "warned", "stopped", "wrong", "no end", "crashed", "refused", "unclear")
 SECONDS, REFERENCE_SECONDS = 240, 240  # of a processor
 UNKNOWN = 0.25  # error of a reference without another one
@@ -31,8 +42,9 @@ UNKNOWN = 0.25  # error of a reference without another one
 
 @dataclass(frozen=True)
 class Reference:
-    """What a run is compared with. `scene` is run for it, and `finer`, if the comparison fails: a run is wrong
-    only if it is off by what is allowed and twice the difference of both. Without scenes it is a closed form, which the judge has."""
+    """What a run is compared with. `scene` is run for it, and `finer`, if the comparison fails: a run is
+    wrong only if it is off by what is allowed and twice the difference of both. Without scenes it is a closed
+    form, which the judge has."""
 
     scene: dict | None
     finer: dict | None = None
@@ -51,8 +63,8 @@ class Case:
 
 
 class Kept:
-    """What a run left: `code` (None: out of time), `stderr`, `history` (columns), `bodies` (means of displacements and
-    velocities at the end), `records`."""
+    """What a run left: `code` (None: out of time), `stderr`, `history` (columns), `bodies` (means of
+    displacements and velocities at the end), `records`."""
 
     def __init__(self, record):
         self.code, self.stderr, self.seconds = record["code"], record["stderr"], record["seconds"]
@@ -98,21 +110,55 @@ class Runner:
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder)
             (place / "scene.prm").write_text(text)
-            done = Measured([str(self.program), "scene.prm"], place, seconds, env={**os.environ, **ALONE, "TMPDIR": folder})
+            done = Measured(
+                [str(self.program), "scene.prm"],
+                place,
+                seconds,
+                env={**os.environ, **ALONE, "TMPDIR": folder},
+            )
             out_of_time = done.code < 0 and done.seconds > 0.9 * seconds
             results = place / "results"
             history = {}
             if (results / "history.csv").exists():
                 with open(results / "history.csv", newline="") as stream:
                     rows = [row for row in csv.DictReader(stream) if None not in row.values()]
-                wanted = [name for name in (rows[0] if rows else {}) if name in ("time", "total_iterations", "total_cuts")
-                          or name.endswith(("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z", "_energy", "_work",
-                                            "_dissipation", "energy_drift", "travel_x", "travel_y", "travel_z", "turn", "momentum_x", "momentum_y", "momentum_z"))]
+                wanted = [
+                    name
+                    for name in (rows[0] if rows else {})
+                    if name in ("time", "total_iterations", "total_cuts")
+                    or name.endswith(
+                        (
+                            "force_x",
+                            "force_y",
+                            "force_z",
+                            "moment_x",
+                            "moment_y",
+                            "moment_z",
+                            "_energy",
+                            "_work",
+                            "_dissipation",
+                            "energy_drift",
+                            "travel_x",
+                            "travel_y",
+                            "travel_z",
+                            "turn",
+                            "momentum_x",
+                            "momentum_y",
+                            "momentum_z",
+                        )
+                    )
+                ]
                 history = {name: [float(row[name]) for row in rows] for name in wanted}
             pictures = sorted(results.glob("fields_*.pvtu"))
-            return {"code": None if out_of_time else done.code, "limit": seconds, "seconds": done.seconds,
-                    "stderr": done.stderr[-1500:], "history": history, "records": read_records(results / "diagnostics.jsonl"),
-                    "bodies": means(read_grid(pictures[-1])) if pictures and not out_of_time else {}}
+            return {
+                "code": None if out_of_time else done.code,
+                "limit": seconds,
+                "seconds": done.seconds,
+                "stderr": done.stderr[-1500:],
+                "history": history,
+                "records": read_records(results / "diagnostics.jsonl"),
+                "bodies": means(read_grid(pictures[-1])) if pictures and not out_of_time else {},
+            }
 
     def outcome(self, case):
         """Of a case, why, and how far it is off: {reference: error}."""
@@ -158,7 +204,9 @@ class Runner:
         second = self.run(reference.finer, REFERENCE_SECONDS)
         if not second.finished:
             return error, UNKNOWN
-        return reference.judge(run, second), reference.judge(first, second, True) if first.finished else UNKNOWN
+        return reference.judge(run, second), (
+            reference.judge(first, second, True) if first.finished else UNKNOWN
+        )
 
 
 OUTCOMES_BY_WEIGHT = ("right", "unclear", "warned", "wrong")
@@ -170,18 +218,23 @@ def last(run):
 
 
 def means(fields):
-    """Mean displacement and velocity of each body, in the order of their numbers; of elements of equal size."""
+    """Mean displacement and velocity of each body, in the order of their numbers; of elements of equal
+    size."""
     found = {}
     for number in sorted(set(fields["body"])):
         of = fields["body"] == number
-        found[str(int(round(number)))] = {name: fields[name][of].mean(axis=0).tolist()
-                                          for name in ("displacement", "velocity") if name in fields}
+        found[str(int(round(number)))] = {
+            name: fields[name][of].mean(axis=0).tolist()
+            for name in ("displacement", "velocity")
+            if name in fields
+        }
     return found
 
 
 def force_curve(names, clock=lambda time: time):
-    """Largest difference of the forces at the ends of the run's steps, relative to the largest force of the reference.
-    `clock`: the reference's time at a time of the run."""
+    """Largest difference of the forces at the ends of the run's steps, relative to the largest force of the
+    reference. `clock`: the reference's time at a time of the run."""
+
     def judge(run, reference, same_clock=False):
         if not len(run.history.get("time", [])):
             return math.nan
@@ -194,21 +247,32 @@ def force_curve(names, clock=lambda time: time):
             off = max(off, float(numpy.linalg.norm(run.force(name) - exact, axis=1).max()))
             size = max(size, float(numpy.linalg.norm(curve, axis=1).max()))
         return off / size if size > 0 else math.nan
+
     return judge
 
 
 def force_at(names, times):
-    """The same at ends of steps that all runs have: between them forces may change faster than references have steps."""
+    """The same at ends of steps that all runs have: between them forces may change faster than references
+    have steps."""
+
     def judge(run, reference, same_clock=False):
-        rows = [[int(numpy.argmin(abs(r.history["time"] - time))) for time in times] for r in (run, reference)]
-        off = max(float(numpy.linalg.norm(run.force(n)[rows[0]] - reference.force(n)[rows[1]], axis=1).max()) for n in names)
+        rows = [
+            [int(numpy.argmin(abs(r.history["time"] - time))) for time in times] for r in (run, reference)
+        ]
+        off = max(
+            float(numpy.linalg.norm(run.force(n)[rows[0]] - reference.force(n)[rows[1]], axis=1).max())
+            for n in names
+        )
         return off / max(float(numpy.linalg.norm(reference.force(n)[rows[1]], axis=1).max()) for n in names)
+
     return judge
 
 
 def impulse(body, start):
     """Difference of the mean velocity of a body at the end, relative to its change in the reference."""
+
     def judge(run, reference, same_clock=False):
         ends = [numpy.array(r.bodies[body]["velocity"]) for r in (run, reference)]
         return float(numpy.linalg.norm(ends[0] - ends[1]) / numpy.linalg.norm(ends[1] - numpy.array(start)))
+
     return judge

@@ -1,7 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The billet with all of its load in one step: what cuts make of it, and how far one step goes without, by tangent."""
+"""The billet with all of its load in one step: what cuts make of it, and how far one step goes without, by
+tangent."""
 
-from billet_runs import TANGENT, TANGENTS, Run, arguments, fixed_steps, mesh, n_elements, number, percent, publish, table
+from billet_runs import (
+    TANGENT,
+    TANGENTS,
+    Run,
+    arguments,
+    fixed_steps,
+    mesh,
+    n_elements,
+    percent,
+    publish,
+    table,
+)
 
 options = arguments("single-step")
 LEVELS = (1,) if options.quick else (1, 2)
@@ -14,12 +26,20 @@ def has_changed_tangent(run):
 
 
 def reach(changes, n):
-    """Which of the steps of 1/n, 2/n, ... of the travel this tangent does alone, without a cut: the upsetting to which it does
-    all of them, and the largest that it does. It may take 60 iterations."""
+    """Which of the steps of 1/n, 2/n, ... of the travel this tangent does alone, without a cut: the upsetting
+    to which it does all of them, and the largest that it does. It may take 60 iterations."""
     done = []
     for i in range(1, n + 1):
-        run = Run({**changes, "Time stepping/Step control": "fixed", "Time stepping/Initial step": i / n,
-                   "Time stepping/End time": i / n, "Output/Verbosity": "steps"}, options.ranks)
+        run = Run(
+            {
+                **changes,
+                "Time stepping/Step control": "fixed",
+                "Time stepping/Initial step": i / n,
+                "Time stepping/End time": i / n,
+                "Output/Verbosity": "steps",
+            },
+            options.ranks,
+        )
         done.append(run.converged and not has_changed_tangent(run))
     first = done.index(False) if False in done else n
     furthest = max((i + 1 for i, is_done in enumerate(done) if is_done), default=0)
@@ -36,8 +56,19 @@ for level in LEVELS:
 
     for n in (10, 20, 50):
         run = Run({**mesh(level), **fixed_steps(n)}, options.ranks)
-        rows.append([f"exact, {n} steps", run.steps, run.cuts, run.iterations, percent(0.64 / n),
-                     percent(off(run)) if run.converged else run.failure, "", "", ""])
+        rows.append(
+            [
+                f"exact, {n} steps",
+                run.steps,
+                run.cuts,
+                run.iterations,
+                percent(0.64 / n),
+                percent(off(run)) if run.converged else run.failure,
+                "",
+                "",
+                "",
+            ]
+        )
         if n == 20:
             slope = off(run) * n  # the error is of first order in the step
     for tangent in (*TANGENTS, "numerical"):
@@ -47,20 +78,50 @@ for level in LEVELS:
             if level == 1 or tangent in TANGENTS[:2]:
                 run = Run({**changes, **whole}, options.ranks)
                 largest = max(b - a for a, b in zip(run.times, run.times[1:]))
-                row = [name + ", all at once" + (", then exact" if has_changed_tangent(run) else ""), run.steps, run.cuts, run.iterations,
-                       percent(0.64 * largest), percent(off(run)) if run.converged else run.failure, percent(slope * largest)]
+                row = [
+                    name + ", all at once" + (", then exact" if has_changed_tangent(run) else ""),
+                    run.steps,
+                    run.cuts,
+                    run.iterations,
+                    percent(0.64 * largest),
+                    percent(off(run)) if run.converged else run.failure,
+                    percent(slope * largest),
+                ]
             else:
                 row = [name, "", "", "", "", "", ""]
             rows.append(row + reach(changes, 50 if level == 1 else 20))
-    parts.append(f"## {n_elements(level)} bricks\n\n" +
-                 table(["tangent", "steps", "cuts", "iterations", "largest step [of the height]", "force at the end", "equal steps as large", "every single step to", "furthest"], rows))
+    parts.append(
+        f"## {n_elements(level)} bricks\n\n"
+        + table(
+            [
+                "tangent",
+                "steps",
+                "cuts",
+                "iterations",
+                "largest step [of the height]",
+                "force at the end",
+                "equal steps as large",
+                "every single step to",
+                "furthest",
+            ],
+            rows,
+        )
+    )
 
 publish(
-    "single-step", "The whole load in one step", options,
-    "Upsetting of the billet by 64 %, µ = 0.1, the paper's penalty: first in equal steps, then with the whole travel as the first and largest step, which is cut as "
-    "Newton's method asks for it and grows again. The force at the end is compared with that of 200 equal steps; *equal steps as large*: what these would be off, in "
-    "proportion to twenty equal steps, since the error is of first order in the step. *Every single step to*, *furthest*: fixed steps of so much of the height from the undeformed state, "
-    "in fiftieths of the travel (of 480 bricks in twentieths), with this tangent alone, without a cut: up to the first all converge, and the second is the largest of "
-    "all that do; in between it is luck. *Then exact*: steps could not be cut any more, and the exact "
-    "tangent took over. Empty: not run, since the same on 60 bricks took up to thousands of iterations.",
-    *parts)
+    "single-step",
+    "The whole load in one step",
+    options,
+    (
+        "Upsetting of the billet by 64 %, µ = 0.1, the paper's penalty: first in equal steps, then with the"
+        " whole travel as the first and largest step, which is cut as Newton's method asks for it and grows"
+        " again. The force at the end is compared with that of 200 equal steps; *equal steps as large*: what"
+        " these would be off, in proportion to twenty equal steps, since the error is of first order in the"
+        " step. *Every single step to*, *furthest*: fixed steps of so much of the height from the undeformed"
+        " state, in fiftieths of the travel (of 480 bricks in twentieths), with this tangent alone, without a"
+        " cut: up to the first all converge, and the second is the largest of all that do; in between it is"
+        " luck. *Then exact*: steps could not be cut any more, and the exact tangent took over. Empty: not"
+        " run, since the same on 60 bricks took up to thousands of iterations."
+    ),
+    *parts,
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Prints an STL file of a torus fillet about the z axis, as of a die: an open surface, whose normals point away from the tube's middle."""
+"""Prints an STL file of a torus fillet about the z axis, as of a die: an open surface, whose normals point
+away from the tube's middle."""
 
 import argparse
 import math
@@ -7,13 +8,27 @@ import struct
 import sys
 
 parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--centre", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z"), help="of the ring")
+parser.add_argument(
+    "--centre", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z"), help="of the ring"
+)
 parser.add_argument("--ring", type=float, required=True, help="radius of the circle in the tube's middle")
 parser.add_argument("--tube", type=float, required=True, help="radius of the tube")
-parser.add_argument("--tube-angle", type=float, nargs=2, default=(90.0, 180.0), metavar=("FROM", "TO"),
-                    help="the part of the tube, in degrees: 0 away from the axis, 90 along it")
-parser.add_argument("--sector", type=float, nargs=2, default=(0.0, 360.0), metavar=("FROM", "TO"),
-                    help="how far it goes round, in degrees from the x axis")
+parser.add_argument(
+    "--tube-angle",
+    type=float,
+    nargs=2,
+    default=(90.0, 180.0),
+    metavar=("FROM", "TO"),
+    help="the part of the tube, in degrees: 0 away from the axis, 90 along it",
+)
+parser.add_argument(
+    "--sector",
+    type=float,
+    nargs=2,
+    default=(0.0, 360.0),
+    metavar=("FROM", "TO"),
+    help="how far it goes round, in degrees from the x axis",
+)
 parser.add_argument("--around", type=int, default=64, help="facets around the axis")
 parser.add_argument("--along", type=int, default=8, help="facets along the tube's arc")
 parser.add_argument("--inwards", action="store_true", help="let the normals point to the tube's middle")
@@ -26,10 +41,15 @@ def point(options, i, j):
     if turn == 360.0:
         i %= options.around
     around = math.radians(options.sector[0] + turn * i / options.around)
-    along = math.radians(options.tube_angle[0] + (options.tube_angle[1] - options.tube_angle[0]) * j / options.along)
+    along = math.radians(
+        options.tube_angle[0] + (options.tube_angle[1] - options.tube_angle[0]) * j / options.along
+    )
     radius = options.ring + options.tube * math.cos(along)
-    return (options.centre[0] + radius * math.cos(around), options.centre[1] + radius * math.sin(around),
-            options.centre[2] + options.tube * math.sin(along))
+    return (
+        options.centre[0] + radius * math.cos(around),
+        options.centre[1] + radius * math.sin(around),
+        options.centre[2] + options.tube * math.sin(along),
+    )
 
 
 def facets(options):
@@ -52,7 +72,9 @@ def main():
     options = parser.parse_args()
     if not (options.ring > 0 and options.tube > 0 and options.around > 0 and options.along > 0):
         parser.error("radii and numbers of facets must be positive")
-    if not (0 < options.sector[1] - options.sector[0] <= 360 and options.tube_angle[1] > options.tube_angle[0]):
+    if not (
+        0 < options.sector[1] - options.sector[0] <= 360 and options.tube_angle[1] > options.tube_angle[0]
+    ):
         parser.error("angles must ascend, the sector's by at most 360")
     triangles = list(facets(options))
     if options.ascii:

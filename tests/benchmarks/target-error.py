@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Whether runs with a 'Target error' are as accurate as they should be, and what they cost beside runs set by hand."""
+"""Whether runs with a 'Target error' are as accurate as they should be, and what they cost beside runs set by
+hand."""
 
 import math
 import tempfile
@@ -15,7 +16,11 @@ REFERENCE_STEPS = 640
 
 
 def pairs(names, **values):
-    return {f"Contact pairs/{name}/{key.replace('_', ' ')}": value for name in names for key, value in values.items()}
+    return {
+        f"Contact pairs/{name}/{key.replace('_', ' ')}": value
+        for name in names
+        for key, value in values.items()
+    }
 
 
 class Implicit:
@@ -24,27 +29,54 @@ class Implicit:
     unit = "iterations"
 
     def __init__(self, name, pairs, end, changes, depth=1e-5):
-        self.path, self.pairs, self.end, self.changes, self.depth = ROOT / f"prm/{name}.prm", pairs, end, changes, depth
+        self.path, self.pairs, self.end, self.changes, self.depth = (
+            ROOT / f"prm/{name}.prm",
+            pairs,
+            end,
+            changes,
+            depth,
+        )
 
     def steps(self, n):
-        return {"Time stepping/Initial step": repr(self.end / n), "Time stepping/Largest step": repr(self.end / n)}
+        return {
+            "Time stepping/Initial step": repr(self.end / n),
+            "Time stepping/Largest step": repr(self.end / n),
+        }
 
     def reference(self):
-        return {**self.changes, **self.steps(REFERENCE_STEPS), **pairs(self.pairs, Penetration_tolerance=self.depth),
-                "Solver/Force tolerance": 1e-9, "Solver/Most augmentations": 60}
+        return {
+            **self.changes,
+            **self.steps(REFERENCE_STEPS),
+            **pairs(self.pairs, Penetration_tolerance=self.depth),
+            "Solver/Force tolerance": 1e-9,
+            "Solver/Most augmentations": 60,
+        }
 
     def by_hand(self):
         """What a user might set: equal steps, penalties as they are or augmented, tolerances."""
         for n in STEPS:
             for depth, tolerance in ((None, 1e-2), (None, 1e-3), (1e-2, 1e-2), (1e-2, 1e-3), (1e-3, 1e-4)):
-                said = f"{n} steps, " + (f"augmented to {depth:g}" if depth else "penalties") + f", residual {tolerance:g}"
-                yield said, {**self.changes, **self.steps(n), **pairs(self.pairs, Penetration_tolerance=depth),
-                             "Solver/Force tolerance": tolerance,
-                             "Solver/Energy tolerance": 1e-5 if tolerance > 1e-4 else 1e-10}
+                said = (
+                    f"{n} steps, "
+                    + (f"augmented to {depth:g}" if depth else "penalties")
+                    + f", residual {tolerance:g}"
+                )
+                yield said, {
+                    **self.changes,
+                    **self.steps(n),
+                    **pairs(self.pairs, Penetration_tolerance=depth),
+                    "Solver/Force tolerance": tolerance,
+                    "Solver/Energy tolerance": 1e-5 if tolerance > 1e-4 else 1e-10,
+                }
 
     def target(self, target):
-        return {**self.changes, "Target error": target, "Time stepping/Initial step": None,
-                "Time stepping/Largest step": None, **pairs(self.pairs, Penetration_tolerance=None)}
+        return {
+            **self.changes,
+            "Target error": target,
+            "Time stepping/Initial step": None,
+            "Time stepping/Largest step": None,
+            **pairs(self.pairs, Penetration_tolerance=None),
+        }
 
 
 class Explicit:
@@ -54,17 +86,26 @@ class Explicit:
         self.path, self.pairs, self.changes = ROOT / f"prm/{name}.prm", pairs, changes
 
     def reference(self):
-        return {**self.changes, **pairs(self.pairs, Normal_penalty=300), "Explicit dynamics/Safety factor": 0.3,
-                "Explicit dynamics/Contact resolution": 4}
+        return {
+            **self.changes,
+            **pairs(self.pairs, Normal_penalty=300),
+            "Explicit dynamics/Safety factor": 0.3,
+            "Explicit dynamics/Contact resolution": 4,
+        }
 
     def by_hand(self):
         for penalty in (0.3, 1, 3, 10, 30):
             for safety in (0.9, 0.75):
-                for resolution in ((1,) if safety > 0.8 else (2,)):
-                    yield (f"penalty {penalty:g}, safety {safety:g}, resolution {resolution}",
-                           {**self.changes, **pairs(self.pairs, Normal_penalty=penalty),
+                for resolution in (1,) if safety > 0.8 else (2,):
+                    yield (
+                        f"penalty {penalty:g}, safety {safety:g}, resolution {resolution}",
+                        {
+                            **self.changes,
+                            **pairs(self.pairs, Normal_penalty=penalty),
                             "Explicit dynamics/Safety factor": safety,
-                            "Explicit dynamics/Contact resolution": resolution})
+                            "Explicit dynamics/Contact resolution": resolution,
+                        },
+                    )
 
     def target(self, target):
         return {**self.changes, "Target error": target, **pairs(self.pairs, Normal_penalty=None)}
@@ -72,17 +113,35 @@ class Explicit:
 
 SCENES = {
     "billet upsetting": Implicit("billet_upsetting", ["billet on die"], 1.0, {}),
-    "Hertz, two cylinders, 370 bricks": Implicit("hertz_cylinders", ["faces"], 1.0, {
-        "Bodies/lower/Mesh/Arguments": "20, 1, 10 : 0, 0, -1 : 1, 0.1, 0 : true",
-        "Bodies/upper/Mesh/Arguments": "17, 1, 10 : 0, 0, 0 : 1, 0.1, 1 : true"}),
+    "Hertz, two cylinders, 370 bricks": Implicit(
+        "hertz_cylinders",
+        ["faces"],
+        1.0,
+        {
+            "Bodies/lower/Mesh/Arguments": "20, 1, 10 : 0, 0, -1 : 1, 0.1, 0 : true",
+            "Bodies/upper/Mesh/Arguments": "17, 1, 10 : 0, 0, 0 : 1, 0.1, 1 : true",
+        },
+    ),
     # The reference to 1e-5 of a facet ends at time 0.27, where two states of contact take turns.
-    "ironing, pressed down and drawn 2 mm": Implicit("ironing", ["face"], 1.4, {
-        "Time stepping/End time": 1.4, "Time stepping/Stops": 1}, 1e-4),
-    "Wagoner's punch, 48 bricks, 10 mm": Implicit("wagoner_punch", ["blank on punch", "blank on die"], 0.25, {
-        "Bodies/blank/Mesh/Refinements": 2, "Time stepping/End time": 0.25}),
-    "Taylor bar, 192 bricks, 40 us": Explicit("taylor_bar", ["bar on wall"], {
-        "Bodies/bar/Mesh/Refinements": 1, "Bodies/bar/Mesh/Layers": 16, "Time stepping/End time": 40e-6,
-        "Output/Interval": 0}),
+    "ironing, pressed down and drawn 2 mm": Implicit(
+        "ironing", ["face"], 1.4, {"Time stepping/End time": 1.4, "Time stepping/Stops": 1}, 1e-4
+    ),
+    "Wagoner's punch, 48 bricks, 10 mm": Implicit(
+        "wagoner_punch",
+        ["blank on punch", "blank on die"],
+        0.25,
+        {"Bodies/blank/Mesh/Refinements": 2, "Time stepping/End time": 0.25},
+    ),
+    "Taylor bar, 192 bricks, 40 us": Explicit(
+        "taylor_bar",
+        ["bar on wall"],
+        {
+            "Bodies/bar/Mesh/Refinements": 1,
+            "Bodies/bar/Mesh/Layers": 16,
+            "Time stepping/End time": 40e-6,
+            "Output/Interval": 0,
+        },
+    ),
 }
 
 TIMED = 1 if options.quick else 3  # runs, one at a time
@@ -105,13 +164,20 @@ START = start_seconds()
 rows, csv_rows, landed, works, times, bare, beliefs = [], [], 0, [], [], [], []
 for name, scene in SCENES.items():
     by_hand = list(scene.by_hand())
-    reference, *runs = run_all(scene.path, [scene.reference()] + [changes for _, changes in by_hand]
-                               + [scene.target(target) for target in TARGETS], options.ranks)
+    reference, *runs = run_all(
+        scene.path,
+        [scene.reference()]
+        + [changes for _, changes in by_hand]
+        + [scene.target(target) for target in TARGETS],
+        options.ranks,
+    )
     if not reference.finished:
         print(f"{name}: no reference: {reference.failure}")
         continue
-    hand = [(run.work, error(run, reference), said, run, changes) for (said, changes), run in zip(by_hand, runs)]
-    aimed = runs[len(by_hand):]
+    hand = [
+        (run.work, error(run, reference), said, run, changes) for (said, changes), run in zip(by_hand, runs)
+    ]
+    aimed = runs[len(by_hand) :]
     for target, run in zip(TARGETS, aimed):
         off = error(run, reference)
         believed = run.believed.get("error", math.nan)
@@ -128,28 +194,78 @@ for name, scene in SCENES.items():
         times.append(seconds)
         if cheapest:
             bare.append((run.seconds - START) / max(cheapest[3].seconds - START, 0.01))
-        csv_rows.append([name, "target error", target, "", run.work, f"{run.seconds:.3g}", f"{off:.4g}",
-                         f"{believed:.4g}"])
-        rows.append([name, percent(target), percent(off), percent(believed), run.steps, run.work, number(run.seconds),
-                     f"{cheapest[2]}: {cheapest[0]}" if cheapest else "none", number(ratio), number(seconds)])
+        csv_rows.append(
+            [
+                name,
+                "target error",
+                target,
+                "",
+                run.work,
+                f"{run.seconds:.3g}",
+                f"{off:.4g}",
+                f"{believed:.4g}",
+            ]
+        )
+        rows.append(
+            [
+                name,
+                percent(target),
+                percent(off),
+                percent(believed),
+                run.steps,
+                run.work,
+                number(run.seconds),
+                f"{cheapest[2]}: {cheapest[0]}" if cheapest else "none",
+                number(ratio),
+                number(seconds),
+            ]
+        )
     for work, off, said, run, _ in hand:
         csv_rows.append([name, "by hand", "", said, work, f"{run.seconds:.3g}", f"{off:.4g}", ""])
 
 publish(
-    "target-error", "Runs with a target error", options,
-    "Each scene with `Target error` = 10, 3, 1 and 0.3 %, beside runs set by hand. By hand: equal steps (cut where they fail), "
-    "penalties as they are or augmented, tight or loose tolerances; in the explicit scene penalty, safety factor and contact resolution.\n\n"
-    "- Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt, from the end of a run's first step on. F are the forces of all tools and pairs; in the explicit "
-    "scene kinetic energy and what is stored or dissipated.\n"
-    f"- Reference: the same mesh, {REFERENCE_STEPS} steps, augmented to 1e-5 of a facet (ironing: 1e-4), residuals below 1e-9. The explicit "
-    "one has a penalty factor of 300, a safety factor of 0.3 and a contact resolution of 4.\n"
-    "- Work: Newton iterations, with those of failed steps and of estimates, or element updates.\n"
-    "- Ratio: work over that of the cheapest run by hand whose error is no larger than the target. Which one that is turns out once all have "
-    "been compared with the reference.\n"
-    f"- CPU seconds: with set-up, the least of {TIMED} runs, one at a time.",
-    f"{landed} of {len(works)} runs are within their target. {beside_hand_set(works, times)} The program's start takes {number(START, 2)} of these seconds; without it {sum(r <= 1.5 for r in bare)} of {len(bare)} do. What they estimate is {number(min(beliefs))} to "
-    f"{number(max(beliefs))} times their error, below it in {sum(b < 1 for b in beliefs)} of {len(beliefs)}.",
-    table(["scene", "target", "error", "estimated", "steps", "work", "CPU seconds", "cheapest by hand", "ratio of work",
-           "of CPU seconds"], rows))
+    "target-error",
+    "Runs with a target error",
+    options,
+    (
+        "Each scene with `Target error` = 10, 3, 1 and 0.3 %, beside runs set by hand. By hand: equal steps"
+        " (cut where they fail), penalties as they are or augmented, tight or loose tolerances; in the"
+        " explicit scene penalty, safety factor and contact resolution.\n\n- Error: ∫Σ|F − F*| dt over"
+        " ∫Σ|F*| dt, from the end of a run's first step on. F are the forces of all tools and pairs; in the"
+        " explicit scene kinetic energy and what is stored or dissipated.\n- Reference: the same mesh,"
+        f" {REFERENCE_STEPS} steps, augmented to 1e-5 of a facet (ironing: 1e-4), residuals below 1e-9. The"
+        " explicit one has a penalty factor of 300, a safety factor of 0.3 and a contact resolution of 4.\n-"
+        " Work: Newton iterations, with those of failed steps and of estimates, or element updates.\n-"
+        " Ratio: work over that of the cheapest run by hand whose error is no larger than the target. Which"
+        " one that is turns out once all have been compared with the reference.\n- CPU seconds: with set-up,"
+        f" the least of {TIMED} runs, one at a time."
+    ),
+    (
+        f"{landed} of {len(works)} runs are within their target. {beside_hand_set(works, times)} The"
+        f" program's start takes {number(START, 2)} of these seconds; without it"
+        f" {sum(r <= 1.5 for r in bare)} of {len(bare)} do. What they estimate is {number(min(beliefs))} to"
+        f" {number(max(beliefs))} times their error, below it in {sum(b < 1 for b in beliefs)} of"
+        f" {len(beliefs)}."
+    ),
+    table(
+        [
+            "scene",
+            "target",
+            "error",
+            "estimated",
+            "steps",
+            "work",
+            "CPU seconds",
+            "cheapest by hand",
+            "ratio of work",
+            "of CPU seconds",
+        ],
+        rows,
+    ),
+)
 if not options.quick:
-    write_csv("target-error", ["scene", "kind", "target", "settings", "work", "cpu_seconds", "error", "believed"], csv_rows)
+    write_csv(
+        "target-error",
+        ["scene", "kind", "target", "settings", "work", "cpu_seconds", "error", "believed"],
+        csv_rows,
+    )

@@ -13,30 +13,68 @@ MESH = "Bodies/bar/Mesh/"
 
 def run(refinements, changes=None):
     with tempfile.TemporaryDirectory() as folder:
-        r = ExplicitRun(ROOT / "prm/taylor_bar.prm",
-                        {MESH + "Refinements": refinements, MESH + "Layers": 24 * 2 ** (refinements - 1),
-                         "Output/Interval": 0, **(changes or {})}, Path(folder), options.ranks)
+        r = ExplicitRun(
+            ROOT / "prm/taylor_bar.prm",
+            {
+                MESH + "Refinements": refinements,
+                MESH + "Layers": 24 * 2 ** (refinements - 1),
+                "Output/Interval": 0,
+                **(changes or {}),
+            },
+            Path(folder),
+            options.ranks,
+        )
         points, fields = r.picture()
     n = 12 * 4 ** (refinements - 1) * 24 * 2 ** (refinements - 1)
-    return [n, r.steps, number(points[:, 2].max(), 4), number(norm(points, (0, 1)).max(), 3),
-            number(fields["equivalent_plastic_strain"].max(), 3), percent(r.largest_drift()), number(r.seconds)]
+    return [
+        n,
+        r.steps,
+        number(points[:, 2].max(), 4),
+        number(norm(points, (0, 1)).max(), 3),
+        number(fields["equivalent_plastic_strain"].max(), 3),
+        percent(r.largest_drift()),
+        number(r.seconds),
+    ]
 
 
-HEAD = ["bricks", "steps", "length [mm]", "radius of the end [mm]", "largest plastic strain (mean of an element)",
-        "largest drift of energy", "CPU s"]
+HEAD = [
+    "bricks",
+    "steps",
+    "length [mm]",
+    "radius of the end [mm]",
+    "largest plastic strain (mean of an element)",
+    "largest drift of energy",
+    "CPU s",
+]
 meshes = (1, 2) if options.quick else (1, 2, 3)
 ELEMENT, LAW = "Bodies/bar/Element", "Bodies/bar/Material/Kinematics"
-variants = [("assumed strain", "Hencky"), ("mean dilatation", "Hencky"), ("mean dilatation", "neo-Hookean"), ("mean dilatation", "hypoelastic"),
-            ("one point", "Hencky"), ("one point", "hypoelastic")]
+variants = [
+    ("assumed strain", "Hencky"),
+    ("mean dilatation", "Hencky"),
+    ("mean dilatation", "neo-Hookean"),
+    ("mean dilatation", "hypoelastic"),
+    ("one point", "Hencky"),
+    ("one point", "hypoelastic"),
+]
 publish(
-    "taylor-bar", "Taylor's bar", options,
-    "A copper cylinder, 32.4 mm long, of 3.2 mm radius, hits a rigid wall without friction at 227 m/s; after 80 µs. Usual "
-    "values: length 21.4 to 21.7 mm, radius 6.9 to 7.2 mm, plastic strain near 3 in the middle of the end. A quarter of "
-    "the section; each run once.",
-    "## Meshes, eight points with assumed strains", table(HEAD, [run(m, {ELEMENT: "assumed strain"}) for m in meshes]),
-    "## Meshes, one point", table(HEAD, [run(m, {ELEMENT: "one point"}) for m in meshes]),
-    "One point agrees with eight within 1 % of length and radius on each mesh, and takes as many steps, since elements at the end are squeezed as "
-    "much. The usual values are of meshes as coarse as the first two, with one point and hourglass control: where that "
-    "keeps its elastic stiffness in plastic flow the radius is 7.09 on 2304 bricks, and comes from below.",
+    "taylor-bar",
+    "Taylor's bar",
+    options,
+    (
+        "A copper cylinder, 32.4 mm long, of 3.2 mm radius, hits a rigid wall without friction at 227 m/s;"
+        " after 80 µs. Usual values: length 21.4 to 21.7 mm, radius 6.9 to 7.2 mm, plastic strain near 3 in"
+        " the middle of the end. A quarter of the section; each run once."
+    ),
+    "## Meshes, eight points with assumed strains",
+    table(HEAD, [run(m, {ELEMENT: "assumed strain"}) for m in meshes]),
+    "## Meshes, one point",
+    table(HEAD, [run(m, {ELEMENT: "one point"}) for m in meshes]),
+    (
+        "One point agrees with eight within 1 % of length and radius on each mesh, and takes as many steps,"
+        " since elements at the end are squeezed as much. The usual values are of meshes as coarse as the"
+        " first two, with one point and hourglass control: where that keeps its elastic stiffness in plastic"
+        " flow the radius is 7.09 on 2304 bricks, and comes from below."
+    ),
     "## Elements and laws",
-    table(["element", "law"] + HEAD, [list(v) + run(2, {ELEMENT: v[0], LAW: v[1]}) for v in variants]))
+    table(["element", "law"] + HEAD, [list(v) + run(2, {ELEMENT: v[0], LAW: v[1]}) for v in variants]),
+)

@@ -12,15 +12,21 @@ from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, force
 class Counting(unittest.TestCase):
     def test_what_cannot_be_compared_is_not_counted(self):
         said = beside_hand_set([1.0, 1.5, 1.6, math.nan], [0.9, 2.0, 1.7, math.nan])
-        self.assertIn("2 of 3 take at most 1.5 times the work, 1 of 3 at most 1.5 times the CPU seconds", said)
+        self.assertIn(
+            "2 of 3 take at most 1.5 times the work, 1 of 3 at most 1.5 times the CPU seconds", said
+        )
         self.assertIn("for 1 no run by hand that was tried is within the target", said)
         self.assertNotIn("not counted", beside_hand_set([1.0], [2.0]))
 
 
 class Profiles(unittest.TestCase):
     def test_no_better(self):
-        errors = {"a": {"fast": 0.02, "balanced": 0.019, "accurate": 0.001}, "b": {"fast": 0.02, "balanced": 0.002, "accurate": 0.001},
-                  "c": {"fast": 0.01, "balanced": 0.01, "accurate": 0.009}, "d": {"fast": math.nan, "balanced": 0.01, "accurate": 0.01}}
+        errors = {
+            "a": {"fast": 0.02, "balanced": 0.019, "accurate": 0.001},
+            "b": {"fast": 0.02, "balanced": 0.002, "accurate": 0.001},
+            "c": {"fast": 0.01, "balanced": 0.01, "accurate": 0.009},
+            "d": {"fast": math.nan, "balanced": 0.01, "accurate": 0.01},
+        }
         self.assertIn("in 2 of 3 scenes whose errors are known (a, c)", no_better(errors))
         self.assertIn("In 1 of these accurate, which augments, has at most half", no_better(errors))
         self.assertEqual(no_better({"b": errors["b"]}), "")
@@ -38,9 +44,22 @@ class Told(Runner):
 
     def run(self, scene, seconds=0):
         force, code, keys = self.runs[prm.text(scene)]
-        history = {"time": [0.5, 1.0], "c.force_x": [0.0, 0.0], "c.force_y": [0.0, 0.0], "c.force_z": [0.5 * force, force]}
-        return Kept({"code": code, "stderr": "said" if code else "", "seconds": 1, "history": history, "bodies": {},
-                     "records": [{"key": key, "severity": "warning"} for key in keys]})
+        history = {
+            "time": [0.5, 1.0],
+            "c.force_x": [0.0, 0.0],
+            "c.force_y": [0.0, 0.0],
+            "c.force_z": [0.5 * force, force],
+        }
+        return Kept(
+            {
+                "code": code,
+                "stderr": "said" if code else "",
+                "seconds": 1,
+                "history": history,
+                "bodies": {},
+                "records": [{"key": key, "severity": "warning"} for key in keys],
+            }
+        )
 
 
 class SilentErrors(unittest.TestCase):
@@ -55,7 +74,8 @@ class SilentErrors(unittest.TestCase):
         self.assertEqual(self.outcome(90), "wrong")
         self.assertEqual(self.outcome(0), "wrong")
         self.assertEqual(self.outcome(90, keys=["penalty-too-low"]), "warned")
-        self.assertEqual(self.outcome(90, keys=["element-too-stiff"]), "wrong")  # the reference has this element, too
+        # the reference has this element, too
+        self.assertEqual(self.outcome(90, keys=["element-too-stiff"]), "wrong")
         self.assertEqual(self.outcome(90, first=106), "unclear")
         self.assertEqual(self.outcome(90, code=3), "stopped")
         self.assertEqual(self.outcome(90, code=None), "no end")

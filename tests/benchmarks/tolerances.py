@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the default tolerances of Newton's method save, and how far they are off, beside those for comparisons to many
-digits, on the shipped scenes of statics and implicit dynamics."""
+"""What the default tolerances of Newton's method save, and how far they are off, beside those for comparisons
+to many digits, on the shipped scenes of statics and implicit dynamics."""
 
 import math
 
@@ -11,7 +11,11 @@ options = arguments("tolerances")
 
 # The defaults of every static scene up to the change to those of today, and what is as good as none.
 TIGHT = {"Solver/Force tolerance": 1e-6, "Solver/Energy tolerance": 1e-10}
-EXACT = {"Solver/Force tolerance": 1e-8, "Solver/Energy tolerance": 1e-12, "Solver/Displacement tolerance": 1e-6}
+EXACT = {
+    "Solver/Force tolerance": 1e-8,
+    "Solver/Energy tolerance": 1e-12,
+    "Solver/Displacement tolerance": 1e-6,
+}
 LOOSE = {key: None for key in EXACT}
 
 # Scenes that take minutes: what is left of them shows the same.
@@ -19,8 +23,10 @@ CUT = {
     "wagoner_punch": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "wagoner_punch_mu_0": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "wagoner_punch_mu_015": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
-    "twisted_hemisphere": {"Bodies/block/Mesh/Arguments": "8, 8, 3 : -1, -1, -1 : 1, 1, 0 : true",
-                           "Bodies/punch/Mesh/Arguments": "7, 7, 3 : -1, -1, 0 : 1, 1, 1 : true"},
+    "twisted_hemisphere": {
+        "Bodies/block/Mesh/Arguments": "8, 8, 3 : -1, -1, -1 : 1, 1, 0 : true",
+        "Bodies/punch/Mesh/Arguments": "7, 7, 3 : -1, -1, 0 : 1, 1, 1 : true",
+    },
     "tube_impact": {"Time stepping/End time": 1e-4},
 }
 
@@ -31,9 +37,13 @@ def same_steps(run, path, cut):
     end = float(entries.get("Time stepping/End time", 1))
     if entries.get("Time stepping/Step control") == "fixed":
         return {}
-    return {"Time stepping/Stops": ", ".join(f"{time:.17g}" for time in run.times), "Time stepping/Initial step": repr(end),
-            "Time stepping/Largest step": repr(end), "Time stepping/Few iterations": 998,
-            "Time stepping/Many iterations": 999}
+    return {
+        "Time stepping/Stops": ", ".join(f"{time:.17g}" for time in run.times),
+        "Time stepping/Initial step": repr(end),
+        "Time stepping/Largest step": repr(end),
+        "Time stepping/Few iterations": 998,
+        "Time stepping/Many iterations": 999,
+    }
 
 
 def last_change(run, other):
@@ -44,8 +54,11 @@ def last_change(run, other):
 
 
 def shown(run):
-    return [run.steps, run.work, number(run.seconds)] if run.finished else \
-        [f"stops at {run.times[-1] if run.times else 0:.2g}", run.work, number(run.seconds)]
+    return (
+        [run.steps, run.work, number(run.seconds)]
+        if run.finished
+        else [f"stops at {run.times[-1] if run.times else 0:.2g}", run.work, number(run.seconds)]
+    )
 
 
 rows, totals = [], [0, 0, 0.0, 0.0]
@@ -55,7 +68,9 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
     if scheme == "explicit":
         continue
     cut = CUT.get(path.stem, {})
-    before, after = CurveRun(path, {**cut, **TIGHT}, options.ranks), CurveRun(path, {**cut, **LOOSE}, options.ranks)
+    before, after = CurveRun(path, {**cut, **TIGHT}, options.ranks), CurveRun(
+        path, {**cut, **LOOSE}, options.ranks
+    )
     off = math.nan
     if after.finished and scheme == "quasi-static" and not options.quick:
         exact = CurveRun(path, {**cut, **EXACT, **same_steps(after, path, cut)}, options.ranks)
@@ -63,17 +78,49 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
     change = last_change(after, before) if before.finished and after.finished else math.nan
     if before.finished and after.finished:
         totals = [a + b for a, b in zip(totals, (before.work, after.work, before.seconds, after.seconds))]
-    rows.append([path.stem + (" (cut)" if cut else "")] + shown(before) + shown(after) +
-                [percent(off), percent(change), after.said.count("warning[stalled-step]") or ""])
+    rows.append(
+        [path.stem + (" (cut)" if cut else "")]
+        + shown(before)
+        + shown(after)
+        + [percent(off), percent(change), after.said.count("warning[stalled-step]") or ""]
+    )
 
 publish(
-    "tolerances", "What the tolerances of Newton's method cost, and how far they are off", options,
-    "Every shipped scene of statics and implicit dynamics, with tolerances for comparisons (`Force tolerance` = 1e-6, `Energy tolerance` "
-    "= 1e-10, what scenes set themselves replaced) and with the [defaults](../theory.md#convergence-criteria) (5e-3, 5e-5 and a "
-    "`Displacement tolerance` of 1e-2). Scenes marked cut have less time or a coarser mesh, as in the script. Iterations are Newton's, with those of failed steps.",
-    "*Error*: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, F* with the same steps and tolerances of 1e-8, 1e-12 and 1e-6: "
-    "what the tolerances alone make. Statics only, and scenes with such forces. *Last force*: how far the forces at the end are from those with tight tolerances, "
-    "whose steps may have other lengths, since steps follow the iterations. *Stalled*: warnings of that kind.",
-    table(["scene", "steps, tight", "iterations", "seconds", "steps, default", "iterations", "seconds", "error", "last force", "stalled"], rows),
-    f"Together: {totals[0]} iterations and {totals[2]:.0f} s before, {totals[1]} iterations and {totals[3]:.0f} s after: "
-    f"{100 * (1 - totals[1] / totals[0]):.0f} % fewer iterations, {100 * (1 - totals[3] / totals[2]):.0f} % less time.")
+    "tolerances",
+    "What the tolerances of Newton's method cost, and how far they are off",
+    options,
+    (
+        "Every shipped scene of statics and implicit dynamics, with tolerances for comparisons (`Force"
+        " tolerance` = 1e-6, `Energy tolerance` = 1e-10, what scenes set themselves replaced) and with the"
+        " [defaults](../theory.md#convergence-criteria) (5e-3, 5e-5 and a `Displacement tolerance` of 1e-2)."
+        " Scenes marked cut have less time or a coarser mesh, as in the script. Iterations are Newton's, with"
+        " those of failed steps."
+    ),
+    (
+        "*Error*: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, F* with the same steps"
+        " and tolerances of 1e-8, 1e-12 and 1e-6: what the tolerances alone make. Statics only, and scenes"
+        " with such forces. *Last force*: how far the forces at the end are from those with tight tolerances,"
+        " whose steps may have other lengths, since steps follow the iterations. *Stalled*: warnings of that"
+        " kind."
+    ),
+    table(
+        [
+            "scene",
+            "steps, tight",
+            "iterations",
+            "seconds",
+            "steps, default",
+            "iterations",
+            "seconds",
+            "error",
+            "last force",
+            "stalled",
+        ],
+        rows,
+    ),
+    (
+        f"Together: {totals[0]} iterations and {totals[2]:.0f} s before, {totals[1]} iterations and"
+        f" {totals[3]:.0f} s after: {100 * (1 - totals[1] / totals[0]):.0f} % fewer iterations,"
+        f" {100 * (1 - totals[3] / totals[2]):.0f} % less time."
+    ),
+)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A square tube crushed along its axis: folds, force, energies, and a geometric check that its wall does not pass through
-itself."""
+"""A square tube crushed along its axis: folds, force, energies, and a geometric check that its wall does not
+pass through itself."""
 
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
@@ -34,7 +34,9 @@ class Tube:
         self.strain = fields["equivalent_plastic_strain"].reshape(-1, 8)[:, 0]
         faces = self.bricks[:, FACES].reshape(-1, 4)
         self.brick_of_face = numpy.repeat(numpy.arange(len(self.bricks)), 6)
-        _, back, count = numpy.unique(numpy.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)
+        _, back, count = numpy.unique(
+            numpy.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True
+        )
         outer = count[back.reshape(-1)] == 1
         self.all_facets, self.brick_of_facet = faces[outer], self.brick_of_face[outer]
         on_plane = [(abs(self.start[self.all_facets, axis]) < 1e-4).all(axis=1) for axis in (0, 1)]
@@ -43,7 +45,8 @@ class Tube:
         self.facets = self.all_facets[~on_plane[0] & ~on_plane[1]]
 
     def middle_line(self, axis):
-        """Outward displacement of the middle of the side with this normal, by the length along the wall from the foot."""
+        """Outward displacement of the middle of the side with this normal, by the length along the wall from
+        the foot."""
         across = 1 - axis
         line = numpy.flatnonzero((abs(self.start[:, across]) < 1e-4) & (abs(self.start[:, axis] - 25) < 0.5))
         line = line[numpy.argsort(self.start[line, 2])]
@@ -70,22 +73,31 @@ def apart_by(p, q, r, s):
     u, v, w = q - p, s - r, p - r
     uu, uv, vv, uw, vw = ((a * b).sum(axis=1) for a, b in ((u, u), (u, v), (v, v), (u, w), (v, w)))
     determinant = uu * vv - uv**2
-    first = numpy.where(determinant > 1e-12 * uu * vv, (uv * vw - vv * uw) / numpy.maximum(determinant, 1e-300), 0)
+    first = numpy.where(
+        determinant > 1e-12 * uu * vv, (uv * vw - vv * uw) / numpy.maximum(determinant, 1e-300), 0
+    )
     second = numpy.clip((uv * numpy.clip(first, 0, 1) + vw) / vv, 0, 1)
     first = numpy.clip((uv * second - uw) / uu, 0, 1)
     return numpy.linalg.norm(w + first[:, None] * u - second[:, None] * v, axis=1)
 
 
 def crossings(tube, tolerances=(0.05 * WALL, 0.5 * WALL)):
-    """Of the edges of boundary facets that go through other facets: how many do, how many deeper than the tolerances, and how
-    deep at most. As deep is what would part the two: the distance of the nearer end of the edge from the facet's plane, or
-    of the edge from one of the facet's edges. Penalty contact lets them in by a little."""
+    """Of the edges of boundary facets that go through other facets: how many do, how many deeper than the
+    tolerances, and how deep at most. As deep is what would part the two: the distance of the nearer end of
+    the edge from the facet's plane, or of the edge from one of the facet's edges. Penalty contact lets them
+    in by a little."""
     quads = tube.facets
-    edges = numpy.unique(numpy.sort(numpy.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0)
+    edges = numpy.unique(
+        numpy.sort(numpy.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0
+    )
     triangles = numpy.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     x = tube.now
-    reach = max(numpy.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1).max() / 2,
-                max(numpy.linalg.norm(x[triangles[:, i]] - x[triangles].mean(axis=1), axis=1).max() for i in range(3)))
+    reach = max(
+        numpy.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1).max() / 2,
+        max(
+            numpy.linalg.norm(x[triangles[:, i]] - x[triangles].mean(axis=1), axis=1).max() for i in range(3)
+        ),
+    )
     near = cKDTree(x[edges].mean(axis=1)).query_ball_tree(cKDTree(x[triangles].mean(axis=1)), 2 * reach)
     e = numpy.repeat(numpy.arange(len(edges)), [len(row) for row in near])
     t = numpy.concatenate([numpy.array(row, dtype=int) for row in near])
@@ -97,7 +109,9 @@ def crossings(tube, tolerances=(0.05 * WALL, 0.5 * WALL)):
     normal /= numpy.linalg.norm(normal, axis=1)[:, None]
     before, behind = ((p - a) * normal).sum(axis=1), ((q - a) * normal).sum(axis=1)
     through = before * behind < 0
-    e, t, p, q, a, b, c, normal, before, behind = (v[through] for v in (e, t, p, q, a, b, c, normal, before, behind))
+    e, t, p, q, a, b, c, normal, before, behind = (
+        v[through] for v in (e, t, p, q, a, b, c, normal, before, behind)
+    )
     hit = p + (before / (before - behind))[:, None] * (q - p)
     inside = numpy.ones(len(hit), dtype=bool)
     for u, v in ((a, b), (b, c), (c, a)):
@@ -110,8 +124,8 @@ def crossings(tube, tolerances=(0.05 * WALL, 0.5 * WALL)):
 
 
 def deepest_inside(tube):
-    """Boundary nodes that lie inside a brick of another place, one that has no node in common with the bricks around them, and
-    the largest distance of one from the nearest facet that does not have it."""
+    """Boundary nodes that lie inside a brick of another place, one that has no node in common with the bricks
+    around them, and the largest distance of one from the nearest facet that does not have it."""
     x = tube.now
     nodes = numpy.unique(tube.facets)
     facet_bricks = numpy.unique(tube.brick_of_facet)
@@ -134,8 +148,13 @@ def deepest_inside(tube):
                 continue
             others = tube.facets[~(tube.facets == node).any(axis=1)]
             count += 1
-            deepest = max(deepest, min(distance_from_triangle(x[node], x[others[:, corners]]).min()
-                                       for corners in ([0, 1, 2], [0, 2, 3])))
+            deepest = max(
+                deepest,
+                min(
+                    distance_from_triangle(x[node], x[others[:, corners]]).min()
+                    for corners in ([0, 1, 2], [0, 2, 3])
+                ),
+            )
     return count, deepest
 
 
@@ -149,7 +168,7 @@ def distance_from_triangle(point, triangles):
     above = numpy.ones(len(a), dtype=bool)
     for u, v in ((a, b), (b, c), (c, a)):
         above &= (numpy.cross(v - u, point - u) * normal).sum(axis=1) >= 0
-        along = numpy.clip(((point - u) * (v - u)).sum(axis=1) / ((v - u)**2).sum(axis=1), 0, 1)
+        along = numpy.clip(((point - u) * (v - u)).sum(axis=1) / ((v - u) ** 2).sum(axis=1), 0, 1)
         distance = numpy.minimum(distance, numpy.linalg.norm(point - u - along[:, None] * (v - u), axis=1))
     return numpy.where(above, abs(height), distance)
 
@@ -164,7 +183,9 @@ def inside_brick(corners, x):
         residual = x - shape @ corners
         if numpy.abs(residual).max() < 1e-9:
             break
-        slope = numpy.array([(2 * signs[:, i] - 1) * numpy.delete(factors, i, axis=1).prod(axis=1) for i in range(3)])
+        slope = numpy.array(
+            [(2 * signs[:, i] - 1) * numpy.delete(factors, i, axis=1).prod(axis=1) for i in range(3)]
+        )
         try:
             xi = xi + numpy.linalg.solve((slope @ corners).T, residual)
         except numpy.linalg.LinAlgError:
@@ -181,8 +202,9 @@ def draw(tubes, path):
         for plane, side in ((0, -1), (1, 1)):
             other = 1 - plane
             shape = tube.now[tube.sections[plane]][:, :, [other, 2]] * [side, 1]
-            patches = PolyCollection(shape, array=tube.section_strains[plane], cmap="viridis", edgecolors="black",
-                                     linewidths=0.2)
+            patches = PolyCollection(
+                shape, array=tube.section_strains[plane], cmap="viridis", edgecolors="black", linewidths=0.2
+            )
             patches.set_clim(0, 0.6)
             axis.add_collection(patches)
         axis.axvline(0, color="grey", linewidth=0.5, linestyle="--")
@@ -207,8 +229,17 @@ def geometry_rows(name, tubes):
     for time, tube in tubes:
         *counts, depth = crossings(tube)
         inside, deepest = deepest_inside(tube)
-        rows.append([name, f"{1e3 * time:.3g}", *counts, number(depth), inside, number(deepest),
-                     number(float(tube.now[:, :2].min()))])
+        rows.append(
+            [
+                name,
+                f"{1e3 * time:.3g}",
+                *counts,
+                number(depth),
+                inside,
+                number(deepest),
+                number(float(tube.now[:, :2].min())),
+            ]
+        )
     return rows
 
 
@@ -219,7 +250,10 @@ def every_picture(r):
 control = {"Contact pairs/folds/Boundary ids": "5", "Explicit dynamics/Largest drift": 1}
 nodes = {"Contact pairs/folds/Edges": "false"}
 with ThreadPoolExecutor() as pool:
-    runs = [pool.submit(run, changes, every_picture) for changes in ([{}] if options.quick else [{}, nodes, control])]
+    runs = [
+        pool.submit(run, changes, every_picture)
+        for changes in ([{}] if options.quick else [{}, nodes, control])
+    ]
 r, tubes = runs[0].result()
 last = tubes[-1][1]
 drawn = [tubes[i] for i in numpy.linspace(0, len(tubes) - 1, 4).round().astype(int)]
@@ -232,33 +266,88 @@ for time, tube in tubes:
     row = min(r.rows, key=lambda row: abs(row["time"] - time))
     window = [q for q in r.rows if 0 < q["time"] <= time]
     mean = -4 * sum(q["plane.force_z"] for q in window) / len(window) / 1e3
-    fold_rows.append([f"{1e3 * time:.3g}", number(SPEED * time), f"{out_y} + {in_y}", f"{out_x} + {in_x}", number(mean),
-                      number(1e2 * row["folds.deepest_penetration"] / WALL) + " %",
-                      percent(abs(row["energy_drift"]) / sum(row[k] for k in row if k.endswith(
-                          ("_energy", "_work", "_dissipation")) and k != "external_work"))])
+    fold_rows.append(
+        [
+            f"{1e3 * time:.3g}",
+            number(SPEED * time),
+            f"{out_y} + {in_y}",
+            f"{out_x} + {in_x}",
+            number(mean),
+            number(1e2 * row["folds.deepest_penetration"] / WALL) + " %",
+            percent(
+                abs(row["energy_drift"])
+                / sum(
+                    row[k]
+                    for k in row
+                    if k.endswith(("_energy", "_work", "_dissipation")) and k != "external_work"
+                )
+            ),
+        ]
+    )
 geometry = geometry_rows("with", tubes[2::2])
 if not options.quick:
     geometry += geometry_rows("nodes only", runs[1].result()[1][8::4])
     geometry += geometry_rows("without", runs[2].result()[1][8::4])
 
-worst_edge, worst_node = (max((row for row in geometry if row[0] == "with"), key=lambda row: float(row[column])) for column in (5, 7))
+worst_edge, worst_node = (
+    max((row for row in geometry if row[0] == "with"), key=lambda row: float(row[column]))
+    for column in (5, 7)
+)
 
 publish(
-    "tube-crush", "A square tube crushed along its axis", options,
-    f"[`prm/tube_crush.prm`](../../prm/tube_crush.prm): a quarter of a tube of 50 x 50 x 150 mm with 2 mm wall, "
-    f"{len(last.bricks)} bricks, under a plane that comes at 25 m/s. {r.steps} steps; largest drift of energy "
-    f"{percent(r.largest_drift())} of the largest sum of energies.",
+    "tube-crush",
+    "A square tube crushed along its axis",
+    options,
+    (
+        "[`prm/tube_crush.prm`](../../prm/tube_crush.prm): a quarter of a tube of 50 x 50 x 150 mm with 2 mm"
+        f" wall, {len(last.bricks)} bricks, under a plane that comes at 25 m/s. {r.steps} steps; largest"
+        f" drift of energy {percent(r.largest_drift())} of the largest sum of energies."
+    ),
     "![Sections through the middles of the sides](../images/tube_crush.png)",
-    "## Folds\n\nLobes, outward + inward, of the middle of a side: turning points of its line that stand out by two wall "
-    "thicknesses on both sides. Mean force of the whole tube so far; penetration of self-contact relative to the wall.",
-    table(["time [ms]", "way [mm]", "lobes of the side y", "lobes of the side x", "mean force [kN]", "penetration",
-           "drift of energy"], fold_rows),
-    "## Does the wall pass through itself?\n\nEdges of boundary facets that go through another facet, which penalty contact "
-    "lets them by a little; those of them that do by more than 5 and 50 % of the wall, and the deepest: by what would part "
-    "edge and facet, the distance of the nearer end from the facet's plane or of the edge from one of the facet's. Nodes that "
-    "lie inside a brick of another place of the wall, and how far from the nearest facet. Least coordinate across: symmetry planes are at 0. Without self-contact the same check finds a wall "
-    "that passes through itself; with nodes against facets alone (`Edges = false`), ridges of folds cross each other.",
-    f"With self-contact the deepest edge is {worst_edge[5]} mm, {number(100 * float(worst_edge[5]) / WALL, 2)} % of the wall, in, at "
-    f"{worst_edge[1]} ms; the deepest node {worst_node[7]} mm, {number(100 * float(worst_node[7]) / WALL, 2)} %, at {worst_node[1]} ms.",
-    table(["self-contact", "time [ms]", "edges in facets", "by more than 5 %", "by more than 50 %", "deepest [mm]",
-           "nodes inside", "deepest [mm]", "least x, y [mm]"], geometry))
+    (
+        "## Folds\n\nLobes, outward + inward, of the middle of a side: turning points of its line that stand"
+        " out by two wall thicknesses on both sides. Mean force of the whole tube so far; penetration of"
+        " self-contact relative to the wall."
+    ),
+    table(
+        [
+            "time [ms]",
+            "way [mm]",
+            "lobes of the side y",
+            "lobes of the side x",
+            "mean force [kN]",
+            "penetration",
+            "drift of energy",
+        ],
+        fold_rows,
+    ),
+    (
+        "## Does the wall pass through itself?\n\nEdges of boundary facets that go through another facet,"
+        " which penalty contact lets them by a little; those of them that do by more than 5 and 50 % of the"
+        " wall, and the deepest: by what would part edge and facet, the distance of the nearer end from the"
+        " facet's plane or of the edge from one of the facet's. Nodes that lie inside a brick of another"
+        " place of the wall, and how far from the nearest facet. Least coordinate across: symmetry planes are"
+        " at 0. Without self-contact the same check finds a wall that passes through itself; with nodes"
+        " against facets alone (`Edges = false`), ridges of folds cross each other."
+    ),
+    (
+        f"With self-contact the deepest edge is {worst_edge[5]} mm,"
+        f" {number(100 * float(worst_edge[5]) / WALL, 2)} % of the wall, in, at {worst_edge[1]} ms; the"
+        f" deepest node {worst_node[7]} mm, {number(100 * float(worst_node[7]) / WALL, 2)} %, at"
+        f" {worst_node[1]} ms."
+    ),
+    table(
+        [
+            "self-contact",
+            "time [ms]",
+            "edges in facets",
+            "by more than 5 %",
+            "by more than 50 %",
+            "deepest [mm]",
+            "nodes inside",
+            "deepest [mm]",
+            "least x, y [mm]",
+        ],
+        geometry,
+    ),
+)

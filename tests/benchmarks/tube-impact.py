@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The impact of two tubes in billet and in CalculiX's explicit dynamics, on the same mesh: cost per element and step."""
+"""The impact of two tubes in billet and in CalculiX's explicit dynamics, on the same mesh: cost per element
+and step."""
 
 import os
 import re
@@ -9,7 +10,17 @@ import sys
 import tempfile
 from pathlib import Path
 
-from billet_runs import PROGRAM, ROOT, arguments, children_seconds, number, publish, read_scene, table, variant
+from billet_runs import (
+    PROGRAM,
+    ROOT,
+    arguments,
+    children_seconds,
+    number,
+    publish,
+    read_scene,
+    table,
+    variant,
+)
 from ccx_decks import CCX_ENVIRONMENT, FACES, read_bricks
 
 options = arguments("tube-impact")
@@ -28,7 +39,9 @@ def run_billet(changes, folder, scene=SCENE):
     text = variant(scene, {"Output/Folder": "results", "Output/Interval": 0, **changes})
     Path(folder, "scene.prm").write_text(text)
     done = subprocess.run([PROGRAM, "scene.prm"], cwd=folder, capture_output=True, text=True)
-    found = re.search(r"(\d+) steps of (\d+) elements in (\S+) s: \S+ ns for each element and step, (\S+) of", done.stdout)
+    found = re.search(
+        r"(\d+) steps of (\d+) elements in (\S+) s: \S+ ns for each element and step, (\S+) of", done.stdout
+    )
     if done.returncode or not found:
         sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
     return int(found.group(1)), float(found.group(4))
@@ -53,22 +66,45 @@ def write_deck(path, nodes, bricks, n_steps, contact):
             corners = [nodes[brick[c]] for c in face]
             sign = 1 if corners[0][1] > 0 else -1
             if count[tuple(sorted(brick[c] for c in face))] == 1 and all(
-                    ((y - sign * 0.1005) ** 2 + z**2) ** 0.5 > 0.0999 for _, y, z in corners):
+                ((y - sign * 0.1005) ** 2 + z**2) ** 0.5 > 0.0999 for _, y, z in corners
+            ):
                 outside[sign].append(f"{i + 1}, S{side + 1}")
     lines = ["*NODE, NSET=ALL"] + [f"{i + 1}, {x:.9g}, {y:.9g}, {z:.9g}" for i, (x, y, z) in enumerate(nodes)]
     lines += ["*ELEMENT, TYPE=C3D8R, ELSET=TUBES"]
     lines += [", ".join(str(v) for v in [i + 1] + [c + 1 for c in brick]) for i, brick in enumerate(bricks)]
     for name, sign in (("LEFT", -1), ("RIGHT", 1)):
         lines += [f"*NSET, NSET={name}"] + [str(i + 1) for i, node in enumerate(nodes) if sign * node[1] > 0]
-    lines += ["*MATERIAL, NAME=TUBE", "*ELASTIC", "25e9, 0.3", "*PLASTIC", "2e6, 0", "632e6, 1", "*DENSITY", "7840",
-              "*SOLID SECTION, ELSET=TUBES, MATERIAL=TUBE"]
+    lines += [
+        "*MATERIAL, NAME=TUBE",
+        "*ELASTIC",
+        "25e9, 0.3",
+        "*PLASTIC",
+        "2e6, 0",
+        "632e6, 1",
+        "*DENSITY",
+        "7840",
+        "*SOLID SECTION, ELSET=TUBES, MATERIAL=TUBE",
+    ]
     if contact:
         lines += ["*SURFACE, NAME=A"] + outside[-1] + ["*SURFACE, NAME=B"] + outside[1]
-        lines += ["*SURFACE INTERACTION, NAME=TOUCH", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", "2.5e12",
-                  "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "A, B"]
-    lines += ["*INITIAL CONDITIONS, TYPE=VELOCITY", "LEFT, 2, 50", "RIGHT, 2, -50",
-              "*STEP, NLGEOM, INC=1000000", "*DYNAMIC, EXPLICIT", f"{STEP:g}, {n_steps * STEP:g}, 1e-10, {STEP:g}",
-              f"*NODE PRINT, NSET=ALL, TOTALS=ONLY, FREQUENCY={SHORT}", "RF", "*END STEP"]
+        lines += [
+            "*SURFACE INTERACTION, NAME=TOUCH",
+            "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+            "2.5e12",
+            "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE",
+            "A, B",
+        ]
+    lines += [
+        "*INITIAL CONDITIONS, TYPE=VELOCITY",
+        "LEFT, 2, 50",
+        "RIGHT, 2, -50",
+        "*STEP, NLGEOM, INC=1000000",
+        "*DYNAMIC, EXPLICIT",
+        f"{STEP:g}, {n_steps * STEP:g}, 1e-10, {STEP:g}",
+        f"*NODE PRINT, NSET=ALL, TOTALS=ONLY, FREQUENCY={SHORT}",
+        "RF",
+        "*END STEP",
+    ]
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -77,22 +113,37 @@ def run_ccx(nodes, bricks, n_steps, contact):
     with tempfile.TemporaryDirectory() as folder:
         write_deck(Path(folder, "deck.inp"), nodes, bricks, n_steps, contact)
         before = children_seconds()
-        done = subprocess.run(["ccx", "deck"], cwd=folder, env=CCX_ENVIRONMENT, capture_output=True, text=True)
+        done = subprocess.run(
+            ["ccx", "deck"], cwd=folder, env=CCX_ENVIRONMENT, capture_output=True, text=True
+        )
         seconds = children_seconds() - before
         printed = Path(folder, "deck.dat").read_text().count("total force")  # every SHORT steps
     is_done = done.returncode == 0 and printed == n_steps // SHORT
-    print(f"[ccx, {n_steps} steps{', contact' if contact else ''}] {printed} prints, {seconds:.3g} s, "
-          f"{'done' if is_done else done.stdout[-400:]}", file=sys.stderr, flush=True)
+    print(
+        (
+            f"[ccx, {n_steps} steps{', contact' if contact else ''}] {printed} prints, {seconds:.3g} s, "
+            f"{'done' if is_done else done.stdout[-400:]}"
+        ),
+        file=sys.stderr,
+        flush=True,
+    )
     return seconds if is_done else None
 
 
 grid = read_mesh()
 n = len(grid[1])
-ways = {"billet, as the scene is": {},
-        "billet, one point": {f"Bodies/{b}/Element": "one point" for b in BODIES},
-        "billet, one point, hypoelastic": {key: value for b in BODIES for key, value in
-                                           ((f"Bodies/{b}/Element", "one point"),
-                                            (f"Bodies/{b}/Material/Kinematics", "hypoelastic"))}}
+ways = {
+    "billet, as the scene is": {},
+    "billet, one point": {f"Bodies/{b}/Element": "one point" for b in BODIES},
+    "billet, one point, hypoelastic": {
+        key: value
+        for b in BODIES
+        for key, value in (
+            (f"Bodies/{b}/Element", "one point"),
+            (f"Bodies/{b}/Material/Kinematics", "hypoelastic"),
+        )
+    },
+}
 END = {"Time stepping/End time": 0.3e-3, "Output/History interval": 0.1e-3, "Output/Format": "none"}
 FLIGHT = {**END, "Time stepping/End time": 0.12e-3}
 costs = {name: [] for name in [*ways, *(f"{name}, in flight" for name in ways), "ccx", "ccx, contact"]}
@@ -117,17 +168,35 @@ for name, values in costs.items():
     contact = name == "ccx, contact" or (name in ways)
     beside = costs["ccx, contact" if contact else "ccx"]
     if values:
-        rows.append([name.split(", in flight")[0].replace(", contact", ""), "yes" if contact else "no", steps[name],
-                     number(statistics.median(values), 4), number(min(values), 4),
-                     number(statistics.median(beside) / statistics.median(values), 3) if beside else "–"])
+        rows.append(
+            [
+                name.split(", in flight")[0].replace(", contact", ""),
+                "yes" if contact else "no",
+                steps[name],
+                number(statistics.median(values), 4),
+                number(min(values), 4),
+                number(statistics.median(beside) / statistics.median(values), 3) if beside else "–",
+            ]
+        )
 version = re.search(r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout)
 
 publish(
-    "tube-impact", "The impact of two tubes, per element and step, beside CalculiX", options,
-    f"`prm/tube_impact.prm`, {n} bricks; CalculiX {version.group(1)} (`*DYNAMIC, EXPLICIT`, C3D8R, the same nodes, bricks, "
-    f"material and velocities, steps of {STEP:g} s). Processor time on one core without other threads: of billet's stepping "
-    f"loop for the first {END['Time stepping/End time'] * 1e3:g} ms, contact included, and for {FLIGHT['Time stepping/End time'] * 1e3:g} ms of flight, without the contact pair; of CalculiX "
-    f"the difference of runs of {LONG} and {SHORT} steps, without contact and with it (surface to surface, linear, 2.5e12 N/m³). Median and least of {REPEAT} runs (ccx with contact: one), programs by turns; load average "
-    f"{min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores. Wanted: at least ten times cheaper than CalculiX.",
-    table(["program", "contact", "steps", "ns per element and step", "least", "times cheaper than ccx"], rows),
-    "" if costs["ccx, contact"] else "With contact CalculiX did not finish these steps.")
+    "tube-impact",
+    "The impact of two tubes, per element and step, beside CalculiX",
+    options,
+    (
+        f"`prm/tube_impact.prm`, {n} bricks; CalculiX {version.group(1)} (`*DYNAMIC, EXPLICIT`, C3D8R, the"
+        f" same nodes, bricks, material and velocities, steps of {STEP:g} s). Processor time on one core"
+        " without other threads: of billet's stepping loop for the first"
+        f" {END['Time stepping/End time'] * 1e3:g} ms, contact included, and for"
+        f" {FLIGHT['Time stepping/End time'] * 1e3:g} ms of flight, without the contact pair; of CalculiX the"
+        f" difference of runs of {LONG} and {SHORT} steps, without contact and with it (surface to surface,"
+        f" linear, 2.5e12 N/m³). Median and least of {REPEAT} runs (ccx with contact: one), programs by"
+        f" turns; load average {min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores. Wanted: at"
+        " least ten times cheaper than CalculiX."
+    ),
+    table(
+        ["program", "contact", "steps", "ns per element and step", "least", "times cheaper than ccx"], rows
+    ),
+    "" if costs["ccx, contact"] else "With contact CalculiX did not finish these steps.",
+)

@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Wagoner's hemispherical punch: tangents, quadratic convergence, elements through the thickness, friction, strain."""
+"""Wagoner's hemispherical punch: tangents, quadratic convergence, elements through the thickness, friction,
+strain."""
 
-import math
 import re
 import tempfile
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as pyplot
+from matplotlib import pyplot
 import numpy
 from vtk import vtkXMLUnstructuredGridReader
 from vtk.util.numpy_support import vtk_to_numpy
 
-from billet_runs import ROOT, TANGENT, Run, arguments, number, percent, publish, table
+from billet_runs import ROOT, TANGENT, Run, arguments, number, publish, table
 
 options = arguments("wagoner-punch")
 TRAVEL = 40.0
@@ -28,8 +25,13 @@ SCENES = {0.3: "wagoner_punch", 0.15: "wagoner_punch_mu_015", 0.0: "wagoner_punc
 
 
 def run(changes=None, friction=0.3, folder=None):
-    return Run({**base, "Output/Interval": 0, **(changes or {})}, options.ranks,
-               ROOT / "prm" / (SCENES[friction] + ".prm"), "punch", folder)
+    return Run(
+        {**base, "Output/Interval": 0, **(changes or {})},
+        options.ranks,
+        ROOT / "prm" / (SCENES[friction] + ".prm"),
+        "punch",
+        folder,
+    )
 
 
 def outcome(r):
@@ -44,9 +46,20 @@ def tangents():
         # A tangent that needs thousands of steps is no choice: it may give up.
         changes = {**coarse, TANGENT: tangent, STEP + "Smallest step": 1e-4}
         default, loose = run(changes), run({**changes, **LOOSE})
-        rows.append([tangent, outcome(default), default.cuts, outcome(loose), loose.cuts, PAPER.get(tangent, "–")])
-    return table(["tangent", "5e-3: iterations / steps", "cuts", "1e-2: iterations / steps", "cuts",
-                  "paper: iterations / steps"], rows)
+        rows.append(
+            [tangent, outcome(default), default.cuts, outcome(loose), loose.cuts, PAPER.get(tangent, "–")]
+        )
+    return table(
+        [
+            "tangent",
+            "5e-3: iterations / steps",
+            "cuts",
+            "1e-2: iterations / steps",
+            "cuts",
+            "paper: iterations / steps",
+        ],
+        rows,
+    )
 
 
 def residuals():
@@ -61,20 +74,29 @@ def residuals():
             if iteration:
                 forces.append(float(iteration.group(1)))
             elif step:
-                if float(step.group(1)) > 1 / 3 and abs(float(step.group(2)) - 0.015) < 1e-6 and found is None:
-                    found = [tangent, number(TRAVEL * float(step.group(1)))] + [f"{f:.1e}" for f in forces[1:]] + [
-                        f"{float(step.group(3)):.1e}"]
+                if (
+                    float(step.group(1)) > 1 / 3
+                    and abs(float(step.group(2)) - 0.015) < 1e-6
+                    and found is None
+                ):
+                    found = (
+                        [tangent, number(TRAVEL * float(step.group(1)))]
+                        + [f"{f:.1e}" for f in forces[1:]]
+                        + [f"{float(step.group(3)):.1e}"]
+                    )
                 forces = []
         rows.append(found or [tangent, "–"])
     rows.append(["paper", "–", "1.7e-01", "2.3e-03", "1.1e-05", "2.4e-10"])
     width = max(len(row) for row in rows)
-    return table(["tangent", "travel"] + [f"residual {i}" for i in range(1, width - 1)],
-                 [row + [""] * (width - len(row)) for row in rows])
+    return table(
+        ["tangent", "travel"] + [f"residual {i}" for i in range(1, width - 1)],
+        [row + [""] * (width - len(row)) for row in rows],
+    )
 
 
 class Shape:
-    """The blank at the end of a run: `radii` where segments of the meridian y = 0 began, their logarithmic strains
-    `meridional`; plastic strain of the elements, the radius of its peak."""
+    """The blank at the end of a run: `radii` where segments of the meridian y = 0 began, their logarithmic
+    strains `meridional`; plastic strain of the elements, the radius of its peak."""
 
     def __init__(self, folder):
         reader = vtkXMLUnstructuredGridReader()
@@ -98,7 +120,9 @@ class Shape:
         self.centre = float(strain[ring < 1e-3].mean())
         peak = int(strain.argmax())
         # The mean over all elements with a corner at about this radius.
-        self.peak, self.peak_radius = float(strain[peak]), float(ring[abs(strain - strain[peak]) < 1e-9].mean())
+        self.peak, self.peak_radius = float(strain[peak]), float(
+            ring[abs(strain - strain[peak]) < 1e-9].mean()
+        )
 
 
 def run_with_shape(changes, friction):
@@ -112,12 +136,24 @@ def forces_at(r):
 
 
 def row_of(label, r, shape):
-    return [label, f"{r.iterations} / {r.steps}", number(r.seconds)] + forces_at(r) + [
-        number(shape.peak), number(shape.peak_radius), number(shape.centre)]
+    return (
+        [label, f"{r.iterations} / {r.steps}", number(r.seconds)]
+        + forces_at(r)
+        + [number(shape.peak), number(shape.peak_radius), number(shape.centre)]
+    )
 
 
-HEAD = ["iterations / steps", "CPU seconds", "10 mm", "20 mm", "30 mm", "40 mm", "peak strain", "at radius",
-        "at the centre"]
+HEAD = [
+    "iterations / steps",
+    "CPU seconds",
+    "10 mm",
+    "20 mm",
+    "30 mm",
+    "40 mm",
+    "peak strain",
+    "at radius",
+    "at the centre",
+]
 
 
 def thickness():
@@ -135,7 +171,9 @@ def friction():
         r, shape = run_with_shape({}, mu)
         rows.append(row_of(number(mu), r, shape))
         axes.plot(shape.radii, shape.meridional, marker=".", label=f"µ = {mu:g}")
-    axes.set(xlabel="initial radius [mm]", ylabel="logarithmic meridional strain", xlim=(0, 66), ylim=(0, None))
+    axes.set(
+        xlabel="initial radius [mm]", ylabel="logarithmic meridional strain", xlim=(0, 66), ylim=(0, None)
+    )
     axes.grid(alpha=0.3)
     axes.legend()
     figure.tight_layout()
@@ -149,27 +187,48 @@ def peaks():
     rows = []
     for travel in (10, 20, 22.5, 23, 30, 35, 40):
         shapes = [run_with_shape({"Time stepping/End time": repr(travel / TRAVEL)}, mu)[1] for mu in SCENES]
-        rows.append([f"{travel} mm"] + [f"{number(s.peak)} at {number(s.peak_radius)}" for s in shapes] + [
-            number(shapes[0].centre, 4)])
+        rows.append(
+            [f"{travel} mm"]
+            + [f"{number(s.peak)} at {number(s.peak_radius)}" for s in shapes]
+            + [number(shapes[0].centre, 4)]
+        )
     return table(["travel"] + [f"µ = {mu:g}" for mu in SCENES] + ["at the centre, µ = 0.3"], rows)
 
 
 publish(
-    "wagoner-punch", "Wagoner's hemispherical punch", options,
-    "A clamped disc of radius 66 mm and thickness 1 mm over a punch of radius 50.8 mm, travel 40 mm, k = 1e5 N/mm³ "
-    "(Bittencourt & Creus 1998, example 9.2). Each run once. Forces are those on the whole punch, in kN; plastic strain is "
-    "that of the elements, radii are those before forming, in mm.",
-    "## Tangents\n\nµ = 0.3, 192 bricks, steps of half a millimetre at most; iterations count those of cut steps. "
-    "Beside the default tolerance (5e-3 of the forces) a looser one, 1e-2, with 1e-4 of the energy, which is about what "
-    "the paper's two iterations a step point to.",
+    "wagoner-punch",
+    "Wagoner's hemispherical punch",
+    options,
+    (
+        "A clamped disc of radius 66 mm and thickness 1 mm over a punch of radius 50.8 mm, travel 40 mm, k ="
+        " 1e5 N/mm³ (Bittencourt & Creus 1998, example 9.2). Each run once. Forces are those on the whole"
+        " punch, in kN; plastic strain is that of the elements, radii are those before forming, in mm."
+    ),
+    (
+        "## Tangents\n\nµ = 0.3, 192 bricks, steps of half a millimetre at most; iterations count those of"
+        " cut steps. Beside the default tolerance (5e-3 of the forces) a looser one, 1e-2, with 1e-4 of the"
+        " energy, which is about what the paper's two iterations a step point to."
+    ),
     tangents(),
-    "## A step of 0.6 mm\n\nThat is 1.5 % of the travel. Residuals relative to the forces, after each iteration, of a step past a third of the travel; "
-    "the paper's mean residue beside them (its table 5).",
+    (
+        "## A step of 0.6 mm\n\nThat is 1.5 % of the travel. Residuals relative to the forces, after each"
+        " iteration, of a step past a third of the travel; the paper's mean residue beside them (its"
+        " table 5)."
+    ),
     residuals(),
-    f"## Elements through the thickness\n\nµ = 0.3, {'192' if options.quick else '768'} bricks in each layer.",
+    (
+        f"## Elements through the thickness\n\nµ = 0.3, {'192' if options.quick else '768'} bricks in each"
+        " layer."
+    ),
     thickness(),
-    "## Friction\n\nMeridional strain at the end of the travel:\n\n![Meridional strain over radius](../images/wagoner_strain.png)",
+    (
+        "## Friction\n\nMeridional strain at the end of the travel:\n\n![Meridional strain over"
+        " radius](../images/wagoner_strain.png)"
+    ),
     friction(),
-    "## The place of the peak\n\nLargest plastic strain, and the radius where it is; elements are some 2 mm long there. Last, the plastic strain at the "
-    "centre.",
-    peaks())
+    (
+        "## The place of the peak\n\nLargest plastic strain, and the radius where it is; elements are some 2"
+        " mm long there. Last, the plastic strain at the centre."
+    ),
+    peaks(),
+)

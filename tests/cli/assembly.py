@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: assembly.py BILLET [LAUNCHER...]      in an empty current folder; LAUNCHER is mpirun with its option -n
+"""Usage: assembly.py BILLET [LAUNCHER...]
 
-Bodies that fit each other. bolt.prm, drawn with play that 'Initial gap' closes, has the forces of the scene without
-play. pin.prm, a pin in a lug whose facets miss each other, has the force of a fine mesh with 'Surface correction', and
-a warning without; --check warns of the same as the run.
+Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
+
+Bodies that fit each other. bolt.prm, drawn with play that 'Initial gap' closes, has the forces of the scene
+without play. pin.prm, a pin in a lug whose facets miss each other, has the force of a fine mesh with 'Surface
+correction', and a warning without; --check warns of the same as the run.
 """
 
 from __future__ import annotations
@@ -32,7 +34,7 @@ def warns(ran: Run) -> bool:
     return re.search(r"^warning\[faceted-curvature\]", ran.said, re.MULTILINE) is not None
 
 
-# --- play ------------------------------------------------------------------------------------------------------------
+# --- play -----------------------------------------------------------------------------------------
 
 CLOSED = (
     "plate / Mesh: Translation = 0, 0, 0.01 & face: Point = 0, 0, 1.515"
@@ -54,7 +56,7 @@ def _() -> None:
     require(abs(force) < 1e-9, f"the force is {force}")
 
 
-# --- curved faces of one radius ----------------------------------------------------------------------------------------
+# --- curved faces of one radius -------------------------------------------------------------------
 
 
 def half_circles(n_lug: int, n_pin: int) -> str:
@@ -100,7 +102,7 @@ for n in (10, 12):
             near("the force", ran.last("fit.force_x"), matching, 0.03)
 
 
-# --- meshes ----------------------------------------------------------------------------------------------------------
+# --- meshes ---------------------------------------------------------------------------------------
 
 
 @check("elements inside out at a corner are warned about")

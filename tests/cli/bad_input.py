@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: bad_input.py TABLE COMMAND...      in an empty current folder; COMMAND is billet, or mpirun ... billet
+"""Usage: bad_input.py TABLE COMMAND...
+
+Runs in an empty current folder; COMMAND is billet, or mpirun ... billet.
 
 Each line of TABLE is a scene that billet must refuse:    EDIT -> MESSAGE
 
-EDIT of block.prm, or of the file that a line 'scene FILE' names: see edits.py. MESSAGE: all that is printed, where
-'...' stands for anything, '@' for the file and the line of the last edit, '@{name}' for those of that subsection.
-'allowed ...' alone stands for "@: 'Key' in 'Path': found 'value', allowed ...". After NAME := EDIT, NAME at the start
-of a line stands for EDIT. '#' begins a comment.
+EDIT of block.prm, or of the file that a line 'scene FILE' names: see edits.py. MESSAGE: all that is printed,
+where '...' stands for anything, '@' for the file and the line of the last edit, '@{name}' for those of that
+subsection. 'allowed ...' alone stands for "@: 'Key' in 'Path': found 'value', allowed ...". After NAME :=
+EDIT, NAME at the start of a line stands for EDIT. '#' begins a comment.
 
-One start of the program with --check reads the whole table: it must say the messages and nothing else. Every tenth
-scene (fiftieth under mpirun), and every one of a table run_*.cases (of what --check may pass), is also run. Each must
-end with exit code 2 and leave every file as it was, results of a run before included.
+One start of the program with --check reads the whole table: it must say the messages and nothing else. Every
+tenth scene (fiftieth under mpirun), and every one of a table run_*.cases (of what --check may pass), is also
+run. Each must end with exit code 2 and leave every file as it was, results of a run before included.
 """
 
 from __future__ import annotations
@@ -121,7 +123,10 @@ def main() -> int:
         refusals.run([case])
 
     for case in cases:
-        print(f"{case.name}: {'FAILED: ' + refusals.faults[case.name] if case.name in refusals.faults else 'ok'}")
+        print(
+            f"{case.name}:"
+            f" {'FAILED: ' + refusals.faults[case.name] if case.name in refusals.faults else 'ok'}"
+        )
     print(f"{len(cases)} cases, {len(refusals.faults)} failed")
     return 0 if cases and not refusals.faults else 1
 

@@ -23,10 +23,11 @@ SHIPPED = HERE.parents[1] / "prm"
 # Sanitizers take their time, and that of addresses takes all of them for itself.
 IS_SANITIZED = "ASAN_OPTIONS" in os.environ
 TIME_LIMIT = 900 if IS_SANITIZED else 60  # seconds; ranks that wait for each other fail
-MEMORY_LIMIT = 8_000_000 * 1024  # bytes of addresses for each process; MPI's libraries alone want a good part of it
+# bytes of addresses for each process; MPI's libraries alone want a good part of it
+MEMORY_LIMIT = 8_000_000 * 1024
 
 
-# --- files -----------------------------------------------------------------------------------------------------------
+# --- files ----------------------------------------------------------------------------------------
 
 
 def read_text(name: str | Path) -> str:
@@ -65,7 +66,7 @@ def rows_of(file: str | Path) -> list[list[str]]:
     return [line.split(",") for line in lines_of(read_text(file))]
 
 
-# --- checks ----------------------------------------------------------------------------------------------------------
+# --- checks ---------------------------------------------------------------------------------------
 
 
 class Fault(Exception):
@@ -73,8 +74,8 @@ class Fault(Exception):
 
 
 class Checks:
-    """Counts checks, and prints one line for each. Use as a decorator: @check("name") runs the function at once;
-    whatever it raises fails the check."""
+    """Counts checks, and prints one line for each. Use as a decorator: @check("name") runs the function at
+    once; whatever it raises fails the check."""
 
     def __init__(self, what: str = "checks") -> None:
         self.what = what
@@ -129,7 +130,7 @@ def says(pattern: str, text: str) -> re.Match[str]:
     return match
 
 
-# --- runs ------------------------------------------------------------------------------------------------------------
+# --- runs -----------------------------------------------------------------------------------------
 
 
 class Ended(NamedTuple):
@@ -141,8 +142,8 @@ class Ended(NamedTuple):
 
 
 def run(*command: str, file_limit: int | None = None, environment: Mapping[str, str] | None = None) -> Ended:
-    """Runs a command within limits of time and memory; where files may not become longer than `file_limit` bytes,
-    writing fails as it does on a full disk."""
+    """Runs a command within limits of time and memory; where files may not become longer than `file_limit`
+    bytes, writing fails as it does on a full disk."""
 
     def restrict() -> None:
         if not IS_SANITIZED:
@@ -202,7 +203,9 @@ class Run:
         """Columns of history.csv by name."""
         names, *rows = rows_of(f"{self.folder}/history.csv")
         for row in rows:
-            require(len(row) == len(names), f"{self.folder}/history.csv: {len(row)} values, {len(names)} names")
+            require(
+                len(row) == len(names), f"{self.folder}/history.csv: {len(row)} values, {len(names)} names"
+            )
         return {name: [row[i] for row in rows] for i, name in enumerate(names)}
 
     def column(self, name: str) -> list[float]:

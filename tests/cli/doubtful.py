@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: doubtful.py TABLE BILLET      in an empty current folder
+"""Usage: doubtful.py TABLE BILLET
 
-Each line of TABLE is a scene that billet must run, check, refuse or stop with these warnings and errors, or with no
-warning:
+Runs in an empty current folder.
 
-  SCENE: EDIT -> KEYS          SCENE.prm of this folder or of its folders 'doubtful' and 'files', changed by EDIT
-                               (edits.py) if there is one, is run
+Each line of TABLE is a scene that billet must run, check, refuse or stop with these warnings and errors, or
+with no warning:
+
+  SCENE: EDIT -> KEYS          SCENE.prm of this folder or of its folders 'doubtful' and 'files', changed by
+                               EDIT (edits.py) if there is one, is run
   check SCENE: EDIT -> KEYS    the same, with --check
 
-KEYS are separated by commas. 'key' must be printed; 'key = 10 +- 0.2' must have this measure, the first number in its
-text, to this part; 'key ~ words' must have these words; '! key' must not be printed; 'none' stands for no warning at
-all (notes may be printed), 'code 6' for the exit code. That is else 2 for 'bad-input', 3 for 'solution-failed', and 0.
-'#' begins a comment. After NAME := EDIT, NAME stands for EDIT.
+KEYS are separated by commas. 'key' must be printed; 'key = 10 +- 0.2' must have this measure, the first
+number in its text, to this part; 'key ~ words' must have these words; '! key' must not be printed; 'none'
+stands for no warning at all (notes may be printed), 'code 6' for the exit code. That is else 2 for
+'bad-input', 3 for 'solution-failed', and 0. '#' begins a comment. After NAME := EDIT, NAME stands for EDIT.
 """
 
 from __future__ import annotations

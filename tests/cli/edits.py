@@ -6,8 +6,8 @@ An edit is one or more of these, joined by ' & ':
   Section: Key = value    sets the parameter in the subsection of that (last) name; without 'Section:' at the
                           top level. Where the last name is not the only one of its kind: Body / Section
   Section: - Key          takes its line away
-  Section: + text         adds lines (newlines or \\n between them) at the subsection's start, at the top level at
-                          the file's end
+  Section: + text         adds lines (newlines or \\n between them) at the subsection's start, at the top
+                          level at the file's end
   Section: delete         takes the subsection away
 """
 
@@ -33,7 +33,8 @@ def lines_of(text: str) -> list[str]:
 
 
 def paths(lines: list[str]) -> list[str]:
-    """Returns for each line the names of the subsections that it stands in; a line that opens one stands in it."""
+    """Returns for each line the names of the subsections that it stands in; a line that opens one stands in
+    it."""
     stack: list[str] = []
     found = []
     for line in lines:

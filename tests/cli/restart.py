@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: restart.py BILLET [LAUNCHER...]      in an empty current folder; LAUNCHER is mpirun with its option -n
+"""Usage: restart.py BILLET [LAUNCHER...]
 
-Runs of block.prm and impact.prm that write checkpoints, go on from them, are stopped by signals; checkpoints that must
-be refused; a disk that is full.
+Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
+
+Runs of block.prm and impact.prm that write checkpoints, go on from them, are stopped by signals; checkpoints
+that must be refused; a disk that is full.
 """
 
 from __future__ import annotations
@@ -54,7 +56,9 @@ def runs(expected: int, ranks: int, *arguments: str) -> str:
     """Returns what a run printed that must end with this exit code, or with 7 instead of 0: a target error is
     missed."""
     code, output, errors = run(*program.on(ranks, *arguments))
-    require(code == expected or (code, expected) == (7, 0), f"exit code {code}, not {expected}\n{output}{errors}")
+    require(
+        code == expected or (code, expected) == (7, 0), f"exit code {code}, not {expected}\n{output}{errors}"
+    )
     return output + errors
 
 
@@ -69,7 +73,8 @@ def checkpoints_of(folder: str) -> list[str]:
 
 
 def require_close(a: str, b: str, *names: str) -> None:
-    """Compares the columns with such names of two tables, each number relative to the largest in its column."""
+    """Compares the columns with such names of two tables, each number relative to the largest in its
+    column."""
     head, *rows_a = rows_of(a)
     _, *rows_b = rows_of(b)
     require(len(rows_a) == len(rows_b), f"{len(rows_a)} rows, not {len(rows_b)}")
@@ -84,7 +89,7 @@ def require_close(a: str, b: str, *names: str) -> None:
     require(worst <= 1e-8, f"{where} differs by {worst}")
 
 
-# --- going on --------------------------------------------------------------------------------------------------------
+# --- going on -------------------------------------------------------------------------------------
 
 SAME = ("history.csv", "scene.pvd")
 
@@ -110,8 +115,10 @@ RESUMED = {
     "drop": Resumed(
         DROP,
         "set Every steps = 1",
-        " & Target error = 1 % & Time stepping: End time = 0.1e-3"
-        " & + subsection Solver\n set Force tolerance = 1e-10\nend",
+        (
+            " & Target error = 1 % & Time stepping: End time = 0.1e-3"
+            " & + subsection Solver\n set Force tolerance = 1e-10\nend"
+        ),
         "force_[yz]",  # along x there is nothing but round-off
     ),
     "edge": Resumed(EDGE, "set Interval = 20e-6"),
@@ -120,7 +127,9 @@ for which, what in RESUMED.items():
     for ranks in RANKS:
         folder = f"{which}{ranks}"
         scene = f"{folder}.prm"
-        write_scene(scene, what.base, f"Output: Folder = {folder}{what.edits}", f"{what.checkpoints}\nset Keep = 100")
+        write_scene(
+            scene, what.base, f"Output: Folder = {folder}{what.edits}", f"{what.checkpoints}\nset Keep = 100"
+        )
 
         @check(f"{which} on {ranks} writes checkpoints")
         def _() -> None:
@@ -153,7 +162,10 @@ for begun, resumed in (("double", "float"), ("float", "double")):
 
     @check(f"begun in {begun}, goes on in {resumed}")
     def _() -> None:
-        edits = f"Output: Folder = in_{begun} & Output: Interval = 0.1e-3 & Explicit dynamics: Number type = {begun}"
+        edits = (
+            f"Output: Folder = in_{begun} & Output: Interval = 0.1e-3 & Explicit dynamics: Number type ="
+            f" {begun}"
+        )
         write_scene(f"{begun}.prm", IMPACT, edits, "set Interval = 0.1e-3\nset Keep = 100")
         runs(0, 1, f"{begun}.prm")
         edits = f"Output: Folder = to_{resumed} & Explicit dynamics: Number type = {resumed}"
@@ -235,13 +247,13 @@ def _() -> None:
     equal("end", rows_of("later/history.csv")[-1][1], "1.2")
 
 
-# --- from one method to the other ------------------------------------------------------------------------------------
+# --- from one method to the other -----------------------------------------------------------------
 
 STATIC = (
-    "block: - Element & block: - Initial velocity & block / Loads: delete & Tools: delete & Contact pairs: delete"
-    " & slab / Material: - Density & block / Material: - Density & Time stepping: - Scheme"
-    " & Time stepping: End time = 1 & Explicit dynamics: delete"
-    " & block: + subsection Supports\n subsection top\n set Boundary ids = 5\n end\nend"
+    "block: - Element & block: - Initial velocity & block / Loads: delete & Tools: delete & Contact pairs:"
+    " delete & slab / Material: - Density & block / Material: - Density & Time stepping: - Scheme & Time"
+    " stepping: End time = 1 & Explicit dynamics: delete & block: + subsection Supports\n subsection top\n"
+    " set Boundary ids = 5\n end\nend"
 )
 
 
@@ -249,7 +261,10 @@ STATIC = (
 def _() -> None:
     write_scene("spring.prm", IMPACT, f"{STATIC} & Output: Folder = spring")
     text = resumes(1, checkpoints_of("impact1.whole")[-1], "spring.prm")
-    says("without tool 'hammer', without contact pair 'hammer on block', without contact pair 'block on slab'", text)
+    says(
+        "without tool 'hammer', without contact pair 'hammer on block', without contact pair 'block on slab'",
+        text,
+    )
     says(r" The kinetic energy there, \d\S*, is dropped", text)
     says(r" Forces out of balance, .* % of those in the scene, fade until time 1\.$", text)
 
@@ -269,12 +284,12 @@ def _() -> None:
     equal("begins", rows_of("both/history.csv")[1][1], "1")
 
 
-# --- signals ---------------------------------------------------------------------------------------------------------
+# --- signals --------------------------------------------------------------------------------------
 
 
 def signalled(number: signal.Signals, file: str, *command: str) -> tuple[int, str]:
-    """Starts the command and sends the signal once the file has some lines. Returns the exit code and what was
-    printed."""
+    """Starts the command and sends the signal once the file has some lines. Returns the exit code and what
+    was printed."""
     with open("../signal.stdout", "wb") as output:
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT)
         give_up = time.monotonic() + 60.0
@@ -324,7 +339,7 @@ def _() -> None:
     equal("checkpoints", " ".join(glob("long1/*.h5")), "long1/checkpoint_00000.h5")
 
 
-# --- what is refused -------------------------------------------------------------------------------------------------
+# --- what is refused ------------------------------------------------------------------------------
 
 GOOD = "block1.whole/checkpoint_00002.h5"
 WHOLE = Path(GOOD).read_bytes()
@@ -387,7 +402,9 @@ REFUSED = [
         "Mesh: Arguments = 2, 1, 2 : 0, 0, 0 : 2, 1.1, 2 : true",
         f"{UNFIT} 'block' has another mesh",
     ),
-    Refused("another order", GOOD, "Mesh: Positions = 2 - x ; 1 - y ; z", f"{UNFIT} 'block' has another mesh"),
+    Refused(
+        "another order", GOOD, "Mesh: Positions = 2 - x ; 1 - y ; z", f"{UNFIT} 'block' has another mesh"
+    ),
     Refused(
         "another law",
         GOOD,
@@ -432,17 +449,21 @@ def _() -> None:
 @check("a pair with other partners")
 def _() -> None:
     other = BLOCK.replace("subsection die\n", "subsection stamp\n", 1)
-    write_scene("refused.prm", re.sub(r"(Tool +=) die", r"\1 stamp", other, count=1), "Output: Folder = refused")
+    write_scene(
+        "refused.prm", re.sub(r"(Tool +=) die", r"\1 stamp", other, count=1), "Output: Folder = refused"
+    )
     code, _, errors = run(*program.on(1, "--restart", GOOD, "refused.prm"))
     equal("exit code", code, 2)
     says(
-        "its contact pair 'top on die' joins body 'block' and tool 'die',"
-        " here it joins body 'block' and tool 'stamp'; give",
+        (
+            "its contact pair 'top on die' joins body 'block' and tool 'die',"
+            " here it joins body 'block' and tool 'stamp'; give"
+        ),
         errors,
     )
 
 
-# --- a full disk -----------------------------------------------------------------------------------------------------
+# --- a full disk ----------------------------------------------------------------------------------
 
 FAILED = r"^warning\[checkpoint-failed\]: No checkpoint was written: "
 LARGE = " & Mesh: Arguments = 20, 10, 10 : 0, 0, 0 : 2, 1, 2 : true"
@@ -460,7 +481,9 @@ for limit, room, edits in ((16, "none of it", ""), (700, "a part of it", LARGE))
         ended = run(*program.on(1, "full.prm"), file_limit=1024 * limit, environment=without_files)
         equal("exit code", ended.code, 0)
         equal("left", " ".join(glob("full/checkpoint*")), "")
-        message = r"full/checkpoint_00000.h5.tmp cannot be made as long as it has to be: is the disk full\? \(time"
+        message = (
+            r"full/checkpoint_00000.h5.tmp cannot be made as long as it has to be: is the disk full\? \(time"
+        )
         says(FAILED + message, ended.output)
 
 

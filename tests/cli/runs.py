@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: runs.py BILLET [LAUNCHER...]      in an empty current folder; LAUNCHER is mpirun with its option -n
+"""Usage: runs.py BILLET [LAUNCHER...]
 
-Scenes that billet must run, and some that it must give up. Each is block.prm, or impact.prm where they are explicit,
-with an edit (edits.py); 'same' ones must come out as block.prm does, whatever way they say it.
+Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
+
+Scenes that billet must run, and some that it must give up. Each is block.prm, or impact.prm where they are
+explicit, with an edit (edits.py); 'same' ones must come out as block.prm does, whatever way they say it.
 """
 
 from __future__ import annotations
@@ -60,8 +62,8 @@ def billet(
     ranks: int = 1,
     code: int | None = None,
 ) -> Run:
-    """Runs a scene, edited, into a folder of its own; a fault unless the exit code is the expected one. Whether a
-    target is missed is the business of the checks that give a code."""
+    """Runs a scene, edited, into a folder of its own; a fault unless the exit code is the expected one.
+    Whether a target is missed is the business of the checks that give a code."""
     folder, text = runner.scene(base, edits)
     write_text(file, rewrite(text) if rewrite else text)
     ran = Run(folder, run(*program.on(ranks, file)))
@@ -111,7 +113,7 @@ def same(
         require_same(billet(edits, ranks=ranks, rewrite=rewrite), as_run, tolerance)
 
 
-# --- one scene, many ways to say it ----------------------------------------------------------------------------------
+# --- one scene, many ways to say it ---------------------------------------------------------------
 
 
 @check("the copy is the input")
@@ -149,21 +151,27 @@ same("a mesh file .vtk", NO_MESH + "block.vtk")
 same("a mesh file .ucd on 2 ranks", NO_MESH + "block.ucd", ranks=2)
 same(
     "an extruded mesh",
-    "Mesh: Source = extruded primitive & Mesh: Arguments = 2, 1 : 0, 0 : 4, 2 : true"
-    " & Mesh: Section area = 2 & Mesh: Height = 2 & Mesh: Layers = 2",
+    (
+        "Mesh: Source = extruded primitive & Mesh: Arguments = 2, 1 : 0, 0 : 4, 2 : true"
+        " & Mesh: Section area = 2 & Mesh: Height = 2 & Mesh: Layers = 2"
+    ),
 )
 same("a scaled mesh", "Mesh: Arguments = 2, 1, 2 : 0, 0, 0 : 4, 2, 4 : true & Mesh: Scale = 0.5")
 same(
     "supports for symmetry planes",
-    "block: - Symmetry planes & Supports: + subsection left\n set Boundary ids = 0\n set Components = x\nend"
-    "\nsubsection front\n set Boundary ids = 2\n set Components = y\nend",
+    (
+        "block: - Symmetry planes & Supports: + subsection left\n set Boundary ids = 0\n set Components ="
+        " x\nend\nsubsection front\n set Boundary ids = 2\n set Components = y\nend"
+    ),
 )
 same("a symmetry plane for a support", "block: Symmetry planes = x = 0 ; y = 0 ; z = 0")
 same("an expression for an amplitude", "Motion: Translation = 0 ; 0 ; -0.1*t")
 same(
     "the die turned over",
-    "Plane: Normal = 0, 0, 1 & Motion: Rotation axis = 1, 0, 0 & Motion: Rotation angle = pi"
-    " & Motion: Centre = 0, 0, 2",
+    (
+        "Plane: Normal = 0, 0, 1 & Motion: Rotation axis = 1, 0, 0 & Motion: Rotation angle = pi"
+        " & Motion: Centre = 0, 0, 2"
+    ),
 )
 same(
     "the die as Coons patches on 2 ranks",
@@ -200,7 +208,7 @@ same("an included file", "- Title & + include title.prm")
 same("continued lines", "", rewrite=lambda s: s.replace(" : 0, 0, 0 : ", " : \\\n  0, 0, 0 \\  \n : ", 1))
 same("line ends of Windows", "", rewrite=lambda s: s.replace("\n", "\r\n"))
 
-# --- solvers ---------------------------------------------------------------------------------------------------------
+# --- solvers --------------------------------------------------------------------------------------
 
 FIXED_SOFT = f"{FIXED} & top on die: Normal penalty = 1"  # soft enough for each
 steady = billet(FIXED_SOFT)
@@ -228,8 +236,10 @@ same(
 for part in ("upper", "lower", "mean"):
     same(
         f"symmetrised {part}",
-        f"{FIXED_SOFT} & Solver: Contact tangent = symmetrised {part}"
-        " & Solver: Linear solver = MUMPS symmetric & Solver: Most iterations = 100",
+        (
+            f"{FIXED_SOFT} & Solver: Contact tangent = symmetrised {part}"
+            " & Solver: Linear solver = MUMPS symmetric & Solver: Most iterations = 100"
+        ),
         as_run=steady,
         tolerance=1e-4,
         ranks=2,
@@ -242,7 +252,7 @@ def _() -> None:
     says(r"MUMPS \(symmetric\)", ran.said)
 
 
-# --- profiles and target errors --------------------------------------------------------------------------------------
+# --- profiles and target errors -------------------------------------------------------------------
 
 TOLERANCES = "Solver: - Force tolerance & Solver: - Energy tolerance"
 OPEN = f"Time stepping: - Initial step & Time stepping: - Largest step & {TOLERANCES}"
@@ -254,7 +264,8 @@ for profile, sets in (
     (
         "accurate",
         r"Time stepping / Largest step = 0\.1, Time stepping / Error tolerance = 1e-3,"
-        r" .*Solver / Force tolerance = 1e-8, .*Contact pairs / top on die / Penetration tolerance = automatic",
+        r" .*Solver / Force tolerance = 1e-8, .*Contact pairs / top on die / Penetration tolerance ="
+        r" automatic",
     ),
 ):
 
@@ -278,7 +289,8 @@ for ranks in (1, 2):
         ran = billet(f"Target error = 3 percent & {OPEN}", ranks=ranks)
         exact = billet(EXACT)
         says(
-            r"^note\[error-estimate\]: Estimated error [-\d.e]+ % of the forces, target 3 %: steps [-\d.e]+ %,"
+            r"^note\[error-estimate\]: Estimated error [-\d.e]+ % of the forces, target 3 %: steps"
+            r" [-\d.e]+ %,"
             r" penetrations [-\d.e]+ %, iterations [-\d.e]+ %; cost: \d+ steps taken, \d+ Newton iterations,"
             r" \d+ of them for estimates, [\d.e-]+ CPU seconds\. ",
             ran.said,
@@ -293,8 +305,10 @@ for ranks in (1, 2):
 @check("a target error that is missed is told")
 def _() -> None:
     ran = billet(
-        "Target error = 0.01 % & Time stepping: Initial step = 0.5 & Time stepping: Smallest step = 0.5"
-        " & Time stepping: Largest step = 0.5 & top on die: Penetration tolerance = 1e-6",
+        (
+            "Target error = 0.01 % & Time stepping: Initial step = 0.5 & Time stepping: Smallest step = 0.5"
+            " & Time stepping: Largest step = 0.5 & top on die: Penetration tolerance = 1e-6"
+        ),
         code=7,
     )
     says(
@@ -354,8 +368,10 @@ def _() -> None:
     exact = billet(f"{SMALL_STEPS} & top on die: Penetration tolerance = 1e-5")
     for penalty in (1, 10):
         ran = billet(
-            f"Target error = 0.1 % & {OPEN} & top on die: Penetration tolerance = 0"
-            f" & top on die: Normal penalty = {penalty}",
+            (
+                f"Target error = 0.1 % & {OPEN} & top on die: Penetration tolerance = 0"
+                f" & top on die: Normal penalty = {penalty}"
+            ),
             code=7,
         )
         error = abs(ran.force("die") / exact.force("die") - 1.0)
@@ -373,7 +389,7 @@ def _() -> None:
     )
 
 
-# --- messages --------------------------------------------------------------------------------------------------------
+# --- messages -------------------------------------------------------------------------------------
 
 SOFT = "top on die: Normal penalty = 1e-3"
 
@@ -393,7 +409,8 @@ for ranks in (1, 2):
         lines = billet(SOFT, ranks=ranks).text("diagnostics.jsonl").splitlines()
         require(len(lines) == 3, "lines: " + "\n".join(lines))
         first = (
-            r'\{"key":"penalty-too-low","severity":"warning","message":"Nodes penetrate .*","pair":"top on die",'
+            r'\{"key":"penalty-too-low","severity":"warning","message":"Nodes penetrate .*","pair":"top on'
+            r' die",'
             r'"time":[\d.]+,"values":\{"penetration \[facet sizes\]":[\d.e-]+\},"advice":"Increase .*"\}'
         )
         require(re.fullmatch(first, lines[0]), f"first: {lines[0]}")
@@ -432,7 +449,7 @@ def _() -> None:
     )
 
 
-# --- penalties that do not fit ---------------------------------------------------------------------------------------
+# --- penalties that do not fit --------------------------------------------------------------------
 
 
 @check("a penalty that leaves nothing but round-off of the forces ends the run, at once")
@@ -483,7 +500,8 @@ def _() -> None:
 @check("and what it makes of the force, too")
 def _() -> None:
     says(
-        r"^warning\[contact-too-soft\]: Penetration takes more than 99 % of the deformation along the load path"
+        r"^warning\[contact-too-soft\]: Penetration takes more than 99 % of the deformation along the load"
+        r" path"
         " of 'top on die'",
         billet(SOFT).said,
     )
@@ -513,20 +531,24 @@ def _() -> None:
 @check("a moment that friction cannot bear is named")
 def _() -> None:
     says(
-        "tool 'die' slips on nearly all that it touches: friction has reached its limit, and cannot bear a moment"
+        "tool 'die' slips on nearly all that it touches: friction has reached its limit, and cannot bear a"
+        " moment"
         r" of [\d.]+\. Try a smaller one",
         billet("Motion: Moment = 10*t^2", code=3).complained,
     )
 
 
-# --- motions, bodies, tools ------------------------------------------------------------------------------------------
+# --- motions, bodies, tools -----------------------------------------------------------------------
 
 for ranks in (1, 2):
 
     @check(f"a checkerboard of pressures is told, on {ranks} ranks")
     def _() -> None:
         says(
-            r"^warning\[pressure-checkerboard\]: Pressures alternate from element to element by 47 % of their size",
+            (
+                r"^warning\[pressure-checkerboard\]: Pressures alternate from element to element by 47 % of"
+                r" their size"
+            ),
             billet(base=CAVITY, ranks=ranks).said,
         )
         ran = billet("Material: Poisson ratio = 0.3", base=CAVITY, ranks=ranks)
@@ -543,8 +565,10 @@ def _() -> None:
 @check("a prescribed displacement, without contact")
 def _() -> None:
     ran = billet(
-        "top on die: delete & die: delete & Supports: + subsection top\n set Boundary ids = 7\n"
-        f" set Components = z\n set Displacement = 0 ; 0 ; -ramp\nend & {ELASTIC}",
+        (
+            "top on die: delete & die: delete & Supports: + subsection top\n set Boundary ids = 7\n"
+            f" set Components = z\n set Displacement = 0 ; 0 ; -ramp\nend & {ELASTIC}"
+        ),
         ranks=2,
     )
     # Hencky's law in uniaxial stress: E/2 (ln 0.95)^2 for each unit of volume
@@ -586,8 +610,10 @@ for ranks in (1, 3):
 @check("turned and moved, symmetry planes askew, on 2 ranks")
 def _() -> None:
     ran = billet(
-        "Mesh: Rotation angle = 36.86989764584402 & Mesh: Translation = 5, 0, 0"
-        " & block: Symmetry planes = 0.8, 0.6, 0 = 4 ; -0.6, 0.8, 0 = -3",
+        (
+            "Mesh: Rotation angle = 36.86989764584402 & Mesh: Translation = 5, 0, 0"
+            " & block: Symmetry planes = 0.8, 0.6, 0 = 4 ; -0.6, 0.8, 0 = -3"
+        ),
         ranks=2,
     )
     x, y, z = (reference.last(f"die.force_{axis}") for axis in "xyz")
@@ -605,7 +631,7 @@ def _() -> None:
     equal("number of columns", len(ran.history), len(reference.history))
 
 
-# --- output ----------------------------------------------------------------------------------------------------------
+# --- output ---------------------------------------------------------------------------------------
 
 for edits, times in (
     ("Output: Interval = 0.25", "0 0.25 0.5 0.75 1"),
@@ -643,7 +669,8 @@ for ranks in (1, 2):
 @check("layers of points through the thickness")
 def _() -> None:
     ran = billet(
-        "block: Points through thickness = 3 & block: Thickness direction = 0 ; 0 ; 1 & Output: Every steps = 0"
+        "block: Points through thickness = 3 & block: Thickness direction = 0 ; 0 ; 1 & Output: Every"
+        " steps = 0"
     )
     two, three = (each.text("fields_00001.pvtu") for each in (reference, ran))
     for layer in ("inner", "membrane", "outer"):
@@ -688,7 +715,7 @@ def _() -> None:
     require(os.path.getsize("deep/er/results/history.csv") > 0, "nothing is in it")
 
 
-# --- what is too small, too stiff or too flat ------------------------------------------------------------------------
+# --- what is too small, too stiff or too flat -----------------------------------------------------
 
 BALL = read_text(HERE / "files/small_ball.prm")
 
@@ -701,8 +728,10 @@ def _() -> None:
         code=3,
     )
     says(
-        r"the step from .* failed .*: nodes of contact pair 'foot' go through tool 'ball', which is 0\.002 thick:"
-        r" .* Try a smaller 'Largest step', a larger 'Normal penalty', or facets as small as the tool\. What was",
+        r"the step from .* failed .*: nodes of contact pair 'foot' go through tool 'ball', which is 0\.002"
+        r" thick:"
+        r" .* Try a smaller 'Largest step', a larger 'Normal penalty', or facets as small as the tool\."
+        r" What was",
         ran.complained,
     )
 
@@ -716,7 +745,8 @@ def _() -> None:
         ran.said,
     )
     says(
-        r"^warning\[penalty-too-high\]: The penalty, 1e\+05 E/h, makes steps \d+ times shorter than the elements"
+        r"^warning\[penalty-too-high\]: The penalty, 1e\+05 E/h, makes steps \d+ times shorter than the"
+        r" elements"
         r" require \(pair 'foot'",
         billet("foot: Normal penalty = 1e5", base=BALL).said,
     )
@@ -735,7 +765,8 @@ def _() -> None:
     scene = scene.replace("subsection Mesh", load, 1).replace("7e-3", "0.04", 1)
     ran = billet(base=scene, code=3)
     says(
-        r"(?:the stable step of the elements has fallen to [\d.e-]+, from [\d.e-]+ at the start, as one is nearly"
+        r"(?:the stable step of the elements has fallen to [\d.e-]+, from [\d.e-]+ at the start, as one is"
+        r" nearly"
         r" flat|the energies fail to balance by).*Body 'block' yields without hardening, and loads are given:"
         " above the limit load it flows on and on",
         ran.complained,
@@ -754,7 +785,7 @@ def _() -> None:
     near("first", short_times[0], 0.01)
 
 
-# --- failed solutions ------------------------------------------------------------------------------------------------
+# --- failed solutions -----------------------------------------------------------------------------
 
 WILD = "ramp: Times = 0, 0.5, 1 & ramp: Values = 0, 0.1, 2.5"
 for name, ranks, edits in (
@@ -794,7 +825,8 @@ def _() -> None:
 
 
 class Broken(NamedTuple):
-    """An explicit scene that must be given up; `overflows` where traps of numbers end it before it is found."""
+    """An explicit scene that must be given up; `overflows` where traps of numbers end it before it is
+    found."""
 
     name: str
     edits: str
@@ -908,8 +940,8 @@ def _() -> None:
     require(max(steps[1:]) < 1.3 * steps[0], f"{steps} steps")
 
 
-# A roll is dragged over a block: each step some nodes leave it, and others take over. What friction takes is that of
-# steps that are short beside the facets. (One account for each node alone gave 43 % of it.)
+# A roll is dragged over a block: each step some nodes leave it, and others take over. What friction takes is
+# that of steps that are short beside the facets. (One account for each node alone gave 43 % of it.)
 @check("nodes that hand their load over dissipate with default steps what they do in short ones")
 def _() -> None:
     roll = (
@@ -952,9 +984,9 @@ def _() -> None:
         " x*sin(6*pi*max(0,t-1))+y*(cos(6*pi*max(0,t-1))-1) ; 0"
     )
     turn = (
-        f"floor: - Components & floor: Displacement = {turned} & block: - Symmetry planes"
-        " & Mesh: Arguments = 2, 2, 2 : -1, -1, 0 : 1, 1, 2 : true & ramp: Times = 0, 1, 2"
-        " & ramp: Values = 0, 0.02, 0.02 & top on die: Friction coefficient = 0.3 & Time stepping: End time = 2"
+        f"floor: - Components & floor: Displacement = {turned} & block: - Symmetry planes & Mesh: Arguments ="
+        " 2, 2, 2 : -1, -1, 0 : 1, 1, 2 : true & ramp: Times = 0, 1, 2 & ramp: Values = 0, 0.02, 0.02 & top"
+        " on die: Friction coefficient = 0.3 & Time stepping: End time = 2"
     )
     long = billet(f"{turn} & Time stepping: Largest step = 0.34").last("die.moment_z")
     near("moment", long, billet(f"{turn} & {SHORT}").last("die.moment_z"), 0.03)
@@ -997,11 +1029,11 @@ for ranks in (1, 2):
     def _() -> None:
         ran = billet(f"{LET_GO} & Output: Every steps = 0", ranks=ranks, code=3)
         message = (
-            "error[solution-failed]: scene.prm: at time 0.5, without tool 'bed', tool 'die', which are removed"
-            " then, body 'block' is left without support: neither supports, nor symmetry planes, nor tools that"
-            " it touches hold its rigid motion with translation (0, 0, 1) and rotation (0, 0, 0). Hold it there"
-            " by a support or a symmetry plane, or let a tool stay. What was computed until time 0.5 is in"
-            f" '{ran.folder}'.\n"
+            "error[solution-failed]: scene.prm: at time 0.5, without tool 'bed', tool 'die', which are"
+            " removed then, body 'block' is left without support: neither supports, nor symmetry planes, nor"
+            " tools that it touches hold its rigid motion with translation (0, 0, 1) and rotation (0, 0, 0)."
+            " Hold it there by a support or a symmetry plane, or let a tool stay. What was computed until"
+            f" time 0.5 is in '{ran.folder}'.\n"
         )
         # Both directions are free.
         equal("the message", ran.complained.replace("(0, 0, -1)", "(0, 0, 1)", 1), message)
@@ -1012,8 +1044,10 @@ for ranks in (1, 2):
 @check("a body that one tool is left to")
 def _() -> None:
     ran = billet(
-        f"Motion: Removed at = 0.5 & floor: delete & Tools: + {tool('bed', '', '')}"
-        f" & Contact pairs: + {pair('bed', 4)}",
+        (
+            f"Motion: Removed at = 0.5 & floor: delete & Tools: + {tool('bed', '', '')}"
+            f" & Contact pairs: + {pair('bed', 4)}"
+        ),
         code=3,
     )
     # The bed pushes, but does not pull.
@@ -1028,7 +1062,7 @@ def _() -> None:
     billet("Motion: Removed at = 0.5 & Motion: Release time = 0.2")
 
 
-# --- --check ---------------------------------------------------------------------------------------------------------
+# --- --check --------------------------------------------------------------------------------------
 
 
 def checked(edits: str, ranks: int = 1) -> str:

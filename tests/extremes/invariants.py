@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Each invariant holds of a result that is made up to be sound, and breaks when that is doctored in the one thing that it is about;
-closed forms against their limits; frames there and back; messages; the plan."""
+"""Each invariant holds of a result that is made up to be sound, and breaks when that is doctored in the one
+thing that it is about; closed forms against their limits; frames there and back; messages; the plan."""
 
 import json
 import math
@@ -29,7 +29,16 @@ def grid(n, low, high):
     return numpy.array(points), numpy.array([list(c) for c in cells])
 
 
-def made_up(base, changes=None, n=(2, 2, 2), low=(0, 0, 0), high=(1, 1, 1), move=lambda x: 0 * x, history=None, **fields):
+def made_up(
+    base,
+    changes=None,
+    n=(2, 2, 2),
+    low=(0, 0, 0),
+    high=(1, 1, 1),
+    move=lambda x: 0 * x,
+    history=None,
+    **fields,
+):
     """A result of this scene; `move` gives displacements of places."""
     r = Result.__new__(Result)
     r.setup = scenes.make(base, changes or {})
@@ -37,21 +46,44 @@ def made_up(base, changes=None, n=(2, 2, 2), low=(0, 0, 0), high=(1, 1, 1), move
     places, cells = grid(n, low, high)
     u = numpy.array([move(x) for x in places], float)
     size = len(places)
-    r.fields = {"places": places, "cells": cells, "displacement": u, "points": places + u, "body": numpy.zeros(size),
-                "von_mises_stress": numpy.ones(size), **{name: numpy.broadcast_to(numpy.asarray(v, float), (size, *numpy.shape(v)[1:])).copy()
-                                                         for name, v in fields.items()}}
+    r.fields = {
+        "places": places,
+        "cells": cells,
+        "displacement": u,
+        "points": places + u,
+        "body": numpy.zeros(size),
+        "von_mises_stress": numpy.ones(size),
+        **{
+            name: numpy.broadcast_to(numpy.asarray(v, float), (size, *numpy.shape(v)[1:])).copy()
+            for name, v in fields.items()
+        },
+    }
     times = numpy.linspace(0.1, 1.0, 10)
-    r.history = {"time": times, "step": numpy.arange(1.0, 11), "step_length": numpy.full(10, 0.1), **{
-        name: numpy.broadcast_to(numpy.asarray(v, float), (10,)).copy() for name, v in (history or {}).items()}}
+    r.history = {
+        "time": times,
+        "step": numpy.arange(1.0, 11),
+        "step_length": numpy.full(10, 0.1),
+        **{
+            name: numpy.broadcast_to(numpy.asarray(v, float), (10,)).copy()
+            for name, v in (history or {}).items()
+        },
+    }
     return r
 
 
 def force(name, x=0.0, y=0.0, z=0.0, **more):
-    return {f"{name}.force_x": x, f"{name}.force_y": y, f"{name}.force_z": z, **{f"{name}.{k}": v for k, v in more.items()}}
+    return {
+        f"{name}.force_x": x,
+        f"{name}.force_y": y,
+        f"{name}.force_z": z,
+        **{f"{name}.{k}": v for k, v in more.items()},
+    }
 
 
 def stretched(strain, across):
-    return lambda x: numpy.array([math.expm1(across) * x[0], math.expm1(across) * x[1], math.expm1(strain) * x[2]])
+    return lambda x: numpy.array(
+        [math.expm1(across) * x[0], math.expm1(across) * x[1], math.expm1(strain) * x[2]]
+    )
 
 
 class Invariants(unittest.TestCase):
@@ -63,17 +95,30 @@ class Invariants(unittest.TestCase):
         for number, doctor in enumerate(doctors):
             r = make()
             doctor(r)
-            self.assertTrue(any(not f.holds for f in check(r)), f"doctor {number} is not noticed: {[str(f) for f in check(r)]}")
+            self.assertTrue(
+                any(not f.holds for f in check(r)),
+                f"doctor {number} is not noticed: {[str(f) for f in check(r)]}",
+            )
 
     def test_finite(self):
-        self.about(must.finite, lambda: made_up("upset"), lambda r: r.history["step"].__setitem__(3, math.nan),
-                   lambda r: r.fields["displacement"].__setitem__((2, 1), math.inf),
-                   lambda r: r.history.update(time=r.history["time"] * 0.9))
+        self.about(
+            must.finite,
+            lambda: made_up("upset"),
+            lambda r: r.history["step"].__setitem__(3, math.nan),
+            lambda r: r.fields["displacement"].__setitem__((2, 1), math.inf),
+            lambda r: r.history.update(time=r.history["time"] * 0.9),
+        )
 
     def test_residual(self):
-        self.about(must.residual, lambda: made_up("slide", history={"residual": 1e-7}),
-                   lambda r: r.history["residual"].__setitem__(3, 2e-6), lambda r: r.history["residual"].__setitem__(-1, 2e-6))
-        self.assertEqual(must.residual(made_up("slide", {"target error": 0.1}, history={"residual": 1e-4})), [])
+        self.about(
+            must.residual,
+            lambda: made_up("slide", history={"residual": 1e-7}),
+            lambda r: r.history["residual"].__setitem__(3, 2e-6),
+            lambda r: r.history["residual"].__setitem__(-1, 2e-6),
+        )
+        self.assertEqual(
+            must.residual(made_up("slide", {"target error": 0.1}, history={"residual": 1e-4})), []
+        )
 
     def test_depth(self):
         r = made_up("slide", history=force("floor", deepest_penetration=0.03), contact_area=0.25)
@@ -82,104 +127,254 @@ class Invariants(unittest.TestCase):
 
     def test_forces(self):
         both = {**force("die", z=2.0), **force("ram", z=-2.0)}
-        self.about(must.balanced("die", "ram"), lambda: made_up("upset", history=both),
-                   lambda r: r.history["ram.force_z"].__setitem__(4, -2.001))
-        self.about(must.sideways_free("die"), lambda: made_up("upset", history=both), lambda r: r.history.update({"die.force_x": r.history["die.force_z"] * 1e-3}))
-        self.about(must.pushes("die"), lambda: made_up("upset", history=both), lambda r: r.history["die.force_z"].__setitem__(0, -0.1))
+        self.about(
+            must.balanced("die", "ram"),
+            lambda: made_up("upset", history=both),
+            lambda r: r.history["ram.force_z"].__setitem__(4, -2.001),
+        )
+        self.about(
+            must.sideways_free("die"),
+            lambda: made_up("upset", history=both),
+            lambda r: r.history.update({"die.force_x": r.history["die.force_z"] * 1e-3}),
+        )
+        self.about(
+            must.pushes("die"),
+            lambda: made_up("upset", history=both),
+            lambda r: r.history["die.force_z"].__setitem__(0, -0.1),
+        )
 
     def test_friction(self):
         history = force("die", x=0.3, z=1.0, contact_area=1.0)
-        contact = {"contact_pressure": 1.0, "contact_traction": numpy.array([[0.3, 0.0, 1.0]]), "contact_status": 2.0}
+        contact = {
+            "contact_pressure": 1.0,
+            "contact_traction": numpy.array([[0.3, 0.0, 1.0]]),
+            "contact_status": 2.0,
+        }
         make = lambda: made_up("slide", {"mu": 0.3}, history=history, **contact)  # noqa: E731
-        self.about(must.force_cone("die"), make, lambda r: r.history.update({"die.force_y": r.history["die.force_x"]}))
-        self.about(must.gross_slip("die"), make, lambda r: r.history.update({"die.force_x": -r.history["die.force_x"]}),
-                   lambda r: r.history.update({"die.force_x": 0.8 * r.history["die.force_x"]}))
-        self.about(must.cone, make, lambda r: r.fields["contact_traction"].__setitem__((5, 1), 0.1),
-                   lambda r: r.fields["contact_pressure"].__setitem__(5, -0.1))
-        limited = lambda: made_up("slide", {"mu": 1.0, "friction law": "shear limited"},  # noqa: E731
-                                  history=force("die", x=5.0, z=100.0, contact_area=1.0))
-        self.about(must.force_cone("die"), limited, lambda r: r.history.update({"die.force_x": 1.1 * r.history["die.force_x"]}))
-        moment = lambda: made_up("twist", {"mu": 0.3}, low=(-0.5, -0.5, 0), high=(0.5, 0.5, 0.5),  # noqa: E731
-                                 history=force("ram", z=-1.0, moment_z=0.1))
-        self.about(must.moment_cone("ram"), moment, lambda r: r.history.update({"ram.moment_z": r.history["ram.moment_z"] * 3}))
+        self.about(
+            must.force_cone("die"),
+            make,
+            lambda r: r.history.update({"die.force_y": r.history["die.force_x"]}),
+        )
+        self.about(
+            must.gross_slip("die"),
+            make,
+            lambda r: r.history.update({"die.force_x": -r.history["die.force_x"]}),
+            lambda r: r.history.update({"die.force_x": 0.8 * r.history["die.force_x"]}),
+        )
+        self.about(
+            must.cone,
+            make,
+            lambda r: r.fields["contact_traction"].__setitem__((5, 1), 0.1),
+            lambda r: r.fields["contact_pressure"].__setitem__(5, -0.1),
+        )
+        limited = lambda: made_up(
+            "slide",
+            {"mu": 1.0, "friction law": "shear limited"},  # noqa: E731
+            history=force("die", x=5.0, z=100.0, contact_area=1.0),
+        )
+        self.about(
+            must.force_cone("die"),
+            limited,
+            lambda r: r.history.update({"die.force_x": 1.1 * r.history["die.force_x"]}),
+        )
+        moment = lambda: made_up(
+            "twist",
+            {"mu": 0.3},
+            low=(-0.5, -0.5, 0),
+            high=(0.5, 0.5, 0.5),  # noqa: E731
+            history=force("ram", z=-1.0, moment_z=0.1),
+        )
+        self.about(
+            must.moment_cone("ram"),
+            moment,
+            lambda r: r.history.update({"ram.moment_z": r.history["ram.moment_z"] * 3}),
+        )
 
     def test_penetration(self):
         # 10 E/h on facets of 1/2: 20000, under a pressure of 100
-        make = lambda: made_up("upset", {"penalty": 10.0}, history=force("ram", z=-200.0, contact_area=2.0, deepest_penetration=0.005))  # noqa: E731
-        self.about(must.penalty_depth("ram", 0.5), make, lambda r: r.history.update({"ram.deepest_penetration": r.history["time"] * 0.006}))
-        self.about(must.depth_bound("ram", 0.01), make, lambda r: r.history["ram.deepest_penetration"].__setitem__(3, 0.02))
-        self.about(must.touches("ram"), make, lambda r: r.history.update({f"ram.{what}": 0 * r.history["time"] for what in ("deepest_penetration", "contact_area")}))
+        make = lambda: made_up(
+            "upset",
+            {"penalty": 10.0},
+            history=force("ram", z=-200.0, contact_area=2.0, deepest_penetration=0.005),
+        )  # noqa: E731
+        self.about(
+            must.penalty_depth("ram", 0.5),
+            make,
+            lambda r: r.history.update({"ram.deepest_penetration": r.history["time"] * 0.006}),
+        )
+        self.about(
+            must.depth_bound("ram", 0.01),
+            make,
+            lambda r: r.history["ram.deepest_penetration"].__setitem__(3, 0.02),
+        )
+        self.about(
+            must.touches("ram"),
+            make,
+            lambda r: r.history.update(
+                {f"ram.{what}": 0 * r.history["time"] for what in ("deepest_penetration", "contact_area")}
+            ),
+        )
 
     def test_energies(self):
         t = numpy.linspace(0.1, 1, 10)
-        make = lambda: made_up("upset", history={"elastic_energy": t, "plastic_work": 2 * t, "contact_energy": 0.1 * t,  # noqa: E731
-                                                 "friction_dissipation": t, "external_work": 4.1 * t, "energy_drift": 0.0})
-        self.about(must.energies, make, lambda r: r.history["plastic_work"].__setitem__(5, 0.0), lambda r: r.history["elastic_energy"].__setitem__(0, -1.0),
-                   lambda r: r.history["external_work"].__setitem__(9, 5.0))
+        make = lambda: made_up(
+            "upset",
+            history={
+                "elastic_energy": t,
+                "plastic_work": 2 * t,
+                "contact_energy": 0.1 * t,  # noqa: E731
+                "friction_dissipation": t,
+                "external_work": 4.1 * t,
+                "energy_drift": 0.0,
+            },
+        )
+        self.about(
+            must.energies,
+            make,
+            lambda r: r.history["plastic_work"].__setitem__(5, 0.0),
+            lambda r: r.history["elastic_energy"].__setitem__(0, -1.0),
+            lambda r: r.history["external_work"].__setitem__(9, 5.0),
+        )
 
     def test_jacobians(self):
-        self.about(must.jacobians, lambda: made_up("upset"), lambda r: r.fields["displacement"].__setitem__((7, slice(None)), (-0.9, -0.9, -0.9)))
+        self.about(
+            must.jacobians,
+            lambda: made_up("upset"),
+            lambda r: r.fields["displacement"].__setitem__((7, slice(None)), (-0.9, -0.9, -0.9)),
+        )
 
     def test_augmented(self):
-        make = lambda: made_up("upset", {"augmentation": 1e-2}, history=force("ram", z=-200.0, deepest_penetration=0.004))  # noqa: E731
-        self.about(must.augmented("ram", 0.5), make, lambda r: r.history["ram.deepest_penetration"].__setitem__(2, 0.0051))
-        self.assertEqual(len(scenes.make("upset", {"augmentation": 1e-2}).checks), len(scenes.make("upset", {}).checks) + 2)
+        make = lambda: made_up(
+            "upset", {"augmentation": 1e-2}, history=force("ram", z=-200.0, deepest_penetration=0.004)
+        )  # noqa: E731
+        self.about(
+            must.augmented("ram", 0.5),
+            make,
+            lambda r: r.history["ram.deepest_penetration"].__setitem__(2, 0.0051),
+        )
+        self.assertEqual(
+            len(scenes.make("upset", {"augmentation": 1e-2}).checks), len(scenes.make("upset", {}).checks) + 2
+        )
 
     def test_driven(self):
         make = lambda: made_up("upset", {"force": 0.01}, history=force("ram", z=-10.0))  # noqa: E731
-        self.about(must.driven("ram.force_z", -10.0), make, lambda r: r.history["ram.force_z"].__setitem__(9, -10.01))
+        self.about(
+            must.driven("ram.force_z", -10.0), make, lambda r: r.history["ram.force_z"].__setitem__(9, -10.01)
+        )
 
     def test_laden(self):
         t = numpy.linspace(0.1, 1, 10)
-        make = lambda: made_up("laden.explicit", history={**force("floor", z=t), "momentum_z": 0.0, "time": t})  # noqa: E731
-        self.about(must.bears("floor", 1.0, 1.0), make, lambda r: r.history.update({"floor.force_z": 0.9 * r.history["floor.force_z"]}),
-                   lambda r: r.history["momentum_z"].__setitem__(9, 0.1))
-        held = lambda: made_up("laden.explicit", {"spring": 1.0}, history={**force("floor", z=0.5 * t), "momentum_z": 0.0, "time": t})  # noqa: E731
-        self.about(must.bears("floor", 1.0, 1.0), held, lambda r: r.history.update({"floor.force_z": -r.history["floor.force_z"]}),
-                   lambda r: r.history.update({"floor.force_z": 2.5 * r.history["floor.force_z"]}))
+        make = lambda: made_up(
+            "laden.explicit", history={**force("floor", z=t), "momentum_z": 0.0, "time": t}
+        )  # noqa: E731
+        self.about(
+            must.bears("floor", 1.0, 1.0),
+            make,
+            lambda r: r.history.update({"floor.force_z": 0.9 * r.history["floor.force_z"]}),
+            lambda r: r.history["momentum_z"].__setitem__(9, 0.1),
+        )
+        held = lambda: made_up(
+            "laden.explicit",
+            {"spring": 1.0},
+            history={**force("floor", z=0.5 * t), "momentum_z": 0.0, "time": t},
+        )  # noqa: E731
+        self.about(
+            must.bears("floor", 1.0, 1.0),
+            held,
+            lambda r: r.history.update({"floor.force_z": -r.history["floor.force_z"]}),
+            lambda r: r.history.update({"floor.force_z": 2.5 * r.history["floor.force_z"]}),
+        )
 
     def test_believed(self):
         t = numpy.linspace(0.1, 1, 10)
         fine = made_up("slide", history=force("die", z=t))
+
         def make():
             r = made_up("slide", history=force("die", z=1.02 * t))
             r.believed = {"error": 0.01}
             return r
-        self.about(lambda r: must.believed(r, fine), make, lambda r: r.believed.update(error=0.006), lambda r: r.believed.clear(),
-                   lambda r: r.history.update({"die.force_z": 1.05 * t}))
+
+        self.about(
+            lambda r: must.believed(r, fine),
+            make,
+            lambda r: r.believed.update(error=0.006),
+            lambda r: r.believed.clear(),
+            lambda r: r.history.update({"die.force_z": 1.05 * t}),
+        )
 
     def test_yields(self):
         # J = 1; 1 % of E and 10 % hardening: 10 + 100 * 0.1
-        make = lambda: made_up("upset", {"law": "elastoplastic"}, von_mises_stress=20.0, equivalent_plastic_strain=0.1)  # noqa: E731
-        self.about(must.yields, make, lambda r: r.fields.update(von_mises_stress=r.fields["von_mises_stress"] * 1.01),
-                   lambda r: r.fields.update(equivalent_plastic_strain=0 * r.fields["equivalent_plastic_strain"], von_mises_stress=9.0 + 0 * r.fields["von_mises_stress"]),
-                   lambda r: r.fields.update(equivalent_plastic_strain=r.fields["equivalent_plastic_strain"] - 0.2))
+        make = lambda: made_up(
+            "upset", {"law": "elastoplastic"}, von_mises_stress=20.0, equivalent_plastic_strain=0.1
+        )  # noqa: E731
+        self.about(
+            must.yields,
+            make,
+            lambda r: r.fields.update(von_mises_stress=r.fields["von_mises_stress"] * 1.01),
+            lambda r: r.fields.update(
+                equivalent_plastic_strain=0 * r.fields["equivalent_plastic_strain"],
+                von_mises_stress=9.0 + 0 * r.fields["von_mises_stress"],
+            ),
+            lambda r: r.fields.update(equivalent_plastic_strain=r.fields["equivalent_plastic_strain"] - 0.2),
+        )
         # the stress that counts is Kirchhoff's
-        small = made_up("upset", {"law": "elastoplastic"}, move=lambda x: -0.01 * x, von_mises_stress=20.3, equivalent_plastic_strain=0.1)
+        small = made_up(
+            "upset",
+            {"law": "elastoplastic"},
+            move=lambda x: -0.01 * x,
+            von_mises_stress=20.3,
+            equivalent_plastic_strain=0.1,
+        )
         self.assertTrue(all(f.holds for f in must.yields(small)))
 
     def test_bar(self):
         strain, across = -0.1, 0.03
         f = 1000 * strain / math.exp(strain)
         history = {**force("ram", z=f), "elastic_energy": 500 * strain**2}
-        make = lambda: made_up("upset", move=stretched(strain, across), history=history, stress_zz=1000 * strain / math.exp(strain + 2 * across),  # noqa: E731
-                               stress_xx=0.0)
-        self.about(must.bar, make, lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]}),
-                   lambda r: r.history.update(elastic_energy=1.01 * r.history["elastic_energy"]))
-        self.about(must.bar_stress, make, lambda r: r.fields["stress_zz"].__setitem__(3, -90.0), lambda r: r.fields["stress_xx"].__setitem__(3, 1.0))
-        self.about(must.bar_shape, make, lambda r: r.fields["displacement"].__setitem__((slice(None), 0), 0.0))
+        make = lambda: made_up(
+            "upset",
+            move=stretched(strain, across),
+            history=history,
+            stress_zz=1000 * strain / math.exp(strain + 2 * across),  # noqa: E731
+            stress_xx=0.0,
+        )
+        self.about(
+            must.bar,
+            make,
+            lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]}),
+            lambda r: r.history.update(elastic_energy=1.01 * r.history["elastic_energy"]),
+        )
+        self.about(
+            must.bar_stress,
+            make,
+            lambda r: r.fields["stress_zz"].__setitem__(3, -90.0),
+            lambda r: r.fields["stress_xx"].__setitem__(3, 1.0),
+        )
+        self.about(
+            must.bar_shape, make, lambda r: r.fields["displacement"].__setitem__((slice(None), 0), 0.0)
+        )
         self.about(must.uniform_stress, make, lambda r: r.fields["von_mises_stress"].__setitem__(0, 1.1))
 
     def test_plastic_bar(self):
         stress, plastic = closed_forms.uniaxial_hencky(1000, -0.1, 10, 100)
         self.assertAlmostEqual(-stress, 10 + 100 * plastic)
         across = closed_forms.lateral_hencky(1000, 0.3, -0.1, stress)
-        make = lambda: made_up("upset", {"law": "elastoplastic"}, move=stretched(-0.1, across), history=force("ram", z=stress / math.exp(-0.1)))  # noqa: E731
-        self.about(must.bar, make, lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]}))
+        make = lambda: made_up(
+            "upset",
+            {"law": "elastoplastic"},
+            move=stretched(-0.1, across),
+            history=force("ram", z=stress / math.exp(-0.1)),
+        )  # noqa: E731
+        self.about(
+            must.bar, make, lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]})
+        )
 
     def test_strained(self):
         make = lambda: made_up("upset", {"strained": True}, move=stretched(-0.1, 0.03))  # noqa: E731
-        self.about(must.strained, make, lambda r: r.fields.update(displacement=0.85 * r.fields["displacement"]))
+        self.about(
+            must.strained, make, lambda r: r.fields.update(displacement=0.85 * r.fields["displacement"])
+        )
         # 0.1 E under penalties of 10 E/h would take as much as the block is high
         flat = scenes.make("upset", {"strained": True, "aspect": 1e-3})
         self.assertGreater(flat.knobs.penalty, 1e4)
@@ -187,49 +382,118 @@ class Invariants(unittest.TestCase):
 
     def test_bar_in_motion(self):
         strain, across = -0.1, 0.03
-        make = lambda: made_up("stretch.explicit", move=stretched(strain, across), stress_zz=1000 * strain / math.exp(strain + 2 * across))  # noqa: E731
-        self.about(must.bar_in_motion, make, lambda r: r.fields.update(stress_zz=0.85 * r.fields["stress_zz"]))
+        make = lambda: made_up(
+            "stretch.explicit",
+            move=stretched(strain, across),
+            stress_zz=1000 * strain / math.exp(strain + 2 * across),
+        )  # noqa: E731
+        self.about(
+            must.bar_in_motion, make, lambda r: r.fields.update(stress_zz=0.85 * r.fields["stress_zz"])
+        )
 
     def test_stack(self):
         strain = -0.01
         pressure = closed_forms.confined_hencky(1000, 0.3, strain) / math.exp(strain)
-        make = lambda: made_up("stack", n=(2, 2, 2), low=(0, 0, -1), high=(1, 1, 1), move=lambda x: numpy.array([0, 0, math.expm1(strain) * (x[2] + 1)]),  # noqa: E731
-                               history=force("joint", z=-pressure), stress_zz=pressure)
+        make = lambda: made_up(
+            "stack",
+            n=(2, 2, 2),
+            low=(0, 0, -1),
+            high=(1, 1, 1),
+            move=lambda x: numpy.array([0, 0, math.expm1(strain) * (x[2] + 1)]),  # noqa: E731
+            history=force("joint", z=-pressure),
+            stress_zz=pressure,
+        )
+
         def sound():
             r = make()
-            r.fields["body"] = (r.fields["places"][r.fields["cells"]].mean(axis=1)[:, 2] > 0).repeat(8).astype(float)
+            r.fields["body"] = (
+                (r.fields["places"][r.fields["cells"]].mean(axis=1)[:, 2] > 0).repeat(8).astype(float)
+            )
             return r
-        self.about(must.stack(1000, 1000), sound, lambda r: r.history.update({"joint.force_z": 1.01 * r.history["joint.force_z"]}))
-        self.about(must.uniform_stress_of_bodies, sound, lambda r: r.fields["stress_zz"].__setitem__(0, 0.9 * pressure))
+
+        self.about(
+            must.stack(1000, 1000),
+            sound,
+            lambda r: r.history.update({"joint.force_z": 1.01 * r.history["joint.force_z"]}),
+        )
+        self.about(
+            must.uniform_stress_of_bodies,
+            sound,
+            lambda r: r.fields["stress_zz"].__setitem__(0, 0.9 * pressure),
+        )
 
     def test_symmetry(self):
-        mirrored = lambda: made_up("slide", move=lambda x: numpy.array([x[0], (x[1] - 0.5) * x[2], x[0]]))  # noqa: E731
-        self.about(must.mirror((0, 1, 0), 0.5), mirrored, lambda r: r.fields["displacement"].__setitem__((0, 1), 0.3))
+        mirrored = lambda: made_up(
+            "slide", move=lambda x: numpy.array([x[0], (x[1] - 0.5) * x[2], x[0]])
+        )  # noqa: E731
+        self.about(
+            must.mirror((0, 1, 0), 0.5), mirrored, lambda r: r.fields["displacement"].__setitem__((0, 1), 0.3)
+        )
         diagonal = lambda: made_up("upset", move=stretched(-0.1, 0.03))  # noqa: E731
-        self.about(must.diagonal_symmetry, diagonal, lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
-        turned = lambda: made_up("twist", low=(-1, -1, 0), move=lambda x: numpy.array([-x[1], x[0], 1]))  # noqa: E731
+        self.about(
+            must.diagonal_symmetry, diagonal, lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04)
+        )
+        turned = lambda: made_up(
+            "twist", low=(-1, -1, 0), move=lambda x: numpy.array([-x[1], x[0], 1])
+        )  # noqa: E731
         self.about(must.quarter_turn, turned, lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
 
     def test_rest(self):
         make = lambda: made_up("rest", history=force("die"))  # noqa: E731
-        self.about(must.nothing_happens, make, lambda r: r.fields["displacement"].__setitem__((0, 0), 1e-6), lambda r: r.history["die.force_z"].__setitem__(0, 1e-3))
+        self.about(
+            must.nothing_happens,
+            make,
+            lambda r: r.fields["displacement"].__setitem__((0, 0), 1e-6),
+            lambda r: r.history["die.force_z"].__setitem__(0, 1e-3),
+        )
 
     def test_motion(self):
         t = numpy.linspace(0.1, 1, 10)
         mass, speed = 1e-3, 10.0
         energy = 0.5 * mass * speed**2
-        history = {**force("floor", z=2 * mass * speed / 0.9), "momentum_x": 0.0, "momentum_y": 0.0,
-                   "momentum_z": mass * speed * (2 * (t - 0.1) / 0.9 - 1), "kinetic_energy": energy, "elastic_energy": 0.0, "plastic_work": 0.0,
-                   "contact_energy": 0.0, "external_work": 0.0, "energy_drift": 0.0}
+        history = {
+            **force("floor", z=2 * mass * speed / 0.9),
+            "momentum_x": 0.0,
+            "momentum_y": 0.0,
+            "momentum_z": mass * speed * (2 * (t - 0.1) / 0.9 - 1),
+            "kinetic_energy": energy,
+            "elastic_energy": 0.0,
+            "plastic_work": 0.0,
+            "contact_energy": 0.0,
+            "external_work": 0.0,
+            "energy_drift": 0.0,
+        }
         make = lambda: made_up("drop.explicit", history=history)  # noqa: E731
-        self.about(must.impulse("floor", speed), make, lambda r: r.history.update({"floor.force_z": 0.7 * r.history["floor.force_z"]}),
-                   lambda r: r.history["momentum_y"].__setitem__(3, 1e-5))
-        self.about(must.drift, make, lambda r: r.history["energy_drift"].__setitem__(9, 0.1 * energy), lambda r: r.history["kinetic_energy"].__setitem__(5, 1.01 * energy))
-        self.about(must.energy_not_made, make, lambda r: r.history.update(kinetic_energy=1.1 * r.history["kinetic_energy"]))
+        self.about(
+            must.impulse("floor", speed),
+            make,
+            lambda r: r.history.update({"floor.force_z": 0.7 * r.history["floor.force_z"]}),
+            lambda r: r.history["momentum_y"].__setitem__(3, 1e-5),
+        )
+        self.about(
+            must.drift,
+            make,
+            lambda r: r.history["energy_drift"].__setitem__(9, 0.1 * energy),
+            lambda r: r.history["kinetic_energy"].__setitem__(5, 1.01 * energy),
+        )
+        self.about(
+            must.energy_not_made,
+            make,
+            lambda r: r.history.update(kinetic_energy=1.1 * r.history["kinetic_energy"]),
+        )
         free = lambda: made_up("bars.explicit", history={**history, "momentum_z": -3.0})  # noqa: E731
-        self.about(must.momentum((0, 0, -3.0), 3.0), free, lambda r: r.history["momentum_z"].__setitem__(7, -3.0 + 1e-6), lambda r: r.history["momentum_x"].__setitem__(7, 1e-6))
+        self.about(
+            must.momentum((0, 0, -3.0), 3.0),
+            free,
+            lambda r: r.history["momentum_z"].__setitem__(7, -3.0 + 1e-6),
+            lambda r: r.history["momentum_x"].__setitem__(7, 1e-6),
+        )
         hits = lambda: made_up("bar.explicit", history=history)  # noqa: E731
-        self.about(must.impact_force("floor", 2 * mass * speed / 0.9, 0.1, 1.0), hits, lambda r: r.history.update({"floor.force_z": 1.3 * r.history["floor.force_z"]}))
+        self.about(
+            must.impact_force("floor", 2 * mass * speed / 0.9, 0.1, 1.0),
+            hits,
+            lambda r: r.history.update({"floor.force_z": 1.3 * r.history["floor.force_z"]}),
+        )
 
     def test_impacts_are_looked_at(self):
         # what a check leaves out by the scene's knobs it must not leave out of every scene
@@ -248,33 +512,70 @@ class Invariants(unittest.TestCase):
         t = numpy.linspace(0.1, 1, 10)
         history = {"momentum_x": 1 - 0.2 * t * 0.5, "momentum_y": 0.0, "momentum_z": 0.0}
         make = lambda: made_up("skid.explicit", {"mu": 0.1}, history=history)  # noqa: E731
-        self.about(must.skidding(1.0, 1.0, 1.0), make, lambda r: r.history.update(momentum_x=1 - 0.2 * t), lambda r: r.history.update(momentum_x=1 + 0.1 * t),
-                   lambda r: r.history["momentum_y"].__setitem__(0, 0.01), lambda r: r.history.update(momentum_z=-2 * t))
+        self.about(
+            must.skidding(1.0, 1.0, 1.0),
+            make,
+            lambda r: r.history.update(momentum_x=1 - 0.2 * t),
+            lambda r: r.history.update(momentum_x=1 + 0.1 * t),
+            lambda r: r.history["momentum_y"].__setitem__(0, 0.01),
+            lambda r: r.history.update(momentum_z=-2 * t),
+        )
         smooth = lambda: made_up("skid.explicit", history={**history, "momentum_x": 1.0})  # noqa: E731
-        self.about(must.skidding(1.0, 1.0, 1.0), smooth, lambda r: r.history["momentum_x"].__setitem__(4, 0.9999))
+        self.about(
+            must.skidding(1.0, 1.0, 1.0), smooth, lambda r: r.history["momentum_x"].__setitem__(4, 0.9999)
+        )
 
     def test_pile(self):
-        make = lambda: made_up("pile.explicit", {"cycles": 100}, history={**force("floor", z=3.0), "kinetic_energy": 100.0 ** -numpy.arange(10)})  # noqa: E731
-        self.about(must.stays_put(3.0), make, lambda r: r.history.update({"floor.force_z": 1.1 * r.history["floor.force_z"]}),
-                   lambda r: r.fields["displacement"].__setitem__((0, 0), 0.01), lambda r: r.history["kinetic_energy"].__setitem__(9, 1e-3))
+        make = lambda: made_up(
+            "pile.explicit",
+            {"cycles": 100},
+            history={**force("floor", z=3.0), "kinetic_energy": 100.0 ** -numpy.arange(10)},
+        )  # noqa: E731
+        self.about(
+            must.stays_put(3.0),
+            make,
+            lambda r: r.history.update({"floor.force_z": 1.1 * r.history["floor.force_z"]}),
+            lambda r: r.fields["displacement"].__setitem__((0, 0), 0.01),
+            lambda r: r.history["kinetic_energy"].__setitem__(9, 1e-3),
+        )
 
     def test_cycles(self):
         def make():
             r = made_up("slide", {"cycles": 3, "step": 0.5, "mu": 0.3})
-            r.history = {"time": numpy.arange(0.5, 4.25, 0.5), **{k: numpy.full(8, v) for k, v in force("die", 1.0, 0.0, 3.0).items()}}
+            r.history = {
+                "time": numpy.arange(0.5, 4.25, 0.5),
+                **{k: numpy.full(8, v) for k, v in force("die", 1.0, 0.0, 3.0).items()},
+            }
             return r
+
         self.about(must.closed_cycles("die"), make, lambda r: r.history["die.force_x"].__setitem__(7, 1.001))
 
     def test_same(self):
-        make = lambda: made_up("upset", move=stretched(-0.1, 0.03), history={**force("ram", z=1.0), "total_iterations": 14.0, "total_cuts": 0.0})  # noqa: E731
-        self.about(lambda r: must.same(r, make()), make, lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 1),
-                   lambda r: r.history["ram.force_z"].__setitem__(2, 1.001), lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
+        make = lambda: made_up(
+            "upset",
+            move=stretched(-0.1, 0.03),
+            history={**force("ram", z=1.0), "total_iterations": 14.0, "total_cuts": 0.0},
+        )  # noqa: E731
+        self.about(
+            lambda r: must.same(r, make()),
+            make,
+            lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 1),
+            lambda r: r.history["ram.force_z"].__setitem__(2, 1.001),
+            lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04),
+        )
 
     def test_same_in_other_units(self):
-        make = lambda: made_up("upset", history={**force("ram", z=1.0), "total_iterations": 15.0, "total_cuts": 0.0})  # noqa: E731
+        make = lambda: made_up(
+            "upset", history={**force("ram", z=1.0), "total_iterations": 15.0, "total_cuts": 0.0}
+        )  # noqa: E731
         base = made_up("upset", history={**force("ram", z=1.0), "total_iterations": 14.0, "total_cuts": 0.0})
-        self.about(lambda r: must.same(r, base, count="nearly"), make, lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 2),
-                   lambda r: r.history.update(total_cuts=r.history["total_cuts"] + 1), lambda r: r.history.update(step=r.history["step"] + 1))
+        self.about(
+            lambda r: must.same(r, base, count="nearly"),
+            make,
+            lambda r: r.history.update(total_iterations=r.history["total_iterations"] + 2),
+            lambda r: r.history.update(total_cuts=r.history["total_cuts"] + 1),
+            lambda r: r.history.update(step=r.history["step"] + 1),
+        )
 
     def test_nothing_is_not_right(self):
         self.assertFalse(must.Finding("", math.nan, 1.0).holds)
@@ -288,17 +589,24 @@ class ClosedForms(unittest.TestCase):
             stress, across = closed_forms.uniaxial_hypoelastic(1000, nu, [0.5e-3 * i for i in range(2001)])
             self.assertAlmostEqual(stress, 1000, delta=1e-4)
             self.assertAlmostEqual(across, -nu, delta=1e-6)
-            stress, across = closed_forms.uniaxial_hypoelastic(1000, nu, [-0.5e-3 * i for i in range(2001)], lambda plastic: 100 + 50 * plastic)
+            stress, across = closed_forms.uniaxial_hypoelastic(
+                1000, nu, [-0.5e-3 * i for i in range(2001)], lambda plastic: 100 + 50 * plastic
+            )
             plastic = (1000 - 100) / (1000 + 50)
             self.assertAlmostEqual(stress, -100 - 50 * plastic, delta=1e-3)
             self.assertAlmostEqual(across, plastic / 2 + nu * -stress / 1000, delta=1e-5)
             stress, across = closed_forms.uniaxial_neo_hookean(1000, nu, 1e-5)
             self.assertAlmostEqual(stress / 1e-2, 1, places=3)
             self.assertAlmostEqual(across / 1e-5, -nu, places=3)
-        self.assertAlmostEqual(closed_forms.confined_modulus(1000, 0.3), closed_forms.bulk(1000, 0.3) + 4 / 3 * closed_forms.shear(1000, 0.3))
+        self.assertAlmostEqual(
+            closed_forms.confined_modulus(1000, 0.3),
+            closed_forms.bulk(1000, 0.3) + 4 / 3 * closed_forms.shear(1000, 0.3),
+        )
 
     def test_impact(self):
-        self.assertAlmostEqual(closed_forms.impact_stress(1000, 1e-3, 1000, 1e-3, 2.0), 1e-3 * closed_forms.bar_speed(1000, 1e-3))
+        self.assertAlmostEqual(
+            closed_forms.impact_stress(1000, 1e-3, 1000, 1e-3, 2.0), 1e-3 * closed_forms.bar_speed(1000, 1e-3)
+        )
         rigid = closed_forms.impact_stress(1000, 1e-3, 1e30, 1e3, 2.0)
         self.assertAlmostEqual(rigid, 2e-3 * closed_forms.bar_speed(1000, 1e-3))
 
@@ -318,8 +626,16 @@ class Frames(unittest.TestCase):
         back = in_base_units({**written, "time": numpy.array([2.0])}, frame)
         self.assertTrue(numpy.allclose([back[f"a.force_{i}"][0] for i in "xyz"], v[0]))
         self.assertEqual(back["time"][0], 1.0)
-        fields = upright({"displacement": numpy.array([frame.turned(v[0]) * frame.length]), "points": numpy.array([frame.turned(v[0]) * frame.length])}, frame)
-        self.assertTrue(numpy.allclose(fields["displacement"], v) and numpy.allclose(fields["places"], 0, atol=1e-9))
+        fields = upright(
+            {
+                "displacement": numpy.array([frame.turned(v[0]) * frame.length]),
+                "points": numpy.array([frame.turned(v[0]) * frame.length]),
+            },
+            frame,
+        )
+        self.assertTrue(
+            numpy.allclose(fields["displacement"], v) and numpy.allclose(fields["places"], 0, atol=1e-9)
+        )
 
     def test_text(self):
         self.assertEqual(prm.text({"a": {"b": 1, "c": None}}), "subsection a\n  set b = 1\nend\n")
@@ -332,7 +648,9 @@ class Words(unittest.TestCase):
         self.assertEqual(messages.lacks(2, "scene.prm:3: 'a' in 'b': found '1', allowed is a number > 2"), [])
         self.assertEqual(messages.lacks(2, "found '1'"), ["where", "what to do"])
         self.assertEqual(messages.lacks(3, "scene.prm: it failed: try another"), ["when"])
-        self.assertEqual(messages.lacks(3, "scene.prm: the step to 1 failed; residual nan: try another"), ["a number"])
+        self.assertEqual(
+            messages.lacks(3, "scene.prm: the step to 1 failed; residual nan: try another"), ["a number"]
+        )
         self.assertEqual(messages.lacks(2, ""), ["any message"])
 
     def test_plan(self):
@@ -342,7 +660,11 @@ class Words(unittest.TestCase):
         self.assertEqual(len(names), len(cases))
         self.assertEqual({name for name in plan.FIXED if name not in names}, set())
         self.assertEqual({case.base for case in cases}, set(scenes.BASES))
-        covered = {kind for kind, bases in scenes.KINDS.items() if any(name.split("/")[0] in bases for name in plan.FIXED)}
+        covered = {
+            kind
+            for kind, bases in scenes.KINDS.items()
+            if any(name.split("/")[0] in bases for name in plan.FIXED)
+        }
         self.assertEqual(covered, set(scenes.KINDS))
         for case in cases:
             self.assertLessEqual(set(case.changes), set(scenes.KNOBS), case.name)
@@ -356,17 +678,34 @@ SPIN = "i=0; while [ $i -lt {0} ]; do i=$((i + 1)); done"
 class Told(unittest.TestCase):
     def test_units(self):
         def record(value, **errors):
-            return {"parameters": ["units"], "values": [value], "errors": {f"as many: {k}": e for k, e in errors.items()}}
-        records = [record("m, N", step=0.0, total_iterations=1.0), record("um, N", step=0.0, total_iterations=0.0), record("2^20 stresses", step=0.0)]
-        self.assertEqual(report.units(records), "Of 2 scenes in other units 1 takes as many steps, cuts and iterations, 1 one or two iterations more or less; "
-                         "of 1 in units that differ by powers of 2, 1.")
+            return {
+                "parameters": ["units"],
+                "values": [value],
+                "errors": {f"as many: {k}": e for k, e in errors.items()},
+            }
+
+        records = [
+            record("m, N", step=0.0, total_iterations=1.0),
+            record("um, N", step=0.0, total_iterations=0.0),
+            record("2^20 stresses", step=0.0),
+        ]
+        self.assertEqual(
+            report.units(records),
+            (
+                "Of 2 scenes in other units 1 takes as many steps, cuts and iterations, 1 one or two"
+                " iterations more or less; of 1 in units that differ by powers of 2, 1."
+            ),
+        )
 
 
 def write_warnings(work, *keys):
     """What a run would have left of these warnings."""
     (work / "results").mkdir(exist_ok=True)
-    (work / "results/diagnostics.jsonl").write_text("".join(
-        json.dumps({"key": key, "severity": "warning", "message": "what happened"}) + "\n" for key in keys))
+    (work / "results/diagnostics.jsonl").write_text(
+        "".join(
+            json.dumps({"key": key, "severity": "warning", "message": "what happened"}) + "\n" for key in keys
+        )
+    )
 
 
 class Running(unittest.TestCase):
@@ -379,7 +718,9 @@ class Running(unittest.TestCase):
 
     def runner(self, *lines, **limits):
         program = self.folder / "program"
-        program.write_text("\n".join(["#!/bin/bash", "mkdir results; echo step > results/history.csv", *lines]) + "\n")
+        program.write_text(
+            "\n".join(["#!/bin/bash", "mkdir results; echo step > results/history.csv", *lines]) + "\n"
+        )
         program.chmod(0o755)
         return Runner(program, self.folder / "runs", **limits)
 
@@ -388,7 +729,10 @@ class Running(unittest.TestCase):
 
     def test_slow_is_not_hung(self):
         # Longer altogether than a step may take; each is told.
-        steps = f"for s in $(seq 500); do {SPIN.format(2000)}; echo $s >> results/history.csv; done; echo 'scene.prm: at step 1: try another' >&2; exit 3"
+        steps = (
+            f"for s in $(seq 500); do {SPIN.format(2000)}; echo $s >> results/history.csv; done; echo"
+            " 'scene.prm: at step 1: try another' >&2; exit 3"
+        )
         found = self.outcome(steps, patience=0.5, at_most=300)
         self.assertEqual(found["outcome"], "failed", found)
         self.assertGreater(found["processor seconds"], 1.0)
@@ -405,8 +749,15 @@ class Running(unittest.TestCase):
     def test_round_off_is_capped(self):
         case = plan.Case("upset", {}, (), ())
         said, noted = "round-off-limits-forces", "balanced-to-round-off"
-        for key, balanced, allowed, right in ((None, 0.005, 1e-5, False), (said, 0.005, 1e-5, True), (said, 0.009, 1e-5, True), (said, 0.011, 1e-5, False),
-                                              (None, 9e-9, 1e-12, False), (noted, 9e-9, 1e-12, True), (noted, 2e-8, 1e-12, False)):
+        for key, balanced, allowed, right in (
+            (None, 0.005, 1e-5, False),
+            (said, 0.005, 1e-5, True),
+            (said, 0.009, 1e-5, True),
+            (said, 0.011, 1e-5, False),
+            (None, 9e-9, 1e-12, False),
+            (noted, 9e-9, 1e-12, True),
+            (noted, 2e-8, 1e-12, False),
+        ):
             runner = self.runner()
             work = self.folder / "work"
             work.mkdir(exist_ok=True)
@@ -431,16 +782,26 @@ class Running(unittest.TestCase):
             self.assertEqual(verdict["outcome"], "right" if right else "wrong", key)
 
     def test_lost_symmetry(self):
-        # Excused only where a nudge at the start changes the end: where it does not, the program is not symmetric.
+        # Excused only where a nudge at the start changes the end: where it does not, the program is not
+        # symmetric.
         case = plan.Case("skid.implicit", {"mu": 2}, (), ())
-        for off, differs, right in ((0.01, 0.0, False), (0.01, 1e-12, False), (0.01, 0.5, True), (0.01, 0.0005, False), (1e-5, 0.0, True)):
+        for off, differs, right in (
+            (0.01, 0.0, False),
+            (0.01, 1e-12, False),
+            (0.01, 0.5, True),
+            (0.01, 0.0005, False),
+            (1e-5, 0.0, True),
+        ):
             runner = self.runner()
             work = self.folder / "work"
             work.mkdir(exist_ok=True)
             (work / "stdout").write_text("")
             setup = scenes.make("skid.implicit", {"mu": 2})
             setup.checks = [lambda r: [must.Finding("mirror symmetry", off, 1e-4)]]
-            found, nudged = (made_up("skid.implicit", {"mu": 2}, move=lambda x: numpy.array([u, 0, 0])) for u in (1.0, 1.0 + differs))  # noqa: B023
+            found, nudged = (
+                made_up("skid.implicit", {"mu": 2}, move=lambda x: numpy.array([u, 0, 0]))
+                for u in (1.0, 1.0 + differs)
+            )  # noqa: B023
             with unittest.mock.patch.object(Result, "read", side_effect=[found, nudged]):
                 verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
             self.assertEqual(verdict["outcome"], "right" if right else "wrong", (off, differs))
@@ -451,7 +812,9 @@ class Running(unittest.TestCase):
                 self.assertEqual(report.forgetful([{"name": "a/b", "outcome": "right", "errors": {}}]), "")
         self.assertIsNone(scenes.nudged(scenes.make("upset", {}), 1e-13))
         # a speed of 10 and, over 0.04, one size
-        self.assertEqual(scenes.nudged(setup, 0.5)["Bodies"]["block"]["Initial velocity"], "10 + 17.5; 0 + -10.5; 0 + 5.25")
+        self.assertEqual(
+            scenes.nudged(setup, 0.5)["Bodies"]["block"]["Initial velocity"], "10 + 17.5; 0 + -10.5; 0 + 5.25"
+        )
         at_rest = scenes.nudged(scenes.make("laden.implicit", {}), 0.5)["Bodies"]["block"]["Initial velocity"]
         for found, expected in zip(at_rest.split("; 0 + "), (12.5, -7.5, 3.75)):
             self.assertAlmostEqual(float(found.removeprefix("0 + ")), expected)
@@ -465,7 +828,10 @@ class Running(unittest.TestCase):
         ours = {**record, "program": other.program_hash}
         self.assertFalse(other.stale(ours))
         self.assertTrue(other.stale({**ours, "checks of": "others"}))
-        self.assertEqual(report.programs([ours], other.program_hash), "All of them ran with one and the same program, and were judged by the same checks.")
+        self.assertEqual(
+            report.programs([ours], other.program_hash),
+            "All of them ran with one and the same program, and were judged by the same checks.",
+        )
         said = report.programs([ours, record, record], other.program_hash)
         self.assertIn("1 scene ran with the program as it is, 2 with one other state", said)
         self.assertIn("2 crashed", said)
@@ -475,36 +841,80 @@ class Running(unittest.TestCase):
         work.mkdir(exist_ok=True)
         setup = scenes.make("stretch.explicit", {})
         setup.checks = [lambda r: [must.Finding("stress of the bar", 0.5, 0.1)]]
-        for keys, outcome in (((), "wrong"), (("penalty-too-low",), "wrong"), (("unstable-law",), "doubtful"), (("penalty-too-low", "element-too-stiff"), "doubtful")):
+        for keys, outcome in (
+            ((), "wrong"),
+            (("penalty-too-low",), "wrong"),
+            (("unstable-law",), "doubtful"),
+            (("penalty-too-low", "element-too-stiff"), "doubtful"),
+        ):
             write_warnings(work, *keys)
             with unittest.mock.patch.object(Result, "read", return_value=made_up("stretch.explicit")):
-                self.assertEqual(runner._verdict(plan.Case("stretch.explicit", {}, (), ()), setup, work, (0, "", "", 1.0))["outcome"], outcome)
+                self.assertEqual(
+                    runner._verdict(plan.Case("stretch.explicit", {}, (), ()), setup, work, (0, "", "", 1.0))[
+                        "outcome"
+                    ],
+                    outcome,
+                )
 
     def test_soft(self):
         runner, work = self.runner(), self.folder / "work"
         work.mkdir(exist_ok=True)
         setup = scenes.make("slide", {})
         setup.checks = []
-        for keys, depth, soft in (((), 0.01, False), ((), 0.06, True), (("unstable-law",), 0.01, False), (("penalty-too-low",), 0.01, True)):
+        for keys, depth, soft in (
+            ((), 0.01, False),
+            ((), 0.06, True),
+            (("unstable-law",), 0.01, False),
+            (("penalty-too-low",), 0.01, True),
+        ):
             write_warnings(work, *keys)
-            with unittest.mock.patch.object(Result, "read", return_value=made_up("slide", history=force("foot", deepest_penetration=depth), contact_area=0.25)):
-                self.assertEqual(runner._verdict(plan.Case("slide", {}, (), ()), setup, work, (0, "", "", 1.0))["soft"], soft)
+            with unittest.mock.patch.object(
+                Result,
+                "read",
+                return_value=made_up(
+                    "slide", history=force("foot", deepest_penetration=depth), contact_area=0.25
+                ),
+            ):
+                self.assertEqual(
+                    runner._verdict(plan.Case("slide", {}, (), ()), setup, work, (0, "", "", 1.0))["soft"],
+                    soft,
+                )
 
     def test_safe(self):
         def of(parameters, values, outcome="right", soft=False):
             return {"parameters": parameters, "values": values, "outcome": outcome, "soft": soft}
-        records = [of(["penalty"], [0.1], soft=True), *(of(["penalty"], [p]) for p in (1.0, 10.0, 100.0)), of(["penalty"], [1e3], "failed"),
-                   of(["penalty", "mu"], [1e4, 0.3]), of(["nu", "mu"], [0.49, 0.3])]
+
+        records = [
+            of(["penalty"], [0.1], soft=True),
+            *(of(["penalty"], [p]) for p in (1.0, 10.0, 100.0)),
+            of(["penalty"], [1e3], "failed"),
+            of(["penalty", "mu"], [1e4, 0.3]),
+            of(["nu", "mu"], [0.49, 0.3]),
+        ]
         self.assertEqual(report.safe(records, "penalty"), "1 to 100")
         # Turned beside another one that is as it is by default it is turned alone.
-        self.assertEqual(report.safe([*records, of(["penalty", "mu"], [100.0, 0.0], "failed")], "penalty"), "1 to 10")
-        # Told ones are safe unless it is about penalties; soft ones are not, but for scenes that are soft anyway.
+        self.assertEqual(
+            report.safe([*records, of(["penalty", "mu"], [100.0, 0.0], "failed")], "penalty"), "1 to 10"
+        )
+        # Told ones are safe unless it is about penalties; soft ones are not, but for scenes that are soft
+        # anyway.
         told = {"depth": 0.0, "warnings": ["contact-too-soft"]}
-        self.assertEqual([report.outcome_of({**of([], [], soft=True), **r}) for r in (told, {**told, "depth": 1.0}, {**told, "warnings": ["penalty-too-low"]}, {})],
-                         ["told", "soft", "soft", "soft"])
+        self.assertEqual(
+            [
+                report.outcome_of({**of([], [], soft=True), **r})
+                for r in (told, {**told, "depth": 1.0}, {**told, "warnings": ["penalty-too-low"]}, {})
+            ],
+            ["told", "soft", "soft", "soft"],
+        )
         for parameter, range_of in (("mu", "0 to 0.3"), ("penalty", "0.3")):
-            self.assertEqual(report.safe([{**of([parameter], [v], soft=v == 0.0), **told} for v in (0.0, 0.3)], parameter), range_of)
-        turned = [{**of(["nu"], [nu], soft=True), "base": "drag", "changes": {"facets": "planed", "nu": nu}} for nu in (0.0, 0.3)]
+            self.assertEqual(
+                report.safe([{**of([parameter], [v], soft=v == 0.0), **told} for v in (0.0, 0.3)], parameter),
+                range_of,
+            )
+        turned = [
+            {**of(["nu"], [nu], soft=True), "base": "drag", "changes": {"facets": "planed", "nu": nu}}
+            for nu in (0.0, 0.3)
+        ]
         self.assertEqual(report.safe(turned, "nu"), "-")
         self.assertEqual(report.soft_by_default(turned), {"drag/facets=planed"})
         self.assertEqual(report.safe(turned, "nu", {"drag/facets=planed"}), "0 to 0.3")
@@ -514,8 +924,13 @@ class Running(unittest.TestCase):
         self.assertEqual(report.safe(records, "aspect"), "")
 
     def test_slow_ones_are_told(self):
-        records = [{"name": "a/b", "outcome": "right", "seconds": 57.0, "steps": 13000.0}, {"name": "c/d", "outcome": "right", "seconds": 1.0}]
-        self.assertIn("1 took more than 30 s of the processor: `a/b` (57 s, right, 13000 steps).", report.slow(records))
+        records = [
+            {"name": "a/b", "outcome": "right", "seconds": 57.0, "steps": 13000.0},
+            {"name": "c/d", "outcome": "right", "seconds": 1.0},
+        ]
+        self.assertIn(
+            "1 took more than 30 s of the processor: `a/b` (57 s, right, 13000 steps).", report.slow(records)
+        )
         self.assertIn("None took more than 30 s", report.slow(records[1:]))
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command line: a whole sweep over a program whose limit and errors are known, failures, interruption and resumption, and
-what is said to the user; at last a small sweep over billet itself."""
+"""The command line: a whole sweep over a program whose limit and errors are known, failures, interruption and
+resumption, and what is said to the user; at last a small sweep over billet itself."""
 
 import argparse
 import contextlib
@@ -44,16 +44,36 @@ subsection Time stepping
   set End time = 1
 end
 """
-WHOLE = ["--knobs", "mesh=0.5,1,2,4", "largest step=0.1,0.5,1", "penalty=0.1,1,10", "tangent=consistent,continuum,symmetrised lower",
-         "line search=none", "predictor=extrapolation,tangent", "--product", "mesh=1,2", "largest step=1,0.5", "--repeat", "2", "--time-limit", "4",
-         "--folder", "sweep", "--target", "4%", "--cost", "work"]
+WHOLE = [
+    "--knobs",
+    "mesh=0.5,1,2,4",
+    "largest step=0.1,0.5,1",
+    "penalty=0.1,1,10",
+    "tangent=consistent,continuum,symmetrised lower",
+    "line search=none",
+    "predictor=extrapolation,tangent",
+    "--product",
+    "mesh=1,2",
+    "largest step=1,0.5",
+    "--repeat",
+    "2",
+    "--time-limit",
+    "4",
+    "--folder",
+    "sweep",
+    "--target",
+    "4%",
+    "--cost",
+    "work",
+]
 
 
 def error(layers=4, step=0.1, penalty=10.0):
     return 0.3 / layers**2 + 0.2 * step + 0.05 / penalty
 
 
-# The bar stands on its foot: over the centres of its four elements, displacements from there over those from the middle.
+# The bar stands on its foot: over the centres of its four elements, displacements from there over those from
+# the middle.
 SHAPE = math.sqrt((1 / 3 - 1 / 192) / (1 / 12 - 1 / 192))
 
 
@@ -81,14 +101,29 @@ class TestCommand(unittest.TestCase):
         os.chdir(self.folder)
         try:
             with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
-                return run([scene, "--program", str(self.folder / "fake"), *arguments], str(TRADE)), said.getvalue()
+                return (
+                    run([scene, "--program", str(self.folder / "fake"), *arguments], str(TRADE)),
+                    said.getvalue(),
+                )
         finally:
             os.chdir(previous)
 
     def trade(self, *arguments, scene="bar.prm", program=None, **environment):
-        done = subprocess.run([sys.executable, "-B", str(TRADE), *([scene] if scene else []), "--program", str(program or self.folder / "fake"), *arguments],
-                              cwd=self.folder, capture_output=True, text=True,
-                              env={**os.environ, "FAKE_LOG": str(self.log), **environment})
+        done = subprocess.run(
+            [
+                sys.executable,
+                "-B",
+                str(TRADE),
+                *([scene] if scene else []),
+                "--program",
+                str(program or self.folder / "fake"),
+                *arguments,
+            ],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            env={**os.environ, "FAKE_LOG": str(self.log), **environment},
+        )
         self.assertNotIn("Traceback", done.stderr)
         return done
 
@@ -103,7 +138,8 @@ class TestCommand(unittest.TestCase):
         """Stopped in the middle, taken up again, and all errors as they must be."""
         stopped = self.trade(*WHOLE, FAKE_INTERRUPT="7")
         self.assertEqual(stopped.returncode, 5, stopped.stderr)
-        self.assertIn("stopped; 5 runs are kept in sweep, and the same command goes on", stopped.stderr)  # one timed twice
+        # one timed twice
+        self.assertIn("stopped; 5 runs are kept in sweep, and the same command goes on", stopped.stderr)
         self.assertFalse((self.folder / "sweep/trade.csv").exists())
         before = self.runs()
 
@@ -114,7 +150,8 @@ class TestCommand(unittest.TestCase):
         rows = self.rows("sweep/trade")
         points = [row for row in rows if row["kind"] != "reference"]
         reference = [row for row in rows if row["kind"] == "reference"]
-        # Whatever was whole when it was stopped was not run again: each scene as often as it was timed, and the one that was stopped.
+        # Whatever was whole when it was stopped was not run again: each scene as often as it was timed, and
+        # the one that was stopped.
         different = {row["changes"]: int(row["timed"]) for row in points}
         self.assertLess(whole - before, sum(int(row["timed"]) for row in rows))
         self.assertGreater(len(different), 12)
@@ -122,46 +159,85 @@ class TestCommand(unittest.TestCase):
         # The limit: F = 1 + t, to which all sequences go with exact orders, so that errors are known.
         found = {(row["knob"], row["value"]): row for row in points}
         uncertainty = float(points[0]["uncertainty"])
-        # At 20, 40, 80 steps, 4, 8, 16 layers, penalties of 10, 40, 160: 1.25 times what the finest of each lacks.
+        # At 20, 40, 80 steps, 4, 8, 16 layers, penalties of 10, 40, 160: 1.25 times what the finest of each
+        # lacks.
         lacking = 1.25 * (0.3 / 256 + 0.2 / 80 + 0.05 / 160)
         self.assertAlmostEqual(float(points[0]["uncertainty_force"]), lacking, delta=2e-5)
         self.assertAlmostEqual(uncertainty, 0.5 * (1 + SHAPE) * lacking, delta=4e-5)
-        expected = {("", "as written"): error(), ("mesh", "0.5"): error(2), ("mesh", "2"): error(8), ("mesh", "4"): error(16),
-                    ("largest step", "0.5"): error(step=0.05), ("largest step", "0.1"): error(step=0.01),
-                    ("penalty", "10"): error(penalty=100.0), ("mesh 2 × largest step", "0.5"): error(8, 0.05),
-                    ("predictor", "tangent"): error(), ("tangent", "consistent"): error()}
+        expected = {
+            ("", "as written"): error(),
+            ("mesh", "0.5"): error(2),
+            ("mesh", "2"): error(8),
+            ("mesh", "4"): error(16),
+            ("largest step", "0.5"): error(step=0.05),
+            ("largest step", "0.1"): error(step=0.01),
+            ("penalty", "10"): error(penalty=100.0),
+            ("mesh 2 × largest step", "0.5"): error(8, 0.05),
+            ("predictor", "tangent"): error(),
+            ("tangent", "consistent"): error(),
+        }
         for key, value in expected.items():
             self.assertEqual(found[key]["status"], "ok", key)
             self.assertAlmostEqual(float(found[key]["difference_force"]), value, delta=3e-6, msg=str(key))
-            self.assertAlmostEqual(float(found[key]["difference_shape"]), value * SHAPE, delta=3e-6, msg=str(key))
-            self.assertAlmostEqual(float(found[key]["error"]), max(0.5 * (1 + SHAPE) * value, uncertainty), delta=3e-6, msg=str(key))
-        self.assertEqual(found["mesh", "2"]["work"], str(8 * 50))  # 8 elements, 10 steps, 3 + 2 iterations each
-        self.assertEqual(found["mesh", "1"]["changes"], "Bodies/bar/Mesh/Layers = 4 ; Bodies/bar/Mesh/Refinements = 1")
+            self.assertAlmostEqual(
+                float(found[key]["difference_shape"]), value * SHAPE, delta=3e-6, msg=str(key)
+            )
+            self.assertAlmostEqual(
+                float(found[key]["error"]),
+                max(0.5 * (1 + SHAPE) * value, uncertainty),
+                delta=3e-6,
+                msg=str(key),
+            )
+        # 8 elements, 10 steps, 3 + 2 iterations each
+        self.assertEqual(found["mesh", "2"]["work"], str(8 * 50))
+        self.assertEqual(
+            found["mesh", "1"]["changes"], "Bodies/bar/Mesh/Layers = 4 ; Bodies/bar/Mesh/Refinements = 1"
+        )
 
         # What failed says so, has no error, and is neither on the front nor chosen.
-        failed = {("tangent", "continuum"): "diverged", ("tangent", "symmetrised lower"): "locked", ("line search", "none"): "out of time",
-                  ("penalty", "0.1"): "pierced"}
+        failed = {
+            ("tangent", "continuum"): "diverged",
+            ("tangent", "symmetrised lower"): "locked",
+            ("line search", "none"): "out of time",
+            ("penalty", "0.1"): "pierced",
+        }
         for key, status in failed.items():
             self.assertEqual(found[key]["status"], status, key)
-            self.assertEqual((found[key]["error"], found[key]["on_front"], found[key]["chosen"]), ("", "0", "0"), key)
+            self.assertEqual(
+                (found[key]["error"], found[key]["on_front"], found[key]["chosen"]), ("", "0", "0"), key
+            )
         self.assertIn("no convergence", found["tangent", "continuum"]["reason"])
-        self.assertEqual(found["tangent", "continuum"]["work"], str(4 * (3 * 4 + 20 + 2 * 4)))  # with the iterations of the step that failed
+        # with the iterations of the step that failed
+        self.assertEqual(found["tangent", "continuum"]["work"], str(4 * (3 * 4 + 20 + 2 * 4)))
 
         # The choice: the least work among those whose error and the uncertainty stay within 4 %.
-        good = [row for row in points if row["status"] == "ok" and max(float(row["difference"]), uncertainty) + uncertainty <= 0.04]
-        chosen, = [row for row in points if row["chosen"] == "1"]
+        good = [
+            row
+            for row in points
+            if row["status"] == "ok" and max(float(row["difference"]), uncertainty) + uncertainty <= 0.04
+        ]
+        (chosen,) = [row for row in points if row["chosen"] == "1"]
         self.assertEqual(chosen["work"], str(min(int(row["work"]) for row in good)))
         self.assertIn("Only the cost, not the result, changes with `predictor`", done.stdout)
         self.assertEqual(len(reference), 8)
         page = (self.folder / "sweep/trade.md").read_text()
-        for part in ("Most accuracy is bought by", "**chosen**", "`tangent = continuum` diverged", "| force | mesh |", "extrapolated", "trade.png"):
+        for part in (
+            "Most accuracy is bought by",
+            "**chosen**",
+            "`tangent = continuum` diverged",
+            "| force | mesh |",
+            "extrapolated",
+            "trade.png",
+        ):
             self.assertIn(part, page)
         self.assertGreater((self.folder / "sweep/trade.png").stat().st_size, 20000)
 
         # Once more: nothing is run.
         again = self.trade(*WHOLE, "-j", "2", "--picture", "elsewhere.svg", "--output", "other/name")
         self.assertEqual((again.returncode, self.runs()), (0, whole), again.stderr)
-        self.assertEqual([row["difference"] for row in self.rows("other/name")], [row["difference"] for row in rows])
+        self.assertEqual(
+            [row["difference"] for row in self.rows("other/name")], [row["difference"] for row in rows]
+        )
         self.assertTrue((self.folder / "elsewhere.svg").exists())
 
         # A target below what the reference knows.
@@ -174,56 +250,125 @@ class TestCommand(unittest.TestCase):
         self.assertIn("Nothing tried is within 3 %", missed.stdout)
 
     def test_weights_and_given_mesh(self):
-        done = self.trade("--knobs", "penalty=10", "largest step=0.5", "--reference-mesh", "given", "--outputs", "force=3,shape", "--repeat", "1",
-                          "--folder", "given", "--until", "0.5")
+        done = self.trade(
+            "--knobs",
+            "penalty=10",
+            "largest step=0.5",
+            "--reference-mesh",
+            "given",
+            "--outputs",
+            "force=3,shape",
+            "--repeat",
+            "1",
+            "--folder",
+            "given",
+            "--until",
+            "0.5",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         found = {(row["knob"], row["value"]): row for row in self.rows("given/trade")}
         mesh = 1 + 0.3 / 16  # what is not counted, and is part of what errors are relative to
-        self.assertAlmostEqual(float(found["", "as written"]["difference_force"]), (error() - 0.3 / 16) / mesh, delta=3e-6)
+        self.assertAlmostEqual(
+            float(found["", "as written"]["difference_force"]), (error() - 0.3 / 16) / mesh, delta=3e-6
+        )
         for row in found.values():
             if row["difference"]:
-                self.assertAlmostEqual(float(row["difference"]), 0.75 * float(row["difference_force"]) + 0.25 * float(row["difference_shape"]), delta=1e-6)
+                self.assertAlmostEqual(
+                    float(row["difference"]),
+                    0.75 * float(row["difference_force"]) + 0.25 * float(row["difference_shape"]),
+                    delta=1e-6,
+                )
 
     def test_forces_judge_whatever_counts(self):
         """Runs that were kept when forces counted tell of locking when the shape alone does."""
-        knobs = ("--knobs", "element=mean dilatation", "predictor", "--repeat", "1", "--folder", "locks", "--cost", "work", "--target", "20%")
+        knobs = (
+            "--knobs",
+            "element=mean dilatation",
+            "predictor",
+            "--repeat",
+            "1",
+            "--folder",
+            "locks",
+            "--cost",
+            "work",
+            "--target",
+            "20%",
+        )
         self.assertEqual(self.trade(*knobs).returncode, 0)
         whole = self.runs()
         done = self.trade(*knobs, "--outputs", "shape", "--output", "locks/shape")
         self.assertEqual((done.returncode, self.runs()), (0, whole), done.stderr)
         for name in ("trade", "shape"):
-            mean, = [row for row in self.rows(f"locks/{name}") if row["value"] == "mean dilatation"]
-            self.assertEqual((mean["status"], mean["error"], mean["on_front"], mean["chosen"]), ("locked", "", "0", "0"))
+            (mean,) = [row for row in self.rows(f"locks/{name}") if row["value"] == "mean dilatation"]
+            self.assertEqual(
+                (mean["status"], mean["error"], mean["on_front"], mean["chosen"]), ("locked", "", "0", "0")
+            )
         self.assertNotIn("| force |", (self.folder / "locks/shape.md").read_text())
-        self.assertIn("the history has no column 'die.force_x'", self.trade(*knobs, "--outputs", "shape", "--force", "die.force_x").stderr)
+        self.assertIn(
+            "the history has no column 'die.force_x'",
+            self.trade(*knobs, "--outputs", "shape", "--force", "die.force_x").stderr,
+        )
         # A tool that nothing touches has no force that could judge.
         done = self.trade(*knobs, "--outputs", "shape", "--set", "Tools/die/Shape=far", "--folder", "far")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("locked", done.stdout)
 
     def test_combination(self):
-        done = self.trade("--knobs", "mesh=0.5", "largest step=2", "--combine", "--target", "30%", "--repeat", "1", "--folder", "combined", "--cost", "work",
-                          "--knob", "pace: Time stepping/Largest step=0.2,0.5")
+        done = self.trade(
+            "--knobs",
+            "mesh=0.5",
+            "largest step=2",
+            "--combine",
+            "--target",
+            "30%",
+            "--repeat",
+            "1",
+            "--folder",
+            "combined",
+            "--cost",
+            "work",
+            "--knob",
+            "pace: Time stepping/Largest step=0.2,0.5",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = self.rows("combined/trade")
-        combined, = [row for row in rows if row["knob"] == "combined"]
-        self.assertEqual((combined["work"], combined["chosen"]), (str(2 * 2 * 5), "1"))  # two layers, two steps
+        (combined,) = [row for row in rows if row["knob"] == "combined"]
+        # two layers, two steps
+        self.assertEqual((combined["work"], combined["chosen"]), (str(2 * 2 * 5), "1"))
 
     def test_bad_input(self):
         cases = [
             (["--knobs", "speed"], "there is no knob 'speed'; there are mesh, steps, largest step"),
-            (["--knobs", "facets"], "the scene cannot use the knob 'facets': overlap: no bodies touch each other"),
-            (["--knobs", "tangent=wrong"], "the scene cannot use the knob 'tangent': wrong: 'Contact tangent': found 'wrong', allowed is one of"),
-            (["--knob", "Solver/Speed=1,2"], "cannot use the knob 'speed': 1: 'Speed': there is no such parameter"),
+            (
+                ["--knobs", "facets"],
+                "the scene cannot use the knob 'facets': overlap: no bodies touch each other",
+            ),
+            (
+                ["--knobs", "tangent=wrong"],
+                (
+                    "the scene cannot use the knob 'tangent': wrong: 'Contact tangent': found 'wrong',"
+                    " allowed is one of"
+                ),
+            ),
+            (
+                ["--knob", "Solver/Speed=1,2"],
+                "cannot use the knob 'speed': 1: 'Speed': there is no such parameter",
+            ),
             (["--knob", "nonsense"], "--knob: found 'nonsense'"),
-            (["--set", "Solver/Speed=1"], "billet refuses the scene as it would be measured: 'Speed': there is no such parameter"),
+            (
+                ["--set", "Solver/Speed=1"],
+                "billet refuses the scene as it would be measured: 'Speed': there is no such parameter",
+            ),
             (["--set", "Speed"], "--set: found 'Speed', allowed is 'path/to/parameter=value'"),
             (["--until", "2"], "--until: found 2, allowed is a part of the end time"),
             (["--mesh", "3"], "--mesh: the mesh of 'bar' changes by factors of 2 only"),
             (["--outputs", "colour"], "--outputs: found 'colour', allowed are force, strain, shape, rebound"),
             (["--outputs", "strain", "--knobs", "predictor"], "the strain profile wants a --line"),
             (["--outputs", "rebound", "--knobs", "predictor"], "nothing rebounds in a static scene"),
-            (["--force", "die.force_x", "--knobs", "predictor"], "the history has no column 'die.force_x'; it has die.force_z"),
+            (
+                ["--force", "die.force_x", "--knobs", "predictor"],
+                "the history has no column 'die.force_x'; it has die.force_z",
+            ),
             (["--target", "much"], "--target: found 'much', allowed is an error > 0"),
             (["--target", "0"], "--target: found '0', allowed is an error > 0"),
             (["--mesh", "abc"], "--mesh: found 'abc', allowed is a number > 0"),
@@ -235,28 +380,61 @@ class TestCommand(unittest.TestCase):
             (["--outputs", "strain", "--line", "0,0 to 1,1"], "--line: found '0,0 to 1,1'"),
             (["--target", "200%"], "--target: found '200%', allowed is an error below 100 %"),
             (["--combine"], "--combine wants a --target"),
-            (["--reference-mesh", "1,2,3"], "--reference-mesh: found '1,2,3', allowed are at least two factors in one ratio"),
-            (["--reference-mesh", "given", "--knobs", "mesh"], "--reference-mesh given: the mesh cannot be a knob then"),
-            (["--product", "mesh=1", "tangent=wrong"], "--product: the scene cannot use any of it: mesh 1, tangent wrong: 'Contact tangent': found 'wrong'"),
+            (
+                ["--reference-mesh", "1,2,3"],
+                "--reference-mesh: found '1,2,3', allowed are at least two factors in one ratio",
+            ),
+            (
+                ["--reference-mesh", "given", "--knobs", "mesh"],
+                "--reference-mesh given: the mesh cannot be a knob then",
+            ),
+            (
+                ["--product", "mesh=1", "tangent=wrong"],
+                (
+                    "--product: the scene cannot use any of it: mesh 1, tangent wrong: 'Contact tangent':"
+                    " found 'wrong'"
+                ),
+            ),
             (["--reference-steps", "0"], "--reference-steps: found 0, allowed are whole numbers from 1 on"),
-            (["--knobs", "profile=fast"], "the scene cannot use the knob 'profile': fast: this billet has no such parameter"),
+            (
+                ["--knobs", "profile=fast"],
+                "the scene cannot use the knob 'profile': fast: this billet has no such parameter",
+            ),
             (["--repeat", "0"], "--repeat: found 0, allowed are whole numbers from 1 on"),
             (["--program", "/nowhere/billet"], "the program '/nowhere/billet' (--program) was not found"),
         ]
         for arguments, expected in cases:
             with self.subTest(arguments):
-                before = len(Path(os.environ["FAKE_LOG"]).read_text().splitlines()) if Path(os.environ["FAKE_LOG"]).exists() else 0
-                code, said = self.said(*arguments, "--repeat", "1") if "--repeat" not in arguments else self.said(*arguments)
+                before = (
+                    len(Path(os.environ["FAKE_LOG"]).read_text().splitlines())
+                    if Path(os.environ["FAKE_LOG"]).exists()
+                    else 0
+                )
+                code, said = (
+                    self.said(*arguments, "--repeat", "1")
+                    if "--repeat" not in arguments
+                    else self.said(*arguments)
+                )
                 self.assertEqual(code, 2, said)
                 self.assertIn("billet-trade: ", said)
                 self.assertIn(expected, said)
                 # Refused before anything runs, but for columns, which the scene's own history tells.
-                after = len(Path(os.environ["FAKE_LOG"]).read_text().splitlines()) if Path(os.environ["FAKE_LOG"]).exists() else 0
-                self.assertLessEqual(after - before, "--force" in arguments or arguments[:1] == ["--knobs"], arguments)
-        self.assertEqual(self.said(scene="nowhere.prm"), (2, "billet-trade: nowhere.prm: there is no such scene file\n"))
+                after = (
+                    len(Path(os.environ["FAKE_LOG"]).read_text().splitlines())
+                    if Path(os.environ["FAKE_LOG"]).exists()
+                    else 0
+                )
+                self.assertLessEqual(
+                    after - before, "--force" in arguments or arguments[:1] == ["--knobs"], arguments
+                )
+        self.assertEqual(
+            self.said(scene="nowhere.prm"), (2, "billet-trade: nowhere.prm: there is no such scene file\n")
+        )
         (self.folder / "wrong.prm").write_text("set Speed = 1\n")
-        self.assertEqual(self.said(scene="wrong.prm")[1], "billet-trade: billet refuses the scene:\nwrong.prm:1: 'Speed': "
-                         "there is no such parameter\n")
+        self.assertEqual(
+            self.said(scene="wrong.prm")[1],
+            "billet-trade: billet refuses the scene:\nwrong.prm:1: 'Speed': there is no such parameter\n",
+        )
 
     def test_one_at_a_time(self):
         (self.folder / "busy").mkdir()
@@ -269,18 +447,51 @@ class TestCommand(unittest.TestCase):
     def test_list(self):
         done = self.trade("--list")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("tangent: contact tangent\n    exact, consistent, continuum, symmetrised lower\n", done.stdout)
+        self.assertIn(
+            "tangent: contact tangent\n    exact, consistent, continuum, symmetrised lower\n", done.stdout
+        )
         self.assertIn("facets overlap, planed, bilinear, mean gap: no bodies touch each other", done.stdout)
 
     def test_time_that_is_too_short(self):
-        done = self.trade("--set", "Solver/Line search=none", "--knobs", "predictor", "--repeat", "1", "--folder", "late", "--time-limit", "1")
+        done = self.trade(
+            "--set",
+            "Solver/Line search=none",
+            "--knobs",
+            "predictor",
+            "--repeat",
+            "1",
+            "--folder",
+            "late",
+            "--time-limit",
+            "1",
+        )
         self.assertEqual(done.returncode, 3)
-        self.assertIn("its centre was not done in the 1 s of --time-limit (at time 0: a longer --time-limit", done.stderr)
+        self.assertIn(
+            "its centre was not done in the 1 s of --time-limit (at time 0: a longer --time-limit",
+            done.stderr,
+        )
 
     def test_errors_that_cancel(self):
         """Long steps take away what a coarse mesh adds: it must not be chosen."""
-        done = self.trade("--knobs", "mesh=0.5", "steps=40", "--set", "Solver/Linear solver=MUMPS", "--set", "Time stepping/Largest step=0.33333333333333", "--outputs",
-                          "force", "--repeat", "1", "--target", "4%", "--cost", "work", "--folder", "cancels")
+        done = self.trade(
+            "--knobs",
+            "mesh=0.5",
+            "steps=40",
+            "--set",
+            "Solver/Linear solver=MUMPS",
+            "--set",
+            "Time stepping/Largest step=0.33333333333333",
+            "--outputs",
+            "force",
+            "--repeat",
+            "1",
+            "--target",
+            "4%",
+            "--cost",
+            "work",
+            "--folder",
+            "cancels",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         found = {(row["knob"], row["value"]): row for row in self.rows("cancels/trade")}
         coarse = found["mesh", "0.5"]
@@ -298,30 +509,65 @@ class TestCommand(unittest.TestCase):
 
     def test_factors_of_what_a_profile_sets(self):
         """What the program itself says that it sets."""
-        (self.folder / "fast.prm").write_text("set Profile = fast\n" + read_scene(ROOT / "prm/taylor_bar.prm").replace("set Normal penalty", "# "))
-        said = subprocess.run([os.environ["BILLET"], "--check", "--json", "fast.prm"], cwd=self.folder, capture_output=True, text=True).stdout
+        (self.folder / "fast.prm").write_text(
+            "set Profile = fast\n"
+            + read_scene(ROOT / "prm/taylor_bar.prm").replace("set Normal penalty", "# ")
+        )
+        said = subprocess.run(
+            [os.environ["BILLET"], "--check", "--json", "fast.prm"],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+        ).stdout
         presets = read_presets(json.loads(said))
         penalty = "Contact pairs/bar on wall/Normal penalty"
         self.assertEqual((presets[penalty], presets["Bodies/bar/Material/Kinematics"]), ("1", "hypoelastic"))
-        defaults = subprocess.run([os.environ["BILLET"], "--print-parameters"], capture_output=True, text=True).stdout
+        defaults = subprocess.run(
+            [os.environ["BILLET"], "--print-parameters"], capture_output=True, text=True
+        ).stdout
         scene = Scene(read_scene(self.folder / "fast.prm"), defaults, presets)
         self.assertEqual(knobs.KNOBS["penalty"].turned(scene, "3")[penalty], "3")
         self.assertEqual(knobs.KNOBS["penalty"].turned(scene.changed({"Profile": None}), "3")[penalty], "30")
 
     def test_reference_that_fails(self):
-        done = self.trade("--set", "Solver/Contact tangent=continuum", "--knobs", "predictor", "--repeat", "1", "--folder", "fails")
+        done = self.trade(
+            "--set",
+            "Solver/Contact tangent=continuum",
+            "--knobs",
+            "predictor",
+            "--repeat",
+            "1",
+            "--folder",
+            "fails",
+        )
         self.assertEqual(done.returncode, 3)
         self.assertIn("the reference could not be made: its centre diverged", done.stderr)
 
     def test_billet(self):
         """The program itself, on eight bricks."""
-        done = self.trade("--knobs", "penalty=1,10", "tangent=exact", "steps=4", "--reference-steps", "4", "--reference-mesh", "0.5,1", "--repeat", "1",
-                          "--until", "0.25", scene=str(ROOT / "prm/billet_upsetting.prm"), program=os.environ["BILLET"])
+        done = self.trade(
+            "--knobs",
+            "penalty=1,10",
+            "tangent=exact",
+            "steps=4",
+            "--reference-steps",
+            "4",
+            "--reference-mesh",
+            "0.5,1",
+            "--repeat",
+            "1",
+            "--until",
+            "0.25",
+            scene=str(ROOT / "prm/billet_upsetting.prm"),
+            program=os.environ["BILLET"],
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = self.rows("results/trade/billet_upsetting/trade")
         self.assertEqual({row["status"] for row in rows}, {"ok"})
         self.assertEqual([row["elements"] for row in rows if row["value"] == "mesh 0.5"], ["6"])
-        self.assertTrue(all(0 < float(row["core_seconds"]) and int(row["newton_iterations"]) > 4 for row in rows))
+        self.assertTrue(
+            all(0 < float(row["core_seconds"]) and int(row["newton_iterations"]) > 4 for row in rows)
+        )
 
 
 unittest.main()

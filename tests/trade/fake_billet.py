@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Stands for billet: a bar of Layers elements, whose force and shape are off by 0.3 h² ± 0.2 Δt + 0.05 / k from F = 1 + t, so that
-limit and errors are known. Some values fail, each in its own way. Each run adds a line to the file $FAKE_LOG; where that
-has $FAKE_INTERRUPT lines the sweep is interrupted as by Ctrl-C."""
+"""Stands for billet: a bar of Layers elements, whose force and shape are off by 0.3 h² ± 0.2 Δt + 0.05 / k
+from F = 1 + t, so that limit and errors are known. Some values fail, each in its own way. Each run adds a
+line to the file $FAKE_LOG; where that has $FAKE_INTERRUPT lines the sweep is interrupted as by Ctrl-C."""
 
 import json
 import os
@@ -55,12 +55,18 @@ subsection Output
   set Stress = true
 end
 """
-WORDS = {"Contact tangent": ("automatic", "exact", "consistent", "continuum", "symmetrised lower"), "Predictor": ("extrapolation", "tangent"),
-         "Line search": ("energy", "none"), "Linear solver": ("automatic", "MUMPS")}
+WORDS = {
+    "Contact tangent": ("automatic", "exact", "consistent", "continuum", "symmetrised lower"),
+    "Predictor": ("extrapolation", "tangent"),
+    "Line search": ("energy", "none"),
+    "Linear solver": ("automatic", "MUMPS"),
+}
 
 
 def known(path):
-    return any(path.split("/")[-1] == default.split("/")[-1] for default in entries(DEFAULTS)) or path.split("/")[0] in ("Tools", "Contact pairs")
+    return any(path.split("/")[-1] == default.split("/")[-1] for default in entries(DEFAULTS)) or path.split(
+        "/"
+    )[0] in ("Tools", "Contact pairs")
 
 
 def check(file):
@@ -84,21 +90,35 @@ def pvtu(file, n, stretch):
             for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)):
                 places.append((x, y, z * (1 + stretch)))
                 moved.append((0, 0, z * stretch))
+
     def array(name, values, size, kind="Float64"):
-        return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{size}" format="ascii">' + " ".join(
-            f"{v}" for value in values for v in (value if size > 1 else (value,))) + "</DataArray>"
-    data = array("displacement", moved, 3) + array("body", [0.0] * len(places), 1) + array(
-        "contact_pair", [0.0 if p[2] > 1 + stretch - 1e-9 else -1.0 for p in places], 1)
+        return (
+            f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{size}" format="ascii">'
+            + " ".join(f"{v}" for value in values for v in (value if size > 1 else (value,)))
+            + "</DataArray>"
+        )
+
+    data = (
+        array("displacement", moved, 3)
+        + array("body", [0.0] * len(places), 1)
+        + array("contact_pair", [0.0 if p[2] > 1 + stretch - 1e-9 else -1.0 for p in places], 1)
+    )
     file.with_suffix(".0.vtu").write_text(
-        f'<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid><Piece NumberOfPoints="{len(places)}" NumberOfCells="{n}">'
+        '<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid><Piece'
+        f' NumberOfPoints="{len(places)}" NumberOfCells="{n}">'
         f'<Points>{array("Points", places, 3)}</Points><PointData>{data}</PointData><Cells>'
-        f'{array("connectivity", range(8 * n), 1, "Int64")}{array("offsets", range(8, 8 * n + 1, 8), 1, "Int64")}'
-        f'{array("types", [12] * n, 1, "UInt8")}</Cells></Piece></UnstructuredGrid></VTKFile>')
+        f'{array("connectivity", range(8 * n), 1, "Int64")}'
+        f'{array("offsets", range(8, 8 * n + 1, 8), 1, "Int64")}'
+        f'{array("types", [12] * n, 1, "UInt8")}</Cells></Piece></UnstructuredGrid></VTKFile>'
+    )
     file.with_suffix(".pvtu").write_text(
-        '<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid GhostLevel="0"><PPointData>'
-        '<PDataArray type="Float64" Name="displacement" NumberOfComponents="3"/><PDataArray type="Float64" Name="body"/>'
-        '<PDataArray type="Float64" Name="contact_pair"/></PPointData><PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
-        f'<Piece Source="{file.name}.0.vtu"/></PUnstructuredGrid></VTKFile>')
+        '<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid'
+        ' GhostLevel="0"><PPointData><PDataArray type="Float64" Name="displacement"'
+        ' NumberOfComponents="3"/><PDataArray type="Float64" Name="body"/><PDataArray type="Float64"'
+        ' Name="contact_pair"/></PPointData><PPoints><PDataArray type="Float64"'
+        ' NumberOfComponents="3"/></PPoints><Piece'
+        f' Source="{file.name}.0.vtu"/></PUnstructuredGrid></VTKFile>'
+    )
 
 
 def run(scene):
@@ -111,14 +131,25 @@ def run(scene):
 
     def get(key, default):
         return next((v for path, v in scene.items() if path.split("/")[-1] == key), default)
-    n, step, penalty = int(get("Layers", 4)), float(get("Largest step", 0.1)), float(get("Normal penalty", 10))
+
+    n, step, penalty = (
+        int(get("Layers", 4)),
+        float(get("Largest step", 0.1)),
+        float(get("Normal penalty", 10)),
+    )
     tangent = get("Contact tangent", "automatic")
     # Long steps make forces larger, or with one of the solvers smaller.
-    error = 0.3 / n**2 + (-0.2 if get("Linear solver", "automatic") == "MUMPS" else 0.2) * step + 0.05 / penalty
+    error = (
+        0.3 / n**2 + (-0.2 if get("Linear solver", "automatic") == "MUMPS" else 0.2) * step + 0.05 / penalty
+    )
     if tangent == "symmetrised lower":
         error += 0.5  # converges, to forces that are half as large again
     # Locks: forces more than twice as large, and the shape is right.
-    force = 0.0 if get("Shape", "plane") == "far" else 1 + error + (1.39 if get("Element", "assumed strain") == "mean dilatation" else 0.0)
+    force = (
+        0.0
+        if get("Shape", "plane") == "far"
+        else 1 + error + (1.39 if get("Element", "assumed strain") == "mean dilatation" else 0.0)
+    )
     end = 0.4 if tangent == "continuum" else 1.0
     if get("Line search", "energy") == "none":
         time.sleep(60)
@@ -126,16 +157,30 @@ def run(scene):
 
     results = Path(get("Folder", "results"))
     results.mkdir(parents=True)
-    rows = ["step,time,step_length,iterations,residual,total_iterations,total_cuts,linear_iterations,die.force_z,die.deepest_penetration,"
-            "elastic_energy,energy_drift"]
+    rows = [
+        "step,time,step_length,iterations,residual,total_iterations,total_cuts,linear_iterations,"
+        "die.force_z,die.deepest_penetration,elastic_energy,energy_drift"
+    ]
     times = [step * i for i in range(1, round(end / step) + 1)]
-    rows += [f"{i},{t:.15g},{step},3,1e-9,{3 * i},0,2,{(1 + t) * force:.15g},{depth},{t},0" for i, t in enumerate(times, 1)]
+    rows += [
+        f"{i},{t:.15g},{step},3,1e-9,{3 * i},0,2,{(1 + t) * force:.15g},{depth},{t},0"
+        for i, t in enumerate(times, 1)
+    ]
     (results / "history.csv").write_text("\n".join(rows) + "\n")
     if end < 1:
         message = "scene.prm: at time 0.4 Newton's method does not converge: no convergence"
         # Three in each accepted step, and twenty more.
-        (results / "diagnostics.jsonl").write_text(json.dumps({"key": "solution-failed", "severity": "error", "message": message,
-                                                               "values": {"steps": len(times), "Newton iterations": 3 * len(times) + 20}}) + "\n")
+        (results / "diagnostics.jsonl").write_text(
+            json.dumps(
+                {
+                    "key": "solution-failed",
+                    "severity": "error",
+                    "message": message,
+                    "values": {"steps": len(times), "Newton iterations": 3 * len(times) + 20},
+                }
+            )
+            + "\n"
+        )
         print(f"error[solution-failed]: {message}", file=sys.stderr)
         return 3
     pvtu(results / "fields_00001", n, 0.1 * (1 + error))
@@ -154,7 +199,9 @@ def main():
     if sys.argv[1] == "--check":
         layers = next((v for path, v in scene.items() if path.endswith("/Layers")), 4)
         messages = [{"key": "bad-input", "severity": "error", "message": against}] if against else []
-        print(json.dumps({"file": file, "valid": not against, "elements": int(layers), "diagnostics": messages}))
+        print(
+            json.dumps({"file": file, "valid": not against, "elements": int(layers), "diagnostics": messages})
+        )
         return 2 if against else 0
     if against:
         print(f"error[bad-input]: {against}", file=sys.stderr)

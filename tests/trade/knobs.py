@@ -46,14 +46,26 @@ def shipped(name):
 
 
 def body(mesh, planes=""):
-    return Scene(f"subsection Bodies\nsubsection b\nset Symmetry planes = {planes}\nsubsection Mesh\n{mesh}\nend\nend\nend", DEFAULTS)
+    return Scene(
+        (
+            f"subsection Bodies\nsubsection b\nset Symmetry planes = {planes}\nsubsection"
+            f" Mesh\n{mesh}\nend\nend\nend"
+        ),
+        DEFAULTS,
+    )
 
 
 class TestMesh(unittest.TestCase):
     def test_extruded(self):
         scene = shipped("billet_upsetting")
-        self.assertEqual(knobs.make_mesh(scene, "2"), {"Bodies/billet/Mesh/Layers": 10, "Bodies/billet/Mesh/Refinements": 2})
-        self.assertEqual(knobs.make_mesh(scene, "0.5"), {"Bodies/billet/Mesh/Layers": 2, "Bodies/billet/Mesh/Refinements": 0})
+        self.assertEqual(
+            knobs.make_mesh(scene, "2"),
+            {"Bodies/billet/Mesh/Layers": 10, "Bodies/billet/Mesh/Refinements": 2},
+        )
+        self.assertEqual(
+            knobs.make_mesh(scene, "0.5"),
+            {"Bodies/billet/Mesh/Layers": 2, "Bodies/billet/Mesh/Refinements": 0},
+        )
         for factor in ("0.25", "1.5"):
             with self.assertRaises(knobs.CannotTurn):
                 knobs.make_mesh(scene, factor)
@@ -61,17 +73,25 @@ class TestMesh(unittest.TestCase):
             knobs.make_mesh(scene, "-1")
 
     def test_counts(self):
-        changes = knobs.make_mesh(shipped("ironing"), "1.5")  # one element along y between two planes stays one
+        # one element along y between two planes stays one
+        changes = knobs.make_mesh(shipped("ironing"), "1.5")
         self.assertEqual(changes["Bodies/slab/Mesh/Arguments"], "54, 1, 9 : 0, 0, 0 : 18, 0.5, 3 : true")
         self.assertEqual(changes["Bodies/die/Mesh/Arguments"], "15, 1, 6 : -2, 0, 0 : 2, 0.5, 1.5 : true")
         tube = knobs.make_mesh(shipped("tube_impact"), "2")
         self.assertEqual(tube["Bodies/left/Mesh/Arguments"], "0, 0 : 0.09 : 0.1 : 4 : 0 : 60 : true")
         self.assertEqual(tube["Bodies/right/Mesh/Layers"], 30)
-        thick = body("set Primitive = subdivided_hyper_rectangle\nset Arguments = 4, 1, 2 : 0, 0, 0 : 1, 1, 1", "y = 0")
-        self.assertEqual(knobs.make_mesh(thick, "2"), {"Bodies/b/Mesh/Arguments": "8, 2, 4 : 0, 0, 0 : 1, 1, 1"})
+        thick = body(
+            "set Primitive = subdivided_hyper_rectangle\nset Arguments = 4, 1, 2 : 0, 0, 0 : 1, 1, 1", "y = 0"
+        )
+        self.assertEqual(
+            knobs.make_mesh(thick, "2"), {"Bodies/b/Mesh/Arguments": "8, 2, 4 : 0, 0, 0 : 1, 1, 1"}
+        )
 
     def test_files(self):
-        self.assertEqual(knobs.make_mesh(body("set Source = file\nset File = a.msh"), "4"), {"Bodies/b/Mesh/Refinements": 2})
+        self.assertEqual(
+            knobs.make_mesh(body("set Source = file\nset File = a.msh"), "4"),
+            {"Bodies/b/Mesh/Refinements": 2},
+        )
 
 
 class TestKnobs(unittest.TestCase):
@@ -84,15 +104,26 @@ class TestKnobs(unittest.TestCase):
 
     def test_penalties(self):
         scene = shipped("wagoner_punch").changed({"Contact pairs/blank on die/Tangential penalty": 4})
-        self.assertEqual(knobs.make_penalty(scene, "10"), {
-            "Contact pairs/blank on punch/Normal penalty": "1e+06", "Contact pairs/blank on die/Normal penalty": "1e+06",
-            "Contact pairs/blank on die/Tangential penalty": "40"})
-        self.assertEqual(knobs.make_penalty(shipped("ironing"), "3"), {"Contact pairs/face/Normal penalty": "30"})  # of the default
+        self.assertEqual(
+            knobs.make_penalty(scene, "10"),
+            {
+                "Contact pairs/blank on punch/Normal penalty": "1e+06",
+                "Contact pairs/blank on die/Normal penalty": "1e+06",
+                "Contact pairs/blank on die/Tangential penalty": "40",
+            },
+        )
+        # of the default
+        self.assertEqual(
+            knobs.make_penalty(shipped("ironing"), "3"), {"Contact pairs/face/Normal penalty": "30"}
+        )
 
     def test_only_what_a_scene_can_use(self):
-        cannot = {"billet_upsetting": ["facets", "safety factor", "mass", "error tolerance"],
-                  "hertz_cylinders": ["instructions", "number type"], "taylor_bar": ["steps", "tangent", "solver", "facets", "augmentation"],
-                  "wagoner_punch_mu_0": ["search margin"]}
+        cannot = {
+            "billet_upsetting": ["facets", "safety factor", "mass", "error tolerance"],
+            "hertz_cylinders": ["instructions", "number type"],
+            "taylor_bar": ["steps", "tangent", "solver", "facets", "augmentation"],
+            "wagoner_punch_mu_0": ["search margin"],
+        }
         for name, those in cannot.items():
             for knob in those:
                 with self.assertRaises(knobs.CannotTurn, msg=f"{name}: {knob}"):
@@ -102,13 +133,20 @@ class TestKnobs(unittest.TestCase):
         self.assertTrue(knobs.make_tangent(shipped("billet_upsetting"), "symmetrised mean"))
 
     def test_tolerances_keep_their_ratio(self):
-        self.assertEqual(knobs.newton_tolerance(1e-6), {"Solver/Force tolerance": "1e-06", "Solver/Energy tolerance": "1e-10"})
+        self.assertEqual(
+            knobs.newton_tolerance(1e-6),
+            {"Solver/Force tolerance": "1e-06", "Solver/Energy tolerance": "1e-10"},
+        )
 
     def test_own_knob(self):
         knob = knobs.own_knob("pace: Time stepping/Growth factor=1.2, 2 & Time stepping/Few  iterations=3,6")
         self.assertEqual((knob.name, knob.arguments), ("pace", ["1.2", "2"]))
-        self.assertEqual(knob.make(None, "2"), {"Time stepping/Growth factor": "2", "Time stepping/Few iterations": "6"})
-        self.assertEqual(knobs.own_knob("Bodies/b/Mesh/Arguments=1, 2 : 3|2, 4 : 3").arguments, ["1, 2 : 3", "2, 4 : 3"])
+        self.assertEqual(
+            knob.make(None, "2"), {"Time stepping/Growth factor": "2", "Time stepping/Few iterations": "6"}
+        )
+        self.assertEqual(
+            knobs.own_knob("Bodies/b/Mesh/Arguments=1, 2 : 3|2, 4 : 3").arguments, ["1, 2 : 3", "2, 4 : 3"]
+        )
         for wrong in ("nothing", "a=1,2 & b=1"):
             with self.assertRaises(TradeError):
                 knobs.own_knob(wrong)
@@ -116,7 +154,10 @@ class TestKnobs(unittest.TestCase):
     def test_unknown_knob(self):
         with self.assertRaisesRegex(TradeError, "no knob 'speed'; there are mesh, steps,"):
             knobs.asked_knob("speed=1", knobs.KNOBS)
-        self.assertEqual(knobs.asked_knob("tangent=exact, symmetrised mean", knobs.KNOBS).arguments, ["exact", "symmetrised mean"])
+        self.assertEqual(
+            knobs.asked_knob("tangent=exact, symmetrised mean", knobs.KNOBS).arguments,
+            ["exact", "symmetrised mean"],
+        )
 
 
 class TestPlan(unittest.TestCase):
@@ -131,8 +172,19 @@ class TestPlan(unittest.TestCase):
 
     def test_runs(self):
         plan = Plan(shipped("billet_upsetting"), lambda scene: 100, steps=8)
-        self.assertEqual([label for label, _ in plan.runs()], ["centre", "16 steps", "32 steps", "mesh 2", "mesh 4", "penalty × 4",
-                                                              "penalty × 16", "all of them"])
+        self.assertEqual(
+            [label for label, _ in plan.runs()],
+            [
+                "centre",
+                "16 steps",
+                "32 steps",
+                "mesh 2",
+                "mesh 4",
+                "penalty × 4",
+                "penalty × 16",
+                "all of them",
+            ],
+        )
         self.assertEqual(plan.centre.get("Solver/Force tolerance"), "1e-08")
         self.assertEqual(plan.cross.get("Bodies/billet/Mesh/Layers"), "10")
         self.assertEqual(plan.cross.get("Contact pairs/billet on die/Normal penalty"), "1.4e+06")
@@ -142,16 +194,27 @@ class TestPlan(unittest.TestCase):
         plan = Plan(shipped("hertz_cylinders"), lambda scene: 1, GIVEN)
         self.assertEqual([axis.name for axis in plan.axes], ["step", "penetration tolerance"])
 
-        self.assertEqual([scene.get("Contact pairs/faces/Penetration tolerance") for _, scene in plan.axes[1].levels], ["0.001", "0.00025", "6.25e-05"])
+        self.assertEqual(
+            [scene.get("Contact pairs/faces/Penetration tolerance") for _, scene in plan.axes[1].levels],
+            ["0.001", "0.00025", "6.25e-05"],
+        )
         self.assertEqual((plan.axes[1].centre, plan.centre.get("Solver/Most augmentations")), (1, "100"))
         # Bodies that touch in an implicit scene: augmented, though the scene is not.
         plan = Plan(shipped("ironing"), lambda scene: 1, GIVEN)
-        self.assertEqual([scene.get("Contact pairs/face/Penetration tolerance") for _, scene in plan.axes[-1].levels], ["0.01", "0.0025", "0.000625"])
+        self.assertEqual(
+            [scene.get("Contact pairs/face/Penetration tolerance") for _, scene in plan.axes[-1].levels],
+            ["0.01", "0.0025", "0.000625"],
+        )
 
     def test_explicit(self):
-        scene = shipped("taylor_bar").changed({"Bodies/bar/Material/Kinematics": "hypoelastic", "Explicit dynamics/Mass scaling step": 1e-7})
+        scene = shipped("taylor_bar").changed(
+            {"Bodies/bar/Material/Kinematics": "hypoelastic", "Explicit dynamics/Mass scaling step": 1e-7}
+        )
         plan = Plan(scene, lambda scene: 1)
-        self.assertEqual([scene.get("Explicit dynamics/Safety factor") for _, scene in plan.axes[0].levels], ["0.75", "0.375", "0.1875"])
+        self.assertEqual(
+            [scene.get("Explicit dynamics/Safety factor") for _, scene in plan.axes[0].levels],
+            ["0.75", "0.375", "0.1875"],
+        )
         self.assertEqual(plan.centre.get("Bodies/bar/Material/Kinematics"), "Hencky")
         self.assertEqual(plan.centre.get("Explicit dynamics/Mass scaling step"), "0")
 

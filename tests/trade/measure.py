@@ -22,7 +22,9 @@ class TestCurves(unittest.TestCase):
         values = numpy.stack([UNEVEN**2 - UNEVEN, 2 + 0 * UNEVEN], -1)
         found = measure.interpolate(UNEVEN, values, at)
         numpy.testing.assert_allclose(found, numpy.stack([at**2 - at, 2 + 0 * at], -1), atol=1e-14)
-        numpy.testing.assert_allclose(measure.interpolate([0, 1], numpy.array([[1.0], [3.0]]), numpy.array([0.5])), [[2.0]])
+        numpy.testing.assert_allclose(
+            measure.interpolate([0, 1], numpy.array([[1.0], [3.0]]), numpy.array([0.5])), [[2.0]]
+        )
 
     def test_running_mean(self):
         times = numpy.linspace(0, 1, 2001)
@@ -31,21 +33,29 @@ class TestCurves(unittest.TestCase):
         exact = (numpy.cos(20 * (at - 0.05)) - numpy.cos(20 * (at + 0.05))) / (20 * window)
         numpy.testing.assert_allclose(found, exact, atol=1e-5)
         # A polygon's own mean is exact, at the ends over half the window.
-        numpy.testing.assert_allclose(measure.running_mean(UNEVEN, 2 * UNEVEN, 0.2, numpy.array([0.0, 0.5, 1.0])), [0.1, 1.0, 1.9])
+        numpy.testing.assert_allclose(
+            measure.running_mean(UNEVEN, 2 * UNEVEN, 0.2, numpy.array([0.0, 0.5, 1.0])), [0.1, 1.0, 1.9]
+        )
 
     def test_norms(self):
         weights = measure.trapezoids(numpy.array([0.0, 1.0, 3.0]))
         vectors = numpy.array([[3.0, 4.0], [0.0, 0.0], [0.0, 2.0]])
         self.assertAlmostEqual(measure.mean_length(vectors, weights), (0.5 * 5 + 1.0 * 2) / 3)
-        self.assertAlmostEqual(measure.root_mean_square(vectors, weights), math.sqrt((0.5 * 25 + 1.0 * 4) / 3))
+        self.assertAlmostEqual(
+            measure.root_mean_square(vectors, weights), math.sqrt((0.5 * 25 + 1.0 * 4) / 3)
+        )
 
     def test_rigid_motion(self):
         rng = numpy.random.default_rng(1)
         places, weights = rng.normal(size=(30, 3)), rng.uniform(0.5, 2, 30)
         c, s = math.cos(2.5), math.sin(2.5)
-        turn = numpy.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ numpy.array([[1, 0, 0], [0, s, c], [0, -c, s]])
+        turn = numpy.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ numpy.array(
+            [[1, 0, 0], [0, s, c], [0, -c, s]]
+        )
         moved = places @ turn.T + [4, 5, 6]
-        numpy.testing.assert_allclose(measure.without_rigid_motion(places, moved - places, weights), 0, atol=1e-13)
+        numpy.testing.assert_allclose(
+            measure.without_rigid_motion(places, moved - places, weights), 0, atol=1e-13
+        )
         stretched = measure.without_rigid_motion(places, 0.1 * places, numpy.ones(30))  # about the centroid
         numpy.testing.assert_allclose(stretched, 0.1 * (places - places.mean(axis=0)), atol=1e-13)
 
@@ -67,7 +77,8 @@ class TestRichardson(unittest.TestCase):
             self.assertAlmostEqual(found.observed, order)
             numpy.testing.assert_allclose(found.values, self.limit, atol=1e-12)
             error = size(self.sequence(order, ratio)[-1] - self.limit)
-            self.assertAlmostEqual(found.uncertainty, 1.25 * error)  # that of the finest, with a quarter on top
+            # that of the finest, with a quarter on top
+            self.assertAlmostEqual(found.uncertainty, 1.25 * error)
 
     def test_orders_beyond_two_are_not_believed(self):
         levels = self.sequence(3.5)
@@ -75,8 +86,11 @@ class TestRichardson(unittest.TestCase):
         self.assertAlmostEqual(found.observed, 3.5)
         self.assertEqual(found.order, 2.0)
         self.assertGreaterEqual(found.uncertainty, size(found.values - self.limit))
-        # Nor is a last difference that is small by chance: what an order of two makes of the one before counts.
-        found = measure.richardson([numpy.array([1.0]), numpy.array([0.2]), numpy.array([0.2 - 1e-9])], 2.0, size)
+        # Nor is a last difference that is small by chance: what an order of two makes of the one before
+        # counts.
+        found = measure.richardson(
+            [numpy.array([1.0]), numpy.array([0.2]), numpy.array([0.2 - 1e-9])], 2.0, size
+        )
         self.assertAlmostEqual(found.uncertainty, 1.25 * 0.2 / 3)
 
     def test_to_and_fro(self):
@@ -88,7 +102,8 @@ class TestRichardson(unittest.TestCase):
         self.assertGreaterEqual(found.uncertainty, size(levels[-1] - self.limit))
 
     def test_no_order(self):
-        """Differences that do not fall: nothing is extrapolated, and the index for an order of a half counts."""
+        """Differences that do not fall: nothing is extrapolated, and the index for an order of a half
+        counts."""
         levels = [numpy.array([0.0]), numpy.array([1.0]), numpy.array([2.0])]
         found = measure.richardson(levels, 2.0, size)
         self.assertIsNone(found.order)
@@ -123,7 +138,10 @@ class TestChoice(unittest.TestCase):
 
     def test_choice(self):
         def choose(target, uncertainty, noise=0.0):
-            return measure.cheapest_within(self.costs, self.errors, uncertainty, target, noise, [6, 5, 4, 3, 2, 1])
+            return measure.cheapest_within(
+                self.costs, self.errors, uncertainty, target, noise, [6, 5, 4, 3, 2, 1]
+            )
+
         self.assertEqual(choose(0.4, 0.0), 2)  # two of one cost: the one with less work
         self.assertEqual(choose(0.25, 0.0), 1)
         self.assertEqual(choose(0.25, 0.1), 4)  # 0.2 may be 0.3

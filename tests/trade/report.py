@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What runs are judged to be, what they are ranked by, what is said of them, and the picture, on points that are made up."""
+"""What runs are judged to be, what they are ranked by, what is said of them, and the picture, on points that
+are made up."""
 
 import math
 import unittest
@@ -16,8 +17,23 @@ SCENE = Scene("subsection Bodies\nsubsection bar\nsubsection Mesh\nset Layers = 
 class Result:
     """`force`: as part of the reference's."""
 
-    def __init__(self, force=1.0, elements=4, seconds=1.0, status="ok", penetration=0.01, drift=0.0, reason="", steps=10):
-        self.force, self.elements, self.core_seconds, self.seconds = force, elements, seconds, [seconds, seconds]
+    def __init__(
+        self,
+        force=1.0,
+        elements=4,
+        seconds=1.0,
+        status="ok",
+        penetration=0.01,
+        drift=0.0,
+        reason="",
+        steps=10,
+    ):
+        self.force, self.elements, self.core_seconds, self.seconds = (
+            force,
+            elements,
+            seconds,
+            [seconds, seconds],
+        )
         self.status, self.reason, self.penetration, self.drift = status, reason, penetration, drift
         self.steps, self.newton = steps, 10
         self.linear = self.cuts = 0
@@ -35,6 +51,7 @@ class Force:
 
 class Shape:
     """Right whatever the forces are."""
+
     name, meaning = "shape", "always the same"
 
     def error(self, result, reference):
@@ -77,12 +94,21 @@ def sweep(points, reference, target=None, output=Force(), forces=None):
 
 class Judging(unittest.TestCase):
     def test_marks(self):
-        points = [point("", "as written"), point("penalty", "0.001", force=0.05, elements=1, penetration=0.098), point("penalty", "0.1", force=0.79, elements=1),
-                  point("penalty", "0.2", force=0.81, elements=2), point("element", "mean dilatation", force=1.21), point("element", "other", force=1.19),
-                  point("penalty", "0.01", force=1.0, penetration=0.6)]
+        points = [
+            point("", "as written"),
+            point("penalty", "0.001", force=0.05, elements=1, penetration=0.098),
+            point("penalty", "0.1", force=0.79, elements=1),
+            point("penalty", "0.2", force=0.81, elements=2),
+            point("element", "mean dilatation", force=1.21),
+            point("element", "other", force=1.19),
+            point("penalty", "0.01", force=1.0, penetration=0.6),
+        ]
         s = sweep(points, Reference())
         self.assertEqual([p.status for p in points], ["ok", "soft", "soft", "ok", "locked", "ok", "pierced"])
-        self.assertEqual(points[1].reason, "forces are 95 % too small in the mean, nodes 0.098 facets deep; the error is 95 %")
+        self.assertEqual(
+            points[1].reason,
+            "forces are 95 % too small in the mean, nodes 0.098 facets deep; the error is 95 %",
+        )
         self.assertTrue(math.isnan(points[1].error))
         # The cheapest of all are on no front.
         self.assertEqual([p.value for p in s.front], ["0.2", "as written"])
@@ -97,7 +123,9 @@ class Judging(unittest.TestCase):
         self.assertEqual(other.status, "useless")
 
     def by_shape(self, forces, *ratios, known=0.01):
-        points = [point("", "as written", elements=8)] + [point("element", str(r), force=r, elements=4) for r in ratios]
+        points = [point("", "as written", elements=8)] + [
+            point("element", str(r), force=r, elements=4) for r in ratios
+        ]
         s = sweep(points, Reference(known, output="shape"), 0.05, Shape(), forces)
         return s, [p.status for p in points[1:]]
 
@@ -111,7 +139,12 @@ class Judging(unittest.TestCase):
         self.assertEqual(self.by_shape(None, 2.39, 0.7)[1], ["ok", "ok"])
 
     def test_forces_that_are_not_known_well(self):
-        for uncertainty, expected in ((0.33, ["locked", "ok", "ok", "soft"]), (0.6, ["locked", "ok", "ok", "ok"]), (1.2, ["ok"] * 4), (math.nan, ["ok"] * 4)):
+        for uncertainty, expected in (
+            (0.33, ["locked", "ok", "ok", "soft"]),
+            (0.6, ["locked", "ok", "ok", "ok"]),
+            (1.2, ["ok"] * 4),
+            (math.nan, ["ok"] * 4),
+        ):
             with self.subTest(uncertainty):
                 self.assertEqual(self.by_shape(Reference(uncertainty), 2.39, 1.3, 0.7, 0.5)[1], expected)
         # They are marked, too, where of the outputs nothing is known.
@@ -134,9 +167,13 @@ class Judging(unittest.TestCase):
         self.assertTrue(sweep([point("", "as written")], Reference(math.nan)).is_blind)
 
     def test_reasons_are_whole_sentences(self):
-        reason = ("scene.prm: the step from time 0 to 1e-06 failed after 0 accepted steps and 18 cuts: given up after 20 iterations, since at their pace 60 will not do; "
-                  "the largest residual is in body 'blank' at (38.4833, 46.7199, -2.4e-10). The step cannot be cut below 'Smallest step' = 1e-06: try a softer penalty")
-        self.assertEqual(report.short(reason), reason[:reason.index(". The step")])
+        reason = (
+            "scene.prm: the step from time 0 to 1e-06 failed after 0 accepted steps and 18 cuts: given up"
+            " after 20 iterations, since at their pace 60 will not do; the largest residual is in body"
+            " 'blank' at (38.4833, 46.7199, -2.4e-10). The step cannot be cut below 'Smallest step' = 1e-06:"
+            " try a softer penalty"
+        )
+        self.assertEqual(report.short(reason), reason[: reason.index(". The step")])
         self.assertEqual(report.short(""), "")
         self.assertEqual(report.short("inside out."), "inside out")
         self.assertLessEqual(len(report.short("much " * 200)), 400)
@@ -145,9 +182,18 @@ class Judging(unittest.TestCase):
 class Cancellation(unittest.TestCase):
     def points(self):
         # The mesh takes 3 % away, long steps add 2.5 %: together they seem to be right.
-        return [point("", "as written", force=1.025, elements=8), point("mesh", "0.5", layers(2), force=0.995, elements=2),
-                point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.004, elements=16),
-                point("mesh 0.5 × steps", "80", layers(2, **{"Time stepping/Largest step": "0.01"}), force=0.97, elements=3)]
+        return [
+            point("", "as written", force=1.025, elements=8),
+            point("mesh", "0.5", layers(2), force=0.995, elements=2),
+            point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.004, elements=16),
+            point(
+                "mesh 0.5 × steps",
+                "80",
+                layers(2, **{"Time stepping/Largest step": "0.01"}),
+                force=0.97,
+                elements=3,
+            ),
+        ]
 
     def test_finer_mesh_with_all_else_the_same(self):
         points = self.points()
@@ -156,17 +202,31 @@ class Cancellation(unittest.TestCase):
         self.assertAlmostEqual(s.ranked(points[1]), 0.025)
         self.assertIs(s.chosen, points[2])
         said = " ".join(s.words())
-        self.assertIn("Not to be relied on, since errors of opposite sign take each other away: `mesh = 0.5`, off by < 1 % where 2.5 % would be expected, that of `as written`", said)
+        self.assertIn(
+            (
+                "Not to be relied on, since errors of opposite sign take each other away: `mesh = 0.5`, off"
+                " by < 1 % where 2.5 % would be expected, that of `as written`"
+            ),
+            said,
+        )
         self.assertIn("errors cancel", s.page("", "", [], ""))
         self.assertIn("Most accuracy is bought by `steps = 80`", said)
 
     def test_what_an_uncertain_reference_cannot_tell(self):
-        # A coarser mesh that seems better by less than is known; a gain that is less than is known; one that is more.
-        points = [point("", "as written", force=1.018, elements=8), point("mesh", "0.5", layers(2), force=1.011, elements=2)]
+        # A coarser mesh that seems better by less than is known; a gain that is less than is known; one that
+        # is more.
+        points = [
+            point("", "as written", force=1.018, elements=8),
+            point("mesh", "0.5", layers(2), force=1.011, elements=2),
+        ]
         said = " ".join(sweep(points, Reference(0.01), 0.03).words())
         self.assertIn("(a gain below the reference's uncertainty)", said)
-        self.assertEqual(said.count("That mesh is coarser than the scene's"), 2)  # of what buys most, and of what is chosen
-        points = [point("", "as written", force=1.04, elements=8), point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.02, elements=8)]
+        # of what buys most, and of what is chosen
+        self.assertEqual(said.count("That mesh is coarser than the scene's"), 2)
+        points = [
+            point("", "as written", force=1.04, elements=8),
+            point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.02, elements=8),
+        ]
         said = " ".join(sweep(points, Reference(0.01)).words())
         self.assertIn("Most accuracy is bought by `steps = 80`", said)
         self.assertNotIn("a gain below", said)
@@ -181,19 +241,35 @@ class Cancellation(unittest.TestCase):
     def test_shorter_steps_on_the_same_mesh(self):
         def steps(n, **changes):
             return {"Time stepping/Largest step": str(1 / n), **changes}
-        # As of the billet: 60 bricks get worse with each refinement of the steps, by less than the reference is uncertain.
-        points = [point("", "as written", force=1.014, elements=480, steps=15), point("steps", "40", steps(40), force=1.0099, elements=480, steps=40),
-                  point("steps", "80", steps(80), force=1.01025, elements=480, steps=80), point("mesh", "0.5", layers(2), force=0.9899, elements=60, steps=14),
-                  *(point("mesh 0.5 × steps", str(n), steps(n, **layers(2)), force=f, elements=60, steps=n) for n, f in ((10, 0.9907), (20, 0.9882), (40, 0.9874)))]
+
+        # As of the billet: 60 bricks get worse with each refinement of the steps, by less than the reference
+        # is uncertain.
+        points = [
+            point("", "as written", force=1.014, elements=480, steps=15),
+            point("steps", "40", steps(40), force=1.0099, elements=480, steps=40),
+            point("steps", "80", steps(80), force=1.01025, elements=480, steps=80),
+            point("mesh", "0.5", layers(2), force=0.9899, elements=60, steps=14),
+            *(
+                point("mesh 0.5 × steps", str(n), steps(n, **layers(2)), force=f, elements=60, steps=n)
+                for n, f in ((10, 0.9907), (20, 0.9882), (40, 0.9874))
+            ),
+        ]
         s = sweep(points, Reference(0.0101), 0.0215)
         self.assertEqual(list(s.cancelled), [id(points[3]), id(points[4])])
         self.assertAlmostEqual(s.ranked(points[4]), 0.0126)
         self.assertIs(s.chosen, points[1])
         said = " ".join(s.words())
         self.assertIn("Most accuracy is bought by `steps = 40`", said)
-        self.assertIn("`mesh 0.5 × steps = 10`, off by < 1 % where 1.3 % would be expected, that of `mesh 0.5 × steps = 40`, in shorter steps", said)
+        self.assertIn(
+            (
+                "`mesh 0.5 × steps = 10`, off by < 1 % where 1.3 % would be expected, that of `mesh 0.5 ×"
+                " steps = 40`, in shorter steps"
+            ),
+            said,
+        )
         self.assertIn("| (< 1 %) |", s.page("", "", [], ""))
-        # Within a target that leaves room for the larger error, too, what does not cancel is preferred at the same cost.
+        # Within a target that leaves room for the larger error, too, what does not cancel is preferred at the
+        # same cost.
         s = sweep(points, Reference(0.0101), 0.03)
         self.assertIs(s.chosen, points[5])
         s = sweep(points[:5] + points[6:], Reference(0.0101), 0.03)
@@ -204,8 +280,14 @@ class Cancellation(unittest.TestCase):
         self.assertIn("the cheapest is `mesh 0.5 × steps = 10`: error 1.3 %", s.choice())
         self.assertNotIn("coarser", s.choice())
         # Other scenes, steps that are hardly shorter, and errors that come and go tell nothing.
-        for others in ([point("penalty", "0.1", steps(80, Penalty="0.1"), force=1.03, steps=80)], [point("steps", "50", steps(50), force=1.0125, steps=50)],
-                       [point("steps", "60", steps(60), force=1.02, steps=60), point("steps", "90", steps(90), force=1.0101, steps=90)]):
+        for others in (
+            [point("penalty", "0.1", steps(80, Penalty="0.1"), force=1.03, steps=80)],
+            [point("steps", "50", steps(50), force=1.0125, steps=50)],
+            [
+                point("steps", "60", steps(60), force=1.02, steps=60),
+                point("steps", "90", steps(90), force=1.0101, steps=90),
+            ],
+        ):
             self.assertEqual(sweep(points[:2] + others, Reference(0.0101)).cancelled, {})
 
     def test_within_the_uncertainty_nothing_is_told(self):
@@ -214,19 +296,36 @@ class Cancellation(unittest.TestCase):
 
 class Meshes(unittest.TestCase):
     def test_other_elements_make_other_errors(self):
-        defaults = ("subsection Bodies\nsubsection (name of a body)\nset Element = assumed strain\nsubsection Mesh\nset Layers = 4\nset Arguments =\n"
-                    "end\nend\nend\n")
+        defaults = (
+            "subsection Bodies\nsubsection (name of a body)\nset Element = assumed strain\nsubsection"
+            " Mesh\nset Layers = 4\nset Arguments =\nend\nend\nend\n"
+        )
+
         def scene(*lines):
-            return Scene("subsection Bodies\nsubsection bar\n" + "".join(line + "\n" for line in lines) + "end\nend\n", defaults)
+            return Scene(
+                "subsection Bodies\nsubsection bar\n" + "".join(line + "\n" for line in lines) + "end\nend\n",
+                defaults,
+            )
+
         mesh = ("subsection Mesh", "set Layers = 4", "set Arguments = 1, 2 : 3", "end")
-        self.assertEqual(mesh_of(scene(*mesh)), mesh_of(scene("set Element = assumed strain", "subsection Mesh", "set Arguments = 1,2:3", "end")))
+        self.assertEqual(
+            mesh_of(scene(*mesh)),
+            mesh_of(scene("set Element = assumed strain", "subsection Mesh", "set Arguments = 1,2:3", "end")),
+        )
         self.assertNotEqual(mesh_of(scene(*mesh)), mesh_of(scene("set Element = one point", *mesh)))
-        self.assertNotEqual(mesh_of(scene(*mesh)), mesh_of(scene("subsection Mesh", "set Arguments = 1, 3 : 3", "end")))
+        self.assertNotEqual(
+            mesh_of(scene(*mesh)), mesh_of(scene("subsection Mesh", "set Arguments = 1, 3 : 3", "end"))
+        )
 
 
 class Pictures(unittest.TestCase):
     def test_legend_is_whole(self):
-        points = Cancellation().points() + [point("a knob of one's own with a very long name that wants lines", v, {"Solver/X": v}, force=1.003) for v in "123"]
+        points = Cancellation().points() + [
+            point(
+                "a knob of one's own with a very long name that wants lines", v, {"Solver/X": v}, force=1.003
+            )
+            for v in "123"
+        ]
         for p in points[4:]:
             p.result.elements = 1
         figure = picture.picture_of(sweep(points, Reference(0.01), 0.05), "Title")

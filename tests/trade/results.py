@@ -14,7 +14,9 @@ from billet_trade import TradeError, results
 from billet_trade.scene import Scene
 
 trapezoid = getattr(numpy, "trapezoid", None) or numpy.trapz
-CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+CORNERS = numpy.array(
+    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float
+)
 
 
 def block(n, displacement, body=0, shift=0.0, **more):
@@ -22,22 +24,32 @@ def block(n, displacement, body=0, shift=0.0, **more):
     cells = [(CORNERS + [i, j, k]) / n for i in range(n) for j in range(n) for k in range(n)]
     places = numpy.concatenate(cells)
     places = places + [0.2 * 1, 0, 0] * places[:, [2]] + [shift, 0, 0]
-    fields = {"places": places, "displacement": displacement(places), "body": numpy.full(len(places), float(body)),
-              "cells": numpy.arange(len(places)).reshape(-1, 8)}
+    fields = {
+        "places": places,
+        "displacement": displacement(places),
+        "body": numpy.full(len(places), float(body)),
+        "cells": numpy.arange(len(places)).reshape(-1, 8),
+    }
     return {**fields, **{name: make(places) for name, make in more.items()}}
 
 
 def join(a, b):
-    return {name: numpy.concatenate([a[name], b[name] + (len(a["places"]) if name == "cells" else 0)]) for name in a}
+    return {
+        name: numpy.concatenate([a[name], b[name] + (len(a["places"]) if name == "cells" else 0)])
+        for name in a
+    }
 
 
 class Run:
     """What an output asks a result for."""
+
     body_meshes = results.Result.body_meshes.func
 
     def __init__(self, fields=None, history=None):
         self.fields, self.history = fields, {k: numpy.array(v, float) for k, v in (history or {}).items()}
-        self.body_meshes = {int(b): results.BodyMesh(fields, b) for b in numpy.unique(fields["body"])} if fields else {}
+        self.body_meshes = (
+            {int(b): results.BodyMesh(fields, b) for b in numpy.unique(fields["body"])} if fields else {}
+        )
 
 
 def linear(places):
@@ -68,33 +80,50 @@ class TestFields(unittest.TestCase):
                 results.Profile(wrong, "stretch")
 
     def test_plastic_profile(self):
-        """Element means, smoothed at the nodes: inside the body of second order for a field that is linear."""
+        """Element means, smoothed at the nodes: inside the body of second order for a field that is
+        linear."""
+
         def strain(places):
             return numpy.repeat(places.reshape(-1, 8, 3).mean(axis=1)[:, 1], 8)
+
         run = Run(block(8, linear, equivalent_plastic_strain=strain))
         profile = results.Profile("0.5, 0.25, 0.5 to 0.5, 0.75, 0.5", "plastic")
-        numpy.testing.assert_allclose(profile.values(run)[:, None].ravel(), numpy.linspace(0.25, 0.75, 41), atol=1e-6)
+        numpy.testing.assert_allclose(
+            profile.values(run)[:, None].ravel(), numpy.linspace(0.25, 0.75, 41), atol=1e-6
+        )
         with self.assertRaisesRegex(TradeError, "nothing yields"):
             profile.values(Run(block(2, linear)))
 
     def test_shape(self):
-        """A body that is stretched and one that flies: the flight is no deformation, and its error is measured by that."""
+        """A body that is stretched and one that flies: the flight is no deformation, and its error is
+        measured by that."""
+
         def both(stretch, flight):
-            return Run(join(block(3, lambda x: stretch * x), block(2, lambda x: 0 * x + [flight, 0, 0], 1, 5.0)))
+            return Run(
+                join(block(3, lambda x: stretch * x), block(2, lambda x: 0 * x + [flight, 0, 0], 1, 5.0))
+            )
+
         right = both(0.1, 3.0)
         shape = results.Shape(right)
         exact = shape.values(right)
         self.assertEqual(shape.error(right, exact), 0.0)
         centred = right.body_meshes[0].centres - right.body_meshes[0].centres.mean(axis=0)
-        deformation = math.sqrt(0.5 * numpy.mean(numpy.sum((0.1 * centred) ** 2, axis=1)))  # of both, one of which has none
+        # of both, one of which has none
+        deformation = math.sqrt(0.5 * numpy.mean(numpy.sum((0.1 * centred) ** 2, axis=1)))
         self.assertAlmostEqual(shape.scale(exact), deformation)
         off = both(0.1, 3.01)
         self.assertAlmostEqual(shape.error(off, exact), 0.01 * math.sqrt(0.5) / deformation)
 
     def test_rebound(self):
         scene = Scene("subsection Tools\nsubsection ram\nsubsection Motion\nset Mass = 2\nend\nend\nend")
-        history = {"time": [0, 1, 1.5], **{f"ram.travel_{a}": v for a, v in zip("xyz", ([0, 0, 0], [0, 0, 0], [0, -1, -3]))}}
-        run = Run(block(2, linear, velocity=lambda x: 0 * x + [0, 3, 0] + numpy.outer(x[:, 1] - 0.5, [7, 0, 0])), history)
+        history = {
+            "time": [0, 1, 1.5],
+            **{f"ram.travel_{a}": v for a, v in zip("xyz", ([0, 0, 0], [0, 0, 0], [0, -1, -3]))},
+        }
+        run = Run(
+            block(2, linear, velocity=lambda x: 0 * x + [0, 3, 0] + numpy.outer(x[:, 1] - 0.5, [7, 0, 0])),
+            history,
+        )
         rebound = results.Rebound(run, scene)
         numpy.testing.assert_allclose(rebound.values(run), [[0, 3, 0], [0, 0, -4]], atol=1e-12)
         self.assertAlmostEqual(rebound.norm(rebound.values(run)), math.sqrt(12.5))
@@ -106,11 +135,19 @@ class TestFields(unittest.TestCase):
 
 
 class TestForce(unittest.TestCase):
-    scene = Scene("subsection Tools\nsubsection die\nend\nend\nsubsection Time stepping\nset End time = 1\nend")
+    scene = Scene(
+        "subsection Tools\nsubsection die\nend\nend\nsubsection Time stepping\nset End time = 1\nend"
+    )
 
     def run_with(self, n, factor=1.0, first=1.0):
         times = numpy.arange(1, n + 1) / n
-        return Run(history={"time": times, "die.force_x": 0 * times, "die.force_z": factor * (5 + times**2) * numpy.where(times == times[0], first, 1)})
+        return Run(
+            history={
+                "time": times,
+                "die.force_x": 0 * times,
+                "die.force_z": factor * (5 + times**2) * numpy.where(times == times[0], first, 1),
+            }
+        )
 
     def test_error(self):
         centre = self.run_with(20)
@@ -127,10 +164,18 @@ class TestForce(unittest.TestCase):
         self.assertLess(force.error(self.run_with(200, 1.0, 5.0), exact), 1e-9)
 
     def test_corners(self):
-        """Of curves with a corner where all steps end runs are judged by what they are off, not by what interpolation makes of it."""
+        """Of curves with a corner where all steps end runs are judged by what they are off, not by what
+        interpolation makes of it."""
+
         def run(n, off):
             times = numpy.arange(1, n + 1) / n
-            return Run(history={"time": times, "die.force_z": off * (1 + times) + numpy.where(times < 0.5, times, 4 - 6 * times)})
+            return Run(
+                history={
+                    "time": times,
+                    "die.force_z": off * (1 + times) + numpy.where(times < 0.5, times, 4 - 6 * times),
+                }
+            )
+
         centre, finest = run(10, 0.04), run(40, 0.01)
         force = results.Force(centre, self.scene, None, 0.05, finest)
         exact = force.values(run(10, 0.0))
@@ -139,7 +184,9 @@ class TestForce(unittest.TestCase):
             off, times = force.error(run(n, 0.01), exact), numpy.arange(1, n + 1) / n
             inside = times > 0.1 - 1e-9
             curve = numpy.where(times < 0.5, times, 4 - 6 * times)[inside]
-            expected = trapezoid(0.01 * (1 + times[inside]), times[inside]) / trapezoid(numpy.abs(curve), times[inside])
+            expected = trapezoid(0.01 * (1 + times[inside]), times[inside]) / trapezoid(
+                numpy.abs(curve), times[inside]
+            )
             self.assertAlmostEqual(off, expected, delta=1e-9)
         # At the ends of the centre's steps alone a finer run would be judged by an interpolated corner.
         coarse = results.Force(centre, self.scene, None, 0.05)
@@ -154,17 +201,26 @@ class TestForce(unittest.TestCase):
         times = numpy.linspace(0, 1, 2001)
 
         def ringing(amplitude):
-            return Run(history={"time": times, "die.force_z": 1 + amplitude * numpy.sin(2 * math.pi * 20 * times)})
+            return Run(
+                history={"time": times, "die.force_z": 1 + amplitude * numpy.sin(2 * math.pi * 20 * times)}
+            )
+
         force = results.Force(ringing(0.0), scene, None, 0.05)
         exact = force.values(ringing(0.0))
         self.assertLess(force.error(ringing(1.0), exact), 0.01)  # whole periods; but for the ends
-        self.assertAlmostEqual(force.error(Run(history={"time": times, "die.force_z": 1.1 + 0 * times}), exact), 0.1)
+        self.assertAlmostEqual(
+            force.error(Run(history={"time": times, "die.force_z": 1.1 + 0 * times}), exact), 0.1
+        )
 
 
 class TestHistory(unittest.TestCase):
     def test_drift(self):
-        history = {"kinetic_energy": numpy.array([4.0, 1.0]), "plastic_work": numpy.array([0.0, 2.5]), "external_work": numpy.array([9.0, 9.0]),
-                   "energy_drift": numpy.array([0.0, -0.2])}
+        history = {
+            "kinetic_energy": numpy.array([4.0, 1.0]),
+            "plastic_work": numpy.array([0.0, 2.5]),
+            "external_work": numpy.array([9.0, 9.0]),
+            "energy_drift": numpy.array([0.0, -0.2]),
+        }
         self.assertAlmostEqual(results.largest_drift(history), 0.05)
         self.assertTrue(math.isnan(results.largest_drift({})))
 
@@ -178,15 +234,25 @@ class TestHistory(unittest.TestCase):
             self.assertEqual(results.read_history(Path(folder, "none.csv")), {})
 
     def test_what_failed_has_worked(self):
-        """Iterations of a step that failed for good stand in no history, but in the message that ended the run, as do explicit steps."""
+        """Iterations of a step that failed for good stand in no history, but in the message that ended the
+        run, as do explicit steps."""
         with TemporaryDirectory() as folder:
             place = Path(folder)
             (place / "stderr").write_text("error[solution-failed]: scene.prm: the step failed")
             (place / "results").mkdir()
 
             def fail(key, **values):
-                record = {"key": key, "severity": "error", "message": "scene.prm: the step failed", "values": values}
-                (place / "results/diagnostics.jsonl").write_text('{"key": "penalty-too-low", "severity": "warning"}\n' + json.dumps(record) + '\n{"summary"')
+                record = {
+                    "key": key,
+                    "severity": "error",
+                    "message": "scene.prm: the step failed",
+                    "values": values,
+                }
+                (place / "results/diagnostics.jsonl").write_text(
+                    '{"key": "penalty-too-low", "severity": "warning"}\n'
+                    + json.dumps(record)
+                    + '\n{"summary"'
+                )
 
             fail("solution-failed", **{"Newton iterations": 12, "steps": 0})
             kept = results.collect(place, 3, 10)
@@ -206,11 +272,25 @@ class TestHistory(unittest.TestCase):
     def test_failures(self):
         for code in (0, 6, 7):  # without complaint, with warnings, beside the target error
             self.assertEqual(results.failure(code, "", 1, {})[0], "ok")
-        self.assertEqual(results.failure(3, "", 1, {"key": "solution-failed", "message": "a: no convergence"}), ("diverged", "a: no convergence"))
-        self.assertEqual(results.failure(3, "error[solution-failed]: a: no convergence", 1, {}), ("diverged", "a: no convergence"))
-        self.assertEqual(results.failure(3, "", 1, {"key": "energy-drift", "message": "by 9 %"})[0], "drifted")
+        self.assertEqual(
+            results.failure(3, "", 1, {"key": "solution-failed", "message": "a: no convergence"}),
+            ("diverged", "a: no convergence"),
+        )
+        self.assertEqual(
+            results.failure(3, "error[solution-failed]: a: no convergence", 1, {}),
+            ("diverged", "a: no convergence"),
+        )
+        self.assertEqual(
+            results.failure(3, "", 1, {"key": "energy-drift", "message": "by 9 %"})[0], "drifted"
+        )
         self.assertEqual(results.failure(2, "error[bad-input]: x", 0, {}), ("refused", "x"))
-        self.assertEqual(results.failure(None, "", 0.3, {}), ("out of time", "at time 0.3: a longer --time-limit, or a smaller pilot (--mesh, --until), may do"))
+        self.assertEqual(
+            results.failure(None, "", 0.3, {}),
+            (
+                "out of time",
+                "at time 0.3: a longer --time-limit, or a smaller pilot (--mesh, --until), may do",
+            ),
+        )
         self.assertEqual(results.failure(-11, "", 0.3, {})[0], "crashed")
 
 

@@ -29,14 +29,35 @@ end
 
 class TestScene(unittest.TestCase):
     def test_entries(self):
-        self.assertEqual(entries(TEXT), {"Title": "a", "Bodies/the body/Arguments": "1, 2 : 3", "Bodies/the body/Height": "2",
-                                         "Output/Folder": "here"})
+        self.assertEqual(
+            entries(TEXT),
+            {
+                "Title": "a",
+                "Bodies/the body/Arguments": "1, 2 : 3",
+                "Bodies/the body/Height": "2",
+                "Output/Folder": "here",
+            },
+        )
 
     def test_variant(self):
-        new = variant(TEXT, {"Bodies/the body/Height": 7, "Bodies/the body/Arguments": "4", "Output/Folder": None,
-                             "Solver/Predictor": "tangent"})
-        self.assertEqual(entries(new), {"Title": "a", "Bodies/the body/Arguments": "4", "Bodies/the body/Height": "7",
-                                        "Solver/Predictor": "tangent"})
+        new = variant(
+            TEXT,
+            {
+                "Bodies/the body/Height": 7,
+                "Bodies/the body/Arguments": "4",
+                "Output/Folder": None,
+                "Solver/Predictor": "tangent",
+            },
+        )
+        self.assertEqual(
+            entries(new),
+            {
+                "Title": "a",
+                "Bodies/the body/Arguments": "4",
+                "Bodies/the body/Height": "7",
+                "Solver/Predictor": "tangent",
+            },
+        )
         self.assertNotIn("                    3", new)  # the line that went on goes, too
         self.assertEqual(new.count("set Height = 7"), 2)  # wherever it stands
 
@@ -44,7 +65,9 @@ class TestScene(unittest.TestCase):
         self.assertEqual(variant(TEXT, {}), TEXT)
         for file in sorted((ROOT / "prm").glob("*.prm")):
             text = read_scene(file)
-            self.assertEqual(entries(variant(text, {"Output/New": 1})), {**entries(text), "Output/New": "1"}, file)
+            self.assertEqual(
+                entries(variant(text, {"Output/New": 1})), {**entries(text), "Output/New": "1"}, file
+            )
 
     def test_includes_and_files(self):
         with TemporaryDirectory() as folder:
@@ -57,8 +80,10 @@ class TestScene(unittest.TestCase):
             self.assertEqual(scene.files(folder), {"Tools/File": (folder / "part.stl").resolve()})
 
     def test_defaults(self):
-        scene = Scene("subsection Bodies\n subsection x\n  set A = 1\n end\nend\n",
-                      "subsection Bodies\n subsection (name of a body)\n  set A = 5\n  set B = 6\n end\nend\n")
+        scene = Scene(
+            "subsection Bodies\n subsection x\n  set A = 1\n end\nend\n",
+            "subsection Bodies\n subsection (name of a body)\n  set A = 5\n  set B = 6\n end\nend\n",
+        )
         self.assertEqual([scene.get(f"Bodies/x/{name}") for name in "ABC"], ["1", "6", ""])
         self.assertEqual([scene.knows(f"Bodies/x/{name}") for name in "ABC"], [True, True, False])
         self.assertEqual(scene.names("Bodies"), ["x"])

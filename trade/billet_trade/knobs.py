@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What can be turned in a scene. A knob makes of an argument, a factor or a word, the changes that a scene wants; one that the
-scene cannot use has none to make. Whether the program takes a change it says itself (`billet --check`)."""
+"""What can be turned in a scene. A knob makes of an argument, a factor or a word, the changes that a scene
+wants; one that the scene cannot use has none to make. Whether the program takes a change it says itself
+(`billet --check`)."""
 
 import math
 import re
@@ -35,6 +36,7 @@ def knob(name, meaning, *arguments):
     def keep(make):
         KNOBS[name] = Knob(name, meaning, [str(a) for a in arguments], make)
         return make
+
     return keep
 
 
@@ -57,16 +59,24 @@ def need(condition, why):
         raise CannotTurn(why)
 
 
-# --- mesh --------------------------------------------------------------------------------------------------------
+# --- mesh -----------------------------------------------------------------------------------------
 
 # Of deal.II's generators: which arguments (from 0) are numbers of elements. Others are refined.
-COUNTS = {"subdivided_hyper_rectangle": (0,), "subdivided_hyper_cube": (0,), "subdivided_cylinder": (0,),
-          "cylinder_shell": (3, 4), "hyper_shell": (3,), "quarter_hyper_shell": (3,), "half_hyper_shell": (3,),
-          "concentric_hyper_shells": (3, 5)}
+COUNTS = {
+    "subdivided_hyper_rectangle": (0,),
+    "subdivided_hyper_cube": (0,),
+    "subdivided_cylinder": (0,),
+    "cylinder_shell": (3, 4),
+    "hyper_shell": (3,),
+    "quarter_hyper_shell": (3,),
+    "half_hyper_shell": (3,),
+    "concentric_hyper_shells": (3, 5),
+}
 
 
 def plane_axes(planes):
-    """Axes along which a body lies between two symmetry planes, so that one layer of elements may be all there is."""
+    """Axes along which a body lies between two symmetry planes, so that one layer of elements may be all
+    there is."""
     axes = re.findall(r"(?:^|;)\s*([xyz])\s*=", planes)
     return {"xyz".index(axis) for axis in axes if axes.count(axis) > 1}
 
@@ -82,7 +92,7 @@ def scaled_mesh(scene, body, factor):
     source = scene.get(mesh + "Source")
     primitive = scene.get(mesh + "Primitive")
     flat = plane_axes(scene.get(f"Bodies/{body}/Symmetry planes"))
-    if source == "extruded primitive" and not 2 in flat:
+    if source == "extruded primitive" and 2 not in flat:
         changes[mesh + "Layers"] = scaled(int(scene.get(mesh + "Layers")), factor)
     if source != "file" and primitive in COUNTS:
         arguments = [a.strip() for a in scene.get(mesh + "Arguments").split(":")]
@@ -91,15 +101,22 @@ def scaled_mesh(scene, body, factor):
                 continue
             counts = [int(c) for c in arguments[place].split(",")]
             # One element between two symmetry planes is the third dimension of a plane problem.
-            arguments[place] = ", ".join(str(c if c == 1 and axis in flat and len(counts) == 3 else scaled(c, factor))
-                                         for axis, c in enumerate(counts))
+            arguments[place] = ", ".join(
+                str(c if c == 1 and axis in flat and len(counts) == 3 else scaled(c, factor))
+                for axis, c in enumerate(counts)
+            )
         if any(arguments[p] != "0" for p in COUNTS[primitive] if p < len(arguments)):
             return {**changes, mesh + "Arguments": " : ".join(arguments)}
     levels = math.log2(factor)
     refinements = int(scene.get(mesh + "Refinements")) + round(levels)
     need(abs(levels - round(levels)) < 1e-9, f"the mesh of '{body}' changes by factors of 2 only")
-    need(refinements >= 0, f"the mesh of '{body}' cannot be coarser by {factor:g}: its Refinements are "
-                           f"{scene.get(mesh + 'Refinements')}")
+    need(
+        refinements >= 0,
+        (
+            f"the mesh of '{body}' cannot be coarser by {factor:g}: its Refinements are "
+            f"{scene.get(mesh + 'Refinements')}"
+        ),
+    )
     return {**changes, mesh + "Refinements": refinements}
 
 
@@ -111,7 +128,8 @@ def make_mesh(scene, argument):
     return changes
 
 
-# --- steps -------------------------------------------------------------------------------------------------------
+# --- steps ----------------------------------------------------------------------------------------
+
 
 def implicit(scene):
     need(not scene.is_explicit, "of implicit scenes")
@@ -128,10 +146,16 @@ def longest_steps(scene):
 
 
 def equal_steps(scene, n):
-    """n equal steps. The step does not follow the iterations, but one that fails is cut and soon as long again."""
+    """n equal steps. The step does not follow the iterations, but one that fails is cut and soon as long
+    again."""
     step = shown(scene.end_time / n)
-    changes = {"Time stepping/Step control": "automatic", "Time stepping/Initial step": step,
-               "Time stepping/Largest step": step, "Time stepping/Few iterations": 9998, "Time stepping/Many iterations": 9999}
+    changes = {
+        "Time stepping/Step control": "automatic",
+        "Time stepping/Initial step": step,
+        "Time stepping/Largest step": step,
+        "Time stepping/Few iterations": 9998,
+        "Time stepping/Many iterations": 9999,
+    }
     if scene.scheme == "implicit dynamics":
         changes["Implicit dynamics/Error tolerance"] = 0
     elif scene.knows("Time stepping/Error tolerance"):
@@ -149,11 +173,17 @@ def make_steps(scene, argument):
 def make_largest_step(scene, argument):
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
-    need("Time stepping/Largest step" in scene.entries or number(argument) <= 1 or scene.end_time / 4 >= scene.step(
-        "Largest step"), "the largest step is a good part of the time already")
+    need(
+        "Time stepping/Largest step" in scene.entries
+        or number(argument) <= 1
+        or scene.end_time / 4 >= scene.step("Largest step"),
+        "the largest step is a good part of the time already",
+    )
     largest = number(argument) * scene.step("Largest step")
-    return {"Time stepping/Largest step": shown(largest),
-            "Time stepping/Initial step": shown(min(largest, scene.step("Initial step")))}
+    return {
+        "Time stepping/Largest step": shown(largest),
+        "Time stepping/Initial step": shown(min(largest, scene.step("Initial step"))),
+    }
 
 
 @knob("error tolerance", "of a step, by which its length is chosen", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
@@ -202,23 +232,40 @@ def make_mass_scaling(scene, argument):
 @knob("bulk viscosity", "linear and quadratic, factor of the scene's", 0.25, 0.5, 1, 2)
 def make_viscosity(scene, argument):
     explicit(scene)
-    return {f"Explicit dynamics/{kind} bulk viscosity": shown(number(argument) * scene.number(
-        f"Explicit dynamics/{kind} bulk viscosity")) for kind in ("Linear", "Quadratic")}
+    return {
+        f"Explicit dynamics/{kind} bulk viscosity": shown(
+            number(argument) * scene.number(f"Explicit dynamics/{kind} bulk viscosity")
+        )
+        for kind in ("Linear", "Quadratic")
+    }
 
 
-@knob("instructions", "instruction set of the element kernels: changes the cost, not the result", "scalar", "SSE2", "AVX2", "AVX-512")
+@knob(
+    "instructions",
+    "instruction set of the element kernels: changes the cost, not the result",
+    "scalar",
+    "SSE2",
+    "AVX2",
+    "AVX-512",
+)
 def make_instructions(scene, argument):
     explicit(scene)
     return {"Explicit dynamics/Instructions": argument}
 
 
-@knob("number type", "what elements compute with: float halves the width of numbers, to seven digits", "double", "float")
+@knob(
+    "number type",
+    "what elements compute with: float halves the width of numbers, to seven digits",
+    "double",
+    "float",
+)
 def make_number_type(scene, argument):
     explicit(scene)
     return {"Explicit dynamics/Number type": argument}
 
 
-# --- contact -----------------------------------------------------------------------------------------------------
+# --- contact --------------------------------------------------------------------------------------
+
 
 def pairs(scene, of_bodies=False):
     names = scene.names("Contact pairs")
@@ -230,8 +277,10 @@ def pairs(scene, of_bodies=False):
 
 
 def has_friction(scene):
-    return any(scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Largest shear stress") > 0
-               for pair in pairs(scene))
+    return any(
+        scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Largest shear stress") > 0
+        for pair in pairs(scene)
+    )
 
 
 def scaled_penalties(scene, factor):
@@ -248,15 +297,30 @@ def make_penalty(scene, argument):
     return scaled_penalties(scene, number(argument))
 
 
-@knob("augmentation", "until nodes are no farther from their faces than this, in facet sizes; 0: penalties alone",
-      0, 1e-1, 1e-2, 1e-3, 1e-4)
+@knob(
+    "augmentation",
+    "until nodes are no farther from their faces than this, in facet sizes; 0: penalties alone",
+    0,
+    1e-1,
+    1e-2,
+    1e-3,
+    1e-4,
+)
 def make_augmentation(scene, argument):
     implicit(scene)
     return {pair + "Penetration tolerance": argument for pair in pairs(scene)}
 
 
-@knob("tangent", "contact tangent", "exact", "consistent", "continuum", "symmetrised lower", "symmetrised mean",
-      "symmetrised upper")
+@knob(
+    "tangent",
+    "contact tangent",
+    "exact",
+    "consistent",
+    "continuum",
+    "symmetrised lower",
+    "symmetrised mean",
+    "symmetrised upper",
+)
 def make_tangent(scene, argument):
     implicit(scene)
     need(has_friction(scene) or not argument.startswith("symmetrised"), "there is no friction to symmetrise")
@@ -293,11 +357,15 @@ def make_margin(scene, argument):
     return {pair + "Search margin": argument for pair in pairs(scene, True)}
 
 
-# --- solver ------------------------------------------------------------------------------------------------------
+# --- solver ---------------------------------------------------------------------------------------
+
 
 def newton_tolerance(tolerance):
     """Of the force, and of the energy beside it: in the ratio of the defaults, 1e-6 and 1e-10."""
-    return {"Solver/Force tolerance": shown(tolerance), "Solver/Energy tolerance": shown(0.1 * tolerance**1.5)}
+    return {
+        "Solver/Force tolerance": shown(tolerance),
+        "Solver/Energy tolerance": shown(0.1 * tolerance**1.5),
+    }
 
 
 @knob("tolerance", "of Newton's method", 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
@@ -330,7 +398,9 @@ def iterative(scene):
     return {} if solver in ("CG", "GMRES") else {"Solver/Linear solver": "GMRES"}
 
 
-@knob("linear tolerance", "of an iterative solver (GMRES, unless the scene names one)", 1e-2, 1e-4, 1e-6, 1e-10)
+@knob(
+    "linear tolerance", "of an iterative solver (GMRES, unless the scene names one)", 1e-2, 1e-4, 1e-6, 1e-10
+)
 def make_linear_tolerance(scene, argument):
     implicit(scene)
     return {**iterative(scene), "Solver/Linear tolerance": argument}
@@ -342,7 +412,8 @@ def make_forcing(scene, argument):
     return {**iterative(scene), "Solver/Forcing": argument}
 
 
-# --- bodies ------------------------------------------------------------------------------------------------------
+# --- bodies ---------------------------------------------------------------------------------------
+
 
 @knob("element", "of all bodies", "assumed strain", "one point", "mean dilatation")
 def make_element(scene, argument):
@@ -356,18 +427,24 @@ def make_kinematics(scene, argument):
 
 def has_unsymmetric_tangent(scene, body):
     law = scene.get(f"{body}/Material/Kinematics")
-    return law == "hypoelastic" or (scene.get(f"{body}/Material/Law") == "elastoplastic" and law == "neo-Hookean")
+    return law == "hypoelastic" or (
+        scene.get(f"{body}/Material/Law") == "elastoplastic" and law == "neo-Hookean"
+    )
 
 
 @knob("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
 def make_material_tangent(scene, argument):
     implicit(scene)
     need(scene.knows("Solver/Material tangent"), "this billet has no such parameter")
-    need(any(has_unsymmetric_tangent(scene, f"Bodies/{body}") for body in scene.names("Bodies")), "the exact one of every body is symmetric")
+    need(
+        any(has_unsymmetric_tangent(scene, f"Bodies/{body}") for body in scene.names("Bodies")),
+        "the exact one of every body is symmetric",
+    )
     return {"Solver/Material tangent": argument}
 
 
-# --- all at once -------------------------------------------------------------------------------------------------
+# --- all at once ----------------------------------------------------------------------------------
+
 
 @knob("profile", "one word for all knobs", "fast", "balanced", "accurate")
 def make_profile(scene, argument):
@@ -381,10 +458,12 @@ def make_target_error(scene, argument):
     return {"Target error": argument, "Profile": None}
 
 
-# --- what users name ---------------------------------------------------------------------------------------------
+# --- what users name ------------------------------------------------------------------------------
+
 
 def own_knob(text):
-    """A knob from '[NAME: ]path/to/parameter=v1,v2 [& other/path=w1,w2]', values separated by '|' where they hold commas."""
+    """A knob from '[NAME: ]path/to/parameter=v1,v2 [& other/path=w1,w2]', values separated by '|' where they
+    hold commas."""
     name, marked, rest = text.partition(": ")
     if not marked or "=" in name or "/" in name:
         name, rest = None, text
@@ -393,8 +472,10 @@ def own_knob(text):
         path, equals, values = part.partition("=")
         path = "/".join(" ".join(p.split()) for p in path.split("/"))
         if not equals or not path:
-            raise TradeError(f"--knob: found '{text}', allowed is 'path/to/parameter=value,value' or "
-                             "'name: path/to/parameter=value,value & other/path=value,value'")
+            raise TradeError(
+                f"--knob: found '{text}', allowed is 'path/to/parameter=value,value' or "
+                "'name: path/to/parameter=value,value & other/path=value,value'"
+            )
         columns[path] = [v.strip() for v in values.split("|" if "|" in values else ",")]
     first = next(iter(columns.values()))
     if any(len(values) != len(first) for values in columns.values()):
@@ -412,18 +493,27 @@ def asked_knob(text, known):
     name, equals, arguments = text.partition("=")
     name = name.strip()
     if name not in known:
-        raise TradeError(f"there is no knob '{name}'; there are {', '.join(known)}. "
-                         "--list says which ones the scene can use; --knob 'path/to/parameter=value,value' makes another")
+        raise TradeError(
+            f"there is no knob '{name}'; there are {', '.join(known)}. "
+            "--list says which ones the scene can use; --knob 'path/to/parameter=value,value' makes another"
+        )
     found = known[name]
     if not equals:
         return found
-    return Knob(name, found.meaning, [a.strip() for a in arguments.split("|" if "|" in arguments else ",") if a.strip()], found.make)
+    return Knob(
+        name,
+        found.meaning,
+        [a.strip() for a in arguments.split("|" if "|" in arguments else ",") if a.strip()],
+        found.make,
+    )
 
 
-# --- the reference -----------------------------------------------------------------------------------------------
+# --- the reference --------------------------------------------------------------------------------
+
 
 def reference_settings(scene):
-    """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is exact."""
+    """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is
+    exact."""
     changes = {path: None for path in ("Profile", "Target error") if path in scene.entries}
     for body in scene.names("Bodies"):
         path = f"Bodies/{body}/Material/Kinematics"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pure: norms of differences, Richardson extrapolation, Pareto front, the choice. Nothing here knows of runs or files."""
+"""Pure: norms of differences, Richardson extrapolation, Pareto front, the choice. Nothing here knows of runs
+or files."""
 
 import math
 from dataclasses import dataclass
@@ -17,12 +18,14 @@ def trapezoids(times):
 
 
 def interpolate(times, values, at):
-    """Cubic Hermite interpolation with three-point slopes, of second order on unequal steps; constant beyond the ends.
-    `values` has a row for each time."""
+    """Cubic Hermite interpolation with three-point slopes, of second order on unequal steps; constant beyond
+    the ends. `values` has a row for each time."""
     times, values, at = (numpy.asarray(a, dtype=float) for a in (times, values, at))
     if len(times) < 3:
         flat = values.reshape(len(times), -1)
-        return numpy.stack([numpy.interp(at, times, column) for column in flat.T], -1).reshape(at.shape + values.shape[1:])
+        return numpy.stack([numpy.interp(at, times, column) for column in flat.T], -1).reshape(
+            at.shape + values.shape[1:]
+        )
     at = numpy.clip(at, times[0], times[-1])
     gaps = numpy.diff(times).reshape((-1,) + (1,) * (values.ndim - 1))
     rises = numpy.diff(values, axis=0) / gaps
@@ -32,18 +35,24 @@ def interpolate(times, values, at):
     i = numpy.clip(numpy.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
     h = gaps[i]
     s = ((at - times[i]) / numpy.diff(times)[i]).reshape(h.shape)
-    return ((1 + 2 * s) * (1 - s) ** 2 * values[i] + s * (1 - s) ** 2 * h * slopes[i]
-            + s**2 * (3 - 2 * s) * values[i + 1] + s**2 * (s - 1) * h * slopes[i + 1])
+    return (
+        (1 + 2 * s) * (1 - s) ** 2 * values[i]
+        + s * (1 - s) ** 2 * h * slopes[i]
+        + s**2 * (3 - 2 * s) * values[i + 1]
+        + s**2 * (s - 1) * h * slopes[i + 1]
+    )
 
 
 def running_mean(times, values, window, at):
-    """Means of the polygon through (times, values) over `window` about each time in `at`, over less at the ends."""
+    """Means of the polygon through (times, values) over `window` about each time in `at`, over less at the
+    ends."""
     times, values, at = numpy.asarray(times), numpy.asarray(values), numpy.asarray(at)
     columns = values.reshape(len(times), -1)
     # The integral of a polygon is a parabola between its corners: exact.
     gaps = numpy.diff(times)[:, None]
-    integrals = numpy.vstack([numpy.zeros((1, columns.shape[1])),
-                              numpy.cumsum(0.5 * gaps * (columns[1:] + columns[:-1]), axis=0)])
+    integrals = numpy.vstack(
+        [numpy.zeros((1, columns.shape[1])), numpy.cumsum(0.5 * gaps * (columns[1:] + columns[:-1]), axis=0)]
+    )
 
     def integral(t):
         i = numpy.clip(numpy.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
@@ -57,7 +66,9 @@ def running_mean(times, values, window, at):
 
 def mean_length(vectors, weights):
     """Weighted mean of the lengths of vectors (a row each): the L1 norm of a curve."""
-    return float(numpy.sum(weights * numpy.linalg.norm(vectors.reshape(len(vectors), -1), axis=1)) / numpy.sum(weights))
+    return float(
+        numpy.sum(weights * numpy.linalg.norm(vectors.reshape(len(vectors), -1), axis=1)) / numpy.sum(weights)
+    )
 
 
 def root_mean_square(vectors, weights):
@@ -67,7 +78,8 @@ def root_mean_square(vectors, weights):
 
 
 def without_rigid_motion(places, displacements, weights):
-    """What is left of displacements when the rotation and translation that fit best (Kabsch 1976) are taken out."""
+    """What is left of displacements when the rotation and translation that fit best (Kabsch 1976) are taken
+    out."""
     w = weights[:, None] / numpy.sum(weights)
     moved = places + displacements
     start, end = places - numpy.sum(w * places, axis=0), moved - numpy.sum(w * moved, axis=0)
@@ -76,7 +88,7 @@ def without_rigid_motion(places, displacements, weights):
     return end - start @ (u @ turn @ v)
 
 
-# --- the limit ---------------------------------------------------------------------------------------------------
+# --- the limit ------------------------------------------------------------------------------------
 
 LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0
 SAME_WAY = 0.75
@@ -84,9 +96,10 @@ SAME_WAY = 0.75
 
 @dataclass
 class Limit:
-    """What a sequence goes to: `values`; `uncertainty` in the norm, NaN for a sequence of one; the `order` that was used,
-    None where the finest member was taken as it is; the one `observed`, None where there is none; `differences` of
-    neighbours in the norm."""
+    """What a sequence goes to: `values`; `uncertainty` in the norm, NaN for a sequence of one; the `order`
+    that was used, None where the finest member was taken as it is; the one `observed`, None where there is
+    none; `differences` of neighbours in the norm."""
+
     values: numpy.ndarray
     uncertainty: float
     order: float | None
@@ -95,14 +108,16 @@ class Limit:
 
 
 def richardson(levels, ratio, norm):
-    """The limit of a sequence of results from coarse to fine, each `ratio` times finer than the last (Richardson 1911).
+    """The limit of a sequence of results from coarse to fine, each `ratio` times finer than the last
+    (Richardson 1911).
 
-    The order is observed in the last three, p = log(|f1 − f2| / |f2 − f3|) / log r. From 1/2 on it is believed, up to 2, the
-    highest of what is extrapolated here. Differences that go on so add up to |f2 − f3| / (r^p − 1), whichever way they
-    point: with a factor of 1.25 that is the uncertainty (Roache 1994, the grid convergence index). A last difference smaller
-    than an order of 2 makes of the one before may be so by chance, and counts as that. The finest result is
-    extrapolated where both differences point the same way, |f1 − f3| nearly their sum; else it is taken as it is. Where
-    no order is believed p = 1/2 stands for it, 3 |f2 − f3| for r = 2, which is also Roache's advice for two results.
+    The order is observed in the last three, p = log(|f1 − f2| / |f2 − f3|) / log r. From 1/2 on it is
+    believed, up to 2, the highest of what is extrapolated here. Differences that go on so add up to |f2 − f3|
+    / (r^p − 1), whichever way they point: with a factor of 1.25 that is the uncertainty (Roache 1994, the
+    grid convergence index). A last difference smaller than an order of 2 makes of the one before may be so by
+    chance, and counts as that. The finest result is extrapolated where both differences point the same way,
+    |f1 − f3| nearly their sum; else it is taken as it is. Where no order is believed p = 1/2 stands for it, 3
+    |f2 − f3| for r = 2, which is also Roache's advice for two results.
     """
     finest = levels[-1]
     differences = [norm(b - a) for a, b in zip(levels, levels[1:])]
@@ -116,17 +131,22 @@ def richardson(levels, ratio, norm):
         observed = math.log(before / last) / math.log(ratio) if before > 0.0 else -math.inf
     is_believed = observed is not None and observed >= LEAST_ORDER
     order = min(observed, LARGEST_ORDER) if is_believed else LEAST_ORDER
-    left = max(last, differences[-2] / ratio**LARGEST_ORDER if is_believed else 0.0) / (ratio**order - 1.0)
+    left = max(last, differences[-2] / ratio**LARGEST_ORDER if is_believed else 0.0) / (
+        ratio**order - 1.0
+    )
     if is_believed and norm(finest - levels[-3]) >= SAME_WAY * (before + last):
-        return Limit(finest + (finest - levels[-2]) / (ratio**order - 1.0), 1.25 * left, order, observed, differences)
+        return Limit(
+            finest + (finest - levels[-2]) / (ratio**order - 1.0), 1.25 * left, order, observed, differences
+        )
     return Limit(finest, 1.25 * left, None, observed, differences)
 
 
-# --- points in the plane of cost and error -----------------------------------------------------------------------
+# --- points in the plane of cost and error --------------------------------------------------------
+
 
 def pareto_front(costs, errors, floor=0.0):
-    """Indices, by cost, of the points that no other point beats in both. Errors below the floor, where they cannot be told
-    apart, count as the floor."""
+    """Indices, by cost, of the points that no other point beats in both. Errors below the floor, where they
+    cannot be told apart, count as the floor."""
     front, least = [], math.inf
     for i in sorted(range(len(costs)), key=lambda i: (costs[i], errors[i])):
         error = max(errors[i], floor)
@@ -137,14 +157,17 @@ def pareto_front(costs, errors, floor=0.0):
 
 
 def cheapest_within(costs, errors, uncertainty, target, noise=0.0, preferences=None):
-    """Index of the cheapest point whose error, the reference's uncertainty added, is within the target; None if there is
-    none. Of those whose costs the noise, a part of them, does not tell apart, the one with the least of `preferences`, such as
-    works, and then the first."""
+    """Index of the cheapest point whose error, the reference's uncertainty added, is within the target; None
+    if there is none. Of those whose costs the noise, a part of them, does not tell apart, the one with the
+    least of `preferences`, such as works, and then the first."""
     good = [i for i in range(len(costs)) if max(errors[i], uncertainty) + uncertainty <= target]
     if not good:
         return None
     least = min(costs[i] for i in good)
-    return min((i for i in good if costs[i] <= least * (1.0 + noise)), key=lambda i: preferences[i] if preferences else costs[i])
+    return min(
+        (i for i in good if costs[i] <= least * (1.0 + noise)),
+        key=lambda i: preferences[i] if preferences else costs[i],
+    )
 
 
 def weighted_mean(values, weights):

@@ -5,7 +5,8 @@ import json
 
 
 def read_records(file):
-    """All messages of a run, without the summary; none if there is no file. A line that was cut off is left out."""
+    """All messages of a run, without the summary; none if there is no file. A line that was cut off is left
+    out."""
     try:
         lines = file.read_text(errors="replace").splitlines()
     except OSError:

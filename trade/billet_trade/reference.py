@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The converged reference: the limit over mesh, step and penalty, each from a sequence of its own about one centre.
+"""The converged reference: the limit over mesh, step and penalty, each from a sequence of its own about one
+centre.
 
-The results are taken to add up: F* = F_c + Σ (F_axis − F_c), with F_axis the limit along an axis while the others stay at
-the centre. One more run, off the centre along all axes at once, tells by how much they do not, which joins the uncertainty.
+The results are taken to add up: F* = F_c + Σ (F_axis − F_c), with F_axis the limit along an axis while the
+others stay at the centre. One more run, off the centre along all axes at once, tells by how much they do not,
+which joins the uncertainty.
 """
 
 import math
@@ -13,27 +15,35 @@ from . import TradeError, knobs, measure
 
 @dataclass
 class Axis:
-    """`levels` [(label, scene)] from coarse to fine, each `ratio` times finer; levels[centre] is the centre."""
+    """`levels` [(label, scene)] from coarse to fine, each `ratio` times finer; levels[centre] is the
+    centre."""
+
     name: str
     ratio: float
     levels: list
     centre: int
 
 
-# Elements up to which the finest of the reference's own meshes is four times as fine as the scene's: some minutes' work.
+# Elements up to which the finest of the reference's own meshes is four times as fine as the scene's: some
+# minutes' work.
 GIVEN = "given"  # instead of factors: errors are those of all but the mesh
 AUGMENTED = 0.01  # facet sizes, the coarsest level where bodies touch in implicit scenes
 AFFORDABLE = {True: 150_000, False: 10_000}
 
 
 def mesh_factors(scene, wanted, count):
-    """The wanted ones, which must have one ratio and hold 1; else 1, 2, 4 where count(changes) elements are affordable, or
-    else those of 0.5, 1, 2 that the mesh allows."""
+    """The wanted ones, which must have one ratio and hold 1; else 1, 2, 4 where count(changes) elements are
+    affordable, or else those of 0.5, 1, 2 that the mesh allows."""
     if wanted:
-        factors = sorted(knobs.number(f, "factors > 0, such as 0.5,1,2", "--reference-mesh") for f in wanted.split(","))
+        factors = sorted(
+            knobs.number(f, "factors > 0, such as 0.5,1,2", "--reference-mesh") for f in wanted.split(",")
+        )
         ratios = [b / a for a, b in zip(factors, factors[1:])]
         if 1.0 not in factors or not ratios or max(ratios) > 1.001 * min(ratios) or min(ratios) <= 1:
-            raise TradeError(f"--reference-mesh: found '{wanted}', allowed are at least two factors in one ratio, 1 among them")
+            raise TradeError(
+                f"--reference-mesh: found '{wanted}', allowed are at least two factors in one ratio, 1 among"
+                " them"
+            )
         return factors
     try:
         if count(knobs.make_mesh(scene, 4.0)) <= AFFORDABLE[scene.is_explicit]:
@@ -58,21 +68,39 @@ class Plan:
         base = scene.changed({**knobs.reference_settings(scene), **(settings or {})})
         if scene.is_explicit:
             safety = base.number("Explicit dynamics/Safety factor")
-            levels = [(f"safety factor {knobs.shown(safety / d)}", {"Explicit dynamics/Safety factor": knobs.shown(safety / d)})
-                      for d in (1, 2, 4)]
+            levels = [
+                (
+                    f"safety factor {knobs.shown(safety / d)}",
+                    {"Explicit dynamics/Safety factor": knobs.shown(safety / d)},
+                )
+                for d in (1, 2, 4)
+            ]
         else:
             n = steps or min(100, max(20, knobs.longest_steps(scene)))
             levels = [(f"{m} steps", knobs.equal_steps(scene, m)) for m in (n, 2 * n, 4 * n)]
-        tolerances = {} if scene.is_explicit else {
-            # 'automatic' is as far as the program thinks fit, which is no level of an axis.
-            pair: (AUGMENTED if base.get(pair + "Penetration tolerance") == "automatic"
-                   else base.number(pair + "Penetration tolerance")) or (AUGMENTED if base.get(pair + "Second body") else 0.0)
-            for pair in (f"Contact pairs/{name}/" for name in scene.names("Contact pairs"))}
-        augmented = {pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0}
+        tolerances = (
+            {}
+            if scene.is_explicit
+            else {
+                # 'automatic' is as far as the program thinks fit, which is no level of an axis.
+                pair: (
+                    AUGMENTED
+                    if base.get(pair + "Penetration tolerance") == "automatic"
+                    else base.number(pair + "Penetration tolerance")
+                )
+                or (AUGMENTED if base.get(pair + "Second body") else 0.0)
+                for pair in (f"Contact pairs/{name}/" for name in scene.names("Contact pairs"))
+            }
+        )
+        augmented = {
+            pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0
+        }
         if augmented:
             augmented["Solver/Most augmentations"] = 100
         self.centre = base.changed({**levels[0][1], **augmented})
-        self.axes = [Axis("step", 2.0, [(label, self.centre.changed(changes)) for label, changes in levels], 0)]
+        self.axes = [
+            Axis("step", 2.0, [(label, self.centre.changed(changes)) for label, changes in levels], 0)
+        ]
         self._add_mesh(scene, mesh, lambda changes: count(scene.changed(changes)))
         self._add_penalty(scene)
         self._add_cross()
@@ -82,38 +110,71 @@ class Plan:
             return
         try:
             factors = mesh_factors(scene, wanted, count)
-            levels = [(f"mesh {f:g}", self.centre.changed({} if f == 1 else knobs.make_mesh(scene, f))) for f in factors]
+            levels = [
+                (f"mesh {f:g}", self.centre.changed({} if f == 1 else knobs.make_mesh(scene, f)))
+                for f in factors
+            ]
         except knobs.CannotTurn as why:
             raise TradeError(f"--reference-mesh: {why}") from None
         if len(factors) < 2:
-            raise TradeError("the mesh can be made neither finer nor coarser, so that its error cannot be measured; "
-                             "--reference-mesh given measures the others'")
+            raise TradeError(
+                "the mesh can be made neither finer nor coarser, so that its error cannot be measured; "
+                "--reference-mesh given measures the others'"
+            )
         self.axes.append(Axis("mesh", factors[1] / factors[0], levels, factors.index(1.0)))
 
     def _add_penalty(self, scene):
-        """By augmentation where the scene augments, or where bodies touch in an implicit scene, whose penalties and mesh
-        errors do not add up well; else by the penalty."""
+        """By augmentation where the scene augments, or where bodies touch in an implicit scene, whose
+        penalties and mesh errors do not add up well; else by the penalty."""
         pairs = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs")]
         augmented = [pair for pair in pairs if self.centre.number(pair + "Penetration tolerance") > 0]
         if augmented:
-            # The centre in the middle: what is left of the penetration scatters, and would blur the other axes.
-            levels = [(f"penetration tolerance / {d}", self.centre.changed(
-                {pair + "Penetration tolerance": knobs.shown(4 * self.centre.number(pair + "Penetration tolerance") / d)
-                 for pair in augmented} if d != 4 else {})) for d in (1, 4, 16)]
+            # The centre in the middle: what is left of the penetration scatters, and would blur the other
+            # axes.
+            levels = [
+                (
+                    f"penetration tolerance / {d}",
+                    self.centre.changed(
+                        {
+                            pair
+                            + "Penetration tolerance": knobs.shown(
+                                4 * self.centre.number(pair + "Penetration tolerance") / d
+                            )
+                            for pair in augmented
+                        }
+                        if d != 4
+                        else {}
+                    ),
+                )
+                for d in (1, 4, 16)
+            ]
             self.axes.append(Axis("penetration tolerance", 4.0, levels, 1))
         elif pairs:
-            levels = [(f"penalty × {f}", self.centre.changed(knobs.scaled_penalties(self.centre, f) if f > 1 else {})) for f in (1, 4, 16)]
+            levels = [
+                (
+                    f"penalty × {f}",
+                    self.centre.changed(knobs.scaled_penalties(self.centre, f) if f > 1 else {}),
+                )
+                for f in (1, 4, 16)
+            ]
             self.axes.append(Axis("penalty", 4.0, levels, 0))
 
     def _add_cross(self):
-        """One step away from the centre along all axes: to the coarser mesh, where there is one, for its cost."""
+        """One step away from the centre along all axes: to the coarser mesh, where there is one, for its
+        cost."""
         changes = {}
         self.neighbours = {}
         for axis in self.axes:
             at = axis.centre - 1 if axis.centre > 0 else axis.centre + 1
             self.neighbours[axis.name] = at
             scene = axis.levels[at][1]
-            changes.update({path: value for path, value in scene.entries.items() if self.centre.entries.get(path) != value})
+            changes.update(
+                {
+                    path: value
+                    for path, value in scene.entries.items()
+                    if self.centre.entries.get(path) != value
+                }
+            )
         self.cross = self.centre.changed(changes)
 
     def runs(self):
@@ -125,7 +186,8 @@ class Plan:
 
 
 class Reference:
-    """`values`, and `uncertainty` relative to them, by output; `rows` tells how they came about; `remarks` what fell short."""
+    """`values`, and `uncertainty` relative to them, by output; `rows` tells how they came about; `remarks`
+    what fell short."""
 
     def __init__(self, plan, results, outputs):
         """`results`: of plan.runs(), in its order."""
@@ -133,11 +195,21 @@ class Reference:
         centre = by_scene[plan.centre.text]
         self.remarks = []
         if centre.status == "out of time":
-            raise TradeError(f"the reference could not be made: its centre was not done in the {centre.limit:g} s of --time-limit "
-                             f"({centre.reason})", 3)
+            raise TradeError(
+                (
+                    f"the reference could not be made: its centre was not done in the {centre.limit:g} s of"
+                    f" --time-limit ({centre.reason})"
+                ),
+                3,
+            )
         if centre.status != "ok":
-            raise TradeError(f"the reference could not be made: its centre {centre.status} ({centre.reason}). "
-                             "--reference-steps with a larger number, or --reference 'path=value', may help", 3)
+            raise TradeError(
+                (
+                    f"the reference could not be made: its centre {centre.status} ({centre.reason}). "
+                    "--reference-steps with a larger number, or --reference 'path=value', may help"
+                ),
+                3,
+            )
         sequences = {}
         for axis in plan.axes:
             found = [(label, by_scene[scene.text]) for label, scene in axis.levels]
@@ -151,9 +223,14 @@ class Reference:
             while high + 1 < len(found) and found[high + 1][1].status == "ok":
                 high += 1
             if low == high:
-                raise TradeError(f"the reference could not be made: nothing beside its centre came to an end along the axis "
-                                 f"'{axis.name}': {'; '.join(self.remarks)}", 3)
-            sequences[axis.name] = (axis, low, found[low:high + 1])
+                raise TradeError(
+                    (
+                        "the reference could not be made: nothing beside its centre came to an end along the"
+                        f" axis '{axis.name}': {'; '.join(self.remarks)}"
+                    ),
+                    3,
+                )
+            sequences[axis.name] = (axis, low, found[low : high + 1])
         self.values, self.uncertainty, self.rows = {}, {}, []
         self._mesh_errors = {}  # {mesh: {output: error of this mesh alone}}
         for output in outputs:
@@ -179,12 +256,23 @@ class Reference:
                 predicted = predicted + (values(levels[place][1]) - middle)
         scale = output.scale(total)
         if not scale > 0.0:
-            raise TradeError(f"the output '{output.name}' is zero in this scene: choose others with --outputs", 2)
+            raise TradeError(
+                f"the output '{output.name}' is zero in this scene: choose others with --outputs", 2
+            )
         uncertainty = 0.0
         for axis, levels, limit in limits:
             uncertainty += limit.uncertainty
-            self.rows.append([output.name, axis.name, " → ".join(label for label, _ in levels),
-                              [d / scale for d in limit.differences], limit.observed, limit.order, limit.uncertainty / scale])
+            self.rows.append(
+                [
+                    output.name,
+                    axis.name,
+                    " → ".join(label for label, _ in levels),
+                    [d / scale for d in limit.differences],
+                    limit.observed,
+                    limit.order,
+                    limit.uncertainty / scale,
+                ]
+            )
         off = math.nan
         if cross.status == "ok":
             off = output.norm(values(cross) - predicted)
@@ -196,11 +284,13 @@ class Reference:
         for axis, low, levels in sequences.values():
             limit = next(found for other, _, found in limits if other is axis)
             for (_, scene), (_, result) in zip(axis.levels[low:], levels) if axis.name == "mesh" else []:
-                self._mesh_errors.setdefault(mesh_of(scene), {})[output.name] = output.norm(values(result) - limit.values) / scale
+                self._mesh_errors.setdefault(mesh_of(scene), {})[output.name] = (
+                    output.norm(values(result) - limit.values) / scale
+                )
 
     def mesh_alone(self, scene):
-        """{output: error} that the scene's mesh, with its elements, makes where all else is converged; None where the reference has
-        no such mesh."""
+        """{output: error} that the scene's mesh, with its elements, makes where all else is converged; None
+        where the reference has no such mesh."""
         return self._mesh_errors.get(mesh_of(scene))
 
     def uncertainty_by_axis(self):
@@ -212,6 +302,12 @@ SPATIAL = ("Element", "Facets", "Passes", "Smoothing")
 
 
 def mesh_of(scene):
-    """What the scene says of its meshes and of what stands on them, however it writes it: other elements make other errors."""
-    return tuple(sorted((path, "".join(value.split())) for path, value in scene.entries.items()
-                        if ("/Mesh/" in path or path.split("/")[-1] in SPATIAL) and value != scene.default(path)))
+    """What the scene says of its meshes and of what stands on them, however it writes it: other elements make
+    other errors."""
+    return tuple(
+        sorted(
+            (path, "".join(value.split()))
+            for path, value in scene.entries.items()
+            if ("/Mesh/" in path or path.split("/")[-1] in SPATIAL) and value != scene.default(path)
+        )
+    )

@@ -13,16 +13,19 @@ from . import measure
 @dataclass
 class Limits:
     """Beyond which a run that came to its end failed all the same."""
-    drift: float = 0.05         # of the energy balance, dynamic scenes
-    penetration: float = 0.5    # of a facet
-    locked: float = 0.2         # how much larger the mean force is than the reference's
-    soft: float = 0.2           # how much smaller
-    error: float = 0.5          # beyond which a run is of no use; a reference that is known no better ranks nothing
+
+    drift: float = 0.05  # of the energy balance, dynamic scenes
+    penetration: float = 0.5  # of a facet
+    locked: float = 0.2  # how much larger the mean force is than the reference's
+    soft: float = 0.2  # how much smaller
+    # beyond which a run is of no use; a reference that is known no better ranks nothing
+    error: float = 0.5
 
 
 @dataclass
 class Point:
     """A run of a sweep: `curve` to which it belongs, `value` on it."""
+
     curve: str
     value: str
     changes: dict
@@ -49,29 +52,43 @@ class Point:
 
 
 def work_of(result, elements, is_explicit):
-    """Without regard to the machine: element updates, elements times steps, of explicit scenes; of others the elements times
-    Newton's and the linear solver's iterations."""
+    """Without regard to the machine: element updates, elements times steps, of explicit scenes; of others the
+    elements times Newton's and the linear solver's iterations."""
     return elements * (result.steps if is_explicit else result.newton + result.linear)
 
 
 # What makes a reference better, by what is least known of it.
 ADVICE = {
-    "mesh": "Finer meshes of the reference (--reference-mesh 1,2,4) tell more; --reference-mesh given leaves the mesh out of the errors.",
+    "mesh": (
+        "Finer meshes of the reference (--reference-mesh 1,2,4) tell more; --reference-mesh given leaves the"
+        " mesh out of the errors."
+    ),
     "step": "More steps of the reference (--reference-steps N) tell more.",
-    "penalty": "A stiffer penalty of the reference (--reference 'Contact pairs/NAME/Normal penalty=VALUE') tells more.",
-    "penetration tolerance": "A smaller one in the reference (--reference 'Contact pairs/NAME/Penetration tolerance=VALUE') tells more.",
+    "penalty": (
+        "A stiffer penalty of the reference (--reference 'Contact pairs/NAME/Normal penalty=VALUE') tells"
+        " more."
+    ),
+    "penetration tolerance": (
+        "A smaller one in the reference (--reference 'Contact pairs/NAME/Penetration tolerance=VALUE') tells"
+        " more."
+    ),
     "": "A finer one (--reference-mesh, --reference-steps) tells more.",
 }
-WORK = {True: "element updates (elements × steps)", False: "element iterations (elements × (Newton + linear iterations))"}
+WORK = {
+    True: "element updates (elements × steps)",
+    False: "element iterations (elements × (Newton + linear iterations))",
+}
 
 
 def uncertainty_of(reference, outputs, weights):
-    return measure.weighted_mean([reference.uncertainty[o.name] for o in outputs], [weights[o.name] for o in outputs])
+    return measure.weighted_mean(
+        [reference.uncertainty[o.name] for o in outputs], [weights[o.name] for o in outputs]
+    )
 
 
 def judge_forces(result, forces, limits):
-    """[(status, reason)] by the mean of the forces, where it is off by more than the reference's is uncertain. One that is not even
-    known to its own size may be round-off, and judges nothing."""
+    """[(status, reason)] by the mean of the forces, where it is off by more than the reference's is
+    uncertain. One that is not even known to its own size may be round-off, and judges nothing."""
     force, reference = forces
     excess = force.excess(result, reference.values["force"])
     if not reference.uncertainty["force"] < min(1.0, abs(excess)):
@@ -79,15 +96,21 @@ def judge_forces(result, forces, limits):
     if excess > limits.locked:
         return [("locked", f"forces are {percent(excess)} too large in the mean")]
     if excess < -limits.soft:
-        return [("soft", f"forces are {percent(-excess)} too small in the mean" + (
-            f", nodes {number(result.penetration, 2)} facets deep" if result.penetration > 0 else ""))]
+        return [
+            (
+                "soft",
+                f"forces are {percent(-excess)} too small in the mean"
+                + (f", nodes {number(result.penetration, 2)} facets deep" if result.penetration > 0 else ""),
+            )
+        ]
     return []
 
 
 def judge(point, outputs, weights, reference, scene, limits, forces):
-    """Fills in errors and status. What failed has no error: nothing that failed looks good. By a reference that is itself
-    known no better than a useless run nobody is judged, but by forces, if these are known better. `forces`: (Force, Reference that knows it), which tell whether a run
-    is locked or soft whatever the outputs; None where there are none."""
+    """Fills in errors and status. What failed has no error: nothing that failed looks good. By a reference
+    that is itself known no better than a useless run nobody is judged, but by forces, if these are known
+    better. `forces`: (Force, Reference that knows it), which tell whether a run is locked or soft whatever
+    the outputs; None where there are none."""
     result = point.result
     point.status, point.reason = result.status, result.reason
     if result.status != "ok":
@@ -110,7 +133,8 @@ def judge(point, outputs, weights, reference, scene, limits, forces):
         point.error = error
 
 
-# --- numbers -----------------------------------------------------------------------------------------------------
+# --- numbers --------------------------------------------------------------------------------------
+
 
 def number(value, digits=3):
     if value is None or (isinstance(value, float) and math.isnan(value)):
@@ -137,13 +161,15 @@ def table(head, rows):
     return "\n".join("| " + " | ".join(str(cell).replace("|", "/") for cell in line) + " |" for line in lines)
 
 
-# --- the sweep as a whole ----------------------------------------------------------------------------------------
+# --- the sweep as a whole -------------------------------------------------------------------------
+
 
 class Sweep:
     """All points, the reference they are measured against, and what follows."""
 
     def __init__(self, points, reference, outputs, weights, scene, cost, target, useless=Limits.error):
-        """`useless`: the error beyond which a run is of no use; a reference that is known no better ranks nothing."""
+        """`useless`: the error beyond which a run is of no use; a reference that is known no better ranks
+        nothing."""
         self.points, self.reference, self.outputs, self.weights = points, reference, outputs, weights
         self.scene, self.cost, self.target = scene, cost, target
         self.uncertainty = uncertainty_of(reference, outputs, weights)
@@ -153,33 +179,55 @@ class Sweep:
         self._find_cancellations(good)
         costs, errors = [self.cost_of(p) for p in good], [self.ranked(p) for p in good]
         self.noise = 0.0 if cost == "work" else timing_noise([p.result.seconds for p in good])
-        self.front = [] if self.is_blind else [good[i] for i in measure.pareto_front(costs, errors, self.uncertainty)]
+        self.front = (
+            [] if self.is_blind else [good[i] for i in measure.pareto_front(costs, errors, self.uncertainty)]
+        )
         self.chosen = None
         if target is not None and not self.is_blind:
-            i = measure.cheapest_within(costs, errors, self.uncertainty, target, self.noise, list(map(self._preference, good)))
+            i = measure.cheapest_within(
+                costs, errors, self.uncertainty, target, self.noise, list(map(self._preference, good))
+            )
             self.chosen = None if i is None else good[i]
 
     def cost_of(self, point):
         return point.seconds if self.cost == "seconds" else point.work
 
     def _find_cancellations(self, good):
-        """{point: (error, by what)} of points that seem better than their meshes let them be, by more than the uncertainty:
-        than the error of the mesh alone, which the reference knows of its own meshes, or than a point with a finer mesh and all
-        else the same; and of points that seem clearly better than their own meshes in the shortest steps. Errors of opposite sign
-        take each other away there, which another scene need not do."""
+        """{point: (error, by what)} of points that seem better than their meshes let them be, by more than
+        the uncertainty: than the error of the mesh alone, which the reference knows of its own meshes, or
+        than a point with a finer mesh and all else the same; and of points that seem clearly better than
+        their own meshes in the shortest steps. Errors of opposite sign take each other away there, which
+        another scene need not do."""
         self.cancelled = {}
         for p in good:
             known = []
             alone = self.reference.mesh_alone(p.scene)
             if alone:
-                known.append((measure.weighted_mean([alone[o.name] for o in self.outputs], [self.weights[o.name] for o in self.outputs]),
-                              "which its mesh alone makes"))
-            known += [(q.error, f"that of `{q.label}`, on a finer mesh") for q in good
-                      if q.result.elements > p.result.elements and but_the_mesh(q) == but_the_mesh(p)]
+                known.append(
+                    (
+                        measure.weighted_mean(
+                            [alone[o.name] for o in self.outputs],
+                            [self.weights[o.name] for o in self.outputs],
+                        ),
+                        "which its mesh alone makes",
+                    )
+                )
+            known += [
+                (q.error, f"that of `{q.label}`, on a finer mesh")
+                for q in good
+                if q.result.elements > p.result.elements and but_the_mesh(q) == but_the_mesh(p)
+            ]
             # errors within the uncertainty are told apart by nothing
-            known = [(error, by) for error, by in known if error > self.uncertainty and error - p.error > self.uncertainty]
-            # but what the reference does not know of the mesh is the same of runs that differ in their steps alone
-            finest = max((q for q in good if has_shorter_steps(q, p)), key=lambda q: q.result.steps, default=p)
+            known = [
+                (error, by)
+                for error, by in known
+                if error > self.uncertainty and error - p.error > self.uncertainty
+            ]
+            # but what the reference does not know of the mesh is the same of runs that differ in their steps
+            # alone
+            finest = max(
+                (q for q in good if has_shorter_steps(q, p)), key=lambda q: q.result.steps, default=p
+            )
             if finest.error > CLEARLY * max(p.error, self.uncertainty):
                 known.append((finest.error, f"that of `{finest.label}`, in shorter steps"))
             if known:
@@ -218,11 +266,13 @@ class Sweep:
         return (self.target or 0.0) - self.uncertainty
 
     def _keeping(self):
-        return "within the target" if self._allowed() > self._floored(self.base) * 1.02 else "at no more error"
+        return (
+            "within the target" if self._allowed() > self._floored(self.base) * 1.02 else "at no more error"
+        )
 
     def purchases(self):
-        """By knob: the point with the least error, and the cheapest whose error is no more than that of the scene as it is
-        written (or than the target, where that is larger)."""
+        """By knob: the point with the least error, and the cheapest whose error is no more than that of the
+        scene as it is written (or than the target, where that is larger)."""
         rows = []
         base = self.base
         if not base.is_good:
@@ -235,28 +285,46 @@ class Sweep:
                 continue
             best = min(good, key=lambda p: (self._floored(p), self.cost_of(p)))
             keeping = [p for p in good if self._floored(p) <= bound]
-            rows.append((knob, best if self._floored(best) < 0.95 * self._floored(base) else None,
-                         self._cheapest(keeping) if keeping else None))
+            rows.append(
+                (
+                    knob,
+                    best if self._floored(best) < 0.95 * self._floored(base) else None,
+                    self._cheapest(keeping) if keeping else None,
+                )
+            )
         return rows
 
     def times(self, point):
         """Its cost beside that of the scene as written."""
         ratio = self.cost_of(point) / self.cost_of(self.base)
-        return f"{number(1 / ratio, 2)} times cheaper" if ratio < 0.95 else (
-            f"{number(ratio, 2)} times the cost" if ratio > 1.05 else "about the same cost")
+        return (
+            f"{number(1 / ratio, 2)} times cheaper"
+            if ratio < 0.95
+            else (f"{number(ratio, 2)} times the cost" if ratio > 1.05 else "about the same cost")
+        )
 
     def say(self, point):
-        return f"`{point.label}`: error {error_text(self.ranked(point), self.uncertainty)}, {self.times(point)}"
+        return (
+            f"`{point.label}`: error {error_text(self.ranked(point), self.uncertainty)}, {self.times(point)}"
+        )
 
     def seems_better(self, point):
         """Than the scene as written, by its error."""
         return not point.is_base and self.base.is_good and self.ranked(point) < self.ranked(self.base)
 
     def may_cancel(self, point):
-        """A sentence where fewer elements have less error, which mesh and steps together may feign; else nothing."""
-        if id(point) in self.cancelled or not self.seems_better(point) or not 0 < point.result.elements < self.base.result.elements:
+        """A sentence where fewer elements have less error, which mesh and steps together may feign; else
+        nothing."""
+        if (
+            id(point) in self.cancelled
+            or not self.seems_better(point)
+            or not 0 < point.result.elements < self.base.result.elements
+        ):
             return ""
-        return f" That mesh is coarser than the scene's: whether errors of mesh and steps take each other away there a reference known to {percent(self.uncertainty)} cannot tell."
+        return (
+            " That mesh is coarser than the scene's: whether errors of mesh and steps take each other away"
+            f" there a reference known to {percent(self.uncertainty)} cannot tell."
+        )
 
     def hint(self, point):
         """What a gain is worth that the reference is not known well enough for."""
@@ -270,80 +338,145 @@ class Sweep:
         if self.is_blind:
             said.append(self.blindness())
         elif base.is_good:
-            said.append(f"The scene as it is written has an error of {error_text(self.ranked(base), u)}; it takes {number(base.seconds)} "
-                        f"core-seconds and {big(base.work)} {WORK[self.scene.is_explicit]}.")
+            said.append(
+                f"The scene as it is written has an error of {error_text(self.ranked(base), u)}; it takes"
+                f" {number(base.seconds)} core-seconds and {big(base.work)} {WORK[self.scene.is_explicit]}."
+            )
             buys = self.purchases()
             better = [best for _, best, _ in buys if best]
             cheaper = [keep for _, _, keep in buys if keep and self.is_cheaper(keep)]
             if better:
                 least = min(map(self._floored, better))
                 best = min((p for p in better if self._floored(p) <= 1.1 * least), key=self.cost_of)
-                said.append(f"Most accuracy is bought by {self.say(best)}{self.hint(best)}.{self.may_cancel(best)}")
+                said.append(
+                    f"Most accuracy is bought by {self.say(best)}{self.hint(best)}.{self.may_cancel(best)}"
+                )
+
                 # Accuracy for money: decades of error for a decade of cost.
                 def rate(p):
                     gain = math.log(self._floored(base) / self._floored(p))
                     return gain / max(0.05, math.log(max(self.cost_of(p) / self.cost_of(base), 1.0)))
+
                 value = max(better, key=rate)
                 if value is not best:
                     said.append(f"Most accuracy for its price by {self.say(value)}{self.hint(value)}.")
             else:
-                said.append("No knob alone makes the error measurably smaller" + (
-                    ": it is below the reference's uncertainty already." if self.ranked(base) < u else "."))
+                said.append(
+                    "No knob alone makes the error measurably smaller"
+                    + (": it is below the reference's uncertainty already." if self.ranked(base) < u else ".")
+                )
             if cheaper:
-                said.append(f"Most speed is bought, {self._keeping()}, by {self.say(self._cheapest(cheaper))}.")
+                said.append(
+                    f"Most speed is bought, {self._keeping()}, by {self.say(self._cheapest(cheaper))}."
+                )
             else:
-                said.append(f"No knob alone makes it cheaper by more than {percent(max(0.05, self.noise))} {self._keeping()}.")
-            idle = [knob for knob, points in self.curves().items() if sum(p.is_good for p in points) > 1 and all(
-                abs(error - base.errors[name]) <= max(1e-3 * self.reference.uncertainty[name], 1e-6)
-                for p in points if p.is_good for name, error in p.errors.items())]
+                said.append(
+                    "No knob alone makes it cheaper by more than"
+                    f" {percent(max(0.05, self.noise))} {self._keeping()}."
+                )
+            idle = [
+                knob
+                for knob, points in self.curves().items()
+                if sum(p.is_good for p in points) > 1
+                and all(
+                    abs(error - base.errors[name]) <= max(1e-3 * self.reference.uncertainty[name], 1e-6)
+                    for p in points
+                    if p.is_good
+                    for name, error in p.errors.items()
+                )
+            ]
             if idle:
-                said.append(f"Only the cost, not the result, changes with {', '.join(f'`{k}`' for k in idle)}.")
+                said.append(
+                    f"Only the cost, not the result, changes with {', '.join(f'`{k}`' for k in idle)}."
+                )
         else:
             said.append(f"The scene as it is written is no good: {base.status}, {base.reason}.")
         failed = [p for p in self.points if not p.is_good and not p.is_base]
         if failed:
-            said.append("Failed: " + "; ".join(f"`{p.label}` {p.status}" + (f" ({short(p.reason)})" if p.reason else "") for p in failed) + ".")
+            said.append(
+                "Failed: "
+                + "; ".join(
+                    f"`{p.label}` {p.status}" + (f" ({short(p.reason)})" if p.reason else "") for p in failed
+                )
+                + "."
+            )
         if self.cancelled and not self.is_blind:
-            said.append("Not to be relied on, since errors of opposite sign take each other away: " + "; ".join(
-                f"`{p.label}`, off by {error_text(p.error, u)} where {percent(self.ranked(p))} would be expected, {self.cancelled[id(p)][1]}"
-                for p in self.points if id(p) in self.cancelled) + ". They count with the larger error, and stand in brackets.")
+            said.append(
+                "Not to be relied on, since errors of opposite sign take each other away: "
+                + "; ".join(
+                    f"`{p.label}`, off by {error_text(p.error, u)} where {percent(self.ranked(p))} would be"
+                    f" expected, {self.cancelled[id(p)][1]}"
+                    for p in self.points
+                    if id(p) in self.cancelled
+                )
+                + ". They count with the larger error, and stand in brackets."
+            )
         if self.target is not None:
             said.append(self.choice())
         return said
 
     def blindness(self):
         worst = max(self.reference.uncertainty_by_axis(), key=lambda row: row[2])
-        return (f"**The reference is known to {percent(self.uncertainty)} only, so that nothing can be said of errors, and no run is ranked.** Most of that is of "
-                f"{worst[0]}, from the {worst[1]} ({percent(worst[2])}). {ADVICE.get(worst[1], ADVICE[''])} --until PART and --outputs, too, may choose "
-                "what is known better.")
+        return (
+            f"**The reference is known to {percent(self.uncertainty)} only, so that nothing can be said of"
+            f" errors, and no run is ranked.** Most of that is of {worst[0]}, from the"
+            f" {worst[1]} ({percent(worst[2])}). {ADVICE.get(worst[1], ADVICE[''])} --until PART and"
+            " --outputs, too, may choose what is known better."
+        )
 
     def choice(self):
         target, u = self.target, self.uncertainty
         if self.chosen:
-            return (f"**Within {percent(target)}, the reference's uncertainty included, the cheapest is {self.say(self.chosen)}** "
-                    f"({number(self.chosen.seconds)} core-seconds).{self.may_cancel(self.chosen)}")
+            return (
+                f"**Within {percent(target)}, the reference's uncertainty included, the cheapest is"
+                f" {self.say(self.chosen)}**"
+                f" ({number(self.chosen.seconds)} core-seconds).{self.may_cancel(self.chosen)}"
+            )
         if self.is_blind:
             return f"**No choice within {percent(target)}.**"
         if u >= target:
-            return (f"**No choice within {percent(target)}: the reference itself is known to {percent(u)} only.** A finer one "
-                    "(--reference-mesh, --reference-steps) can tell more.")
+            return (
+                f"**No choice within {percent(target)}: the reference itself is known to {percent(u)} only.**"
+                " A finer one (--reference-mesh, --reference-steps) can tell more."
+            )
         best = min((p for p in self.points if p.is_good), key=self.ranked, default=None)
-        return (f"**Nothing tried is within {percent(target)}, the reference's uncertainty of {percent(u)} included.** " + (
-            f"Nearest comes {self.say(best)}." if best else "Every run failed."))
+        return (
+            f"**Nothing tried is within {percent(target)}, the reference's uncertainty of"
+            f" {percent(u)} included.** "
+            + (f"Nearest comes {self.say(best)}." if best else "Every run failed.")
+        )
 
     # --- what is written ---
 
     def rows(self):
-        front, u = set(map(id, self.front)), self.uncertainty
+        front = set(map(id, self.front))
         rows = []
         for p in self.points:
             r = p.result
-            marks = ["front"] * (id(p) in front) + ["**chosen**"] * (p is self.chosen) + ["errors cancel"] * (id(p) in self.cancelled)
-            rows.append([p.curve if not p.is_base else "–", p.value, r.elements or "–", r.steps,
-                         *([] if self.scene.is_explicit else [r.newton, r.linear, r.cuts]), big(p.work), number(r.core_seconds),
-                         self._told(p) if p.is_good else f"**{p.status}**",
-                         *(error_text(p.errors[o.name], self.reference.uncertainty[o.name]) if p.errors else "–" for o in self.outputs),
-                         number(r.penetration, 2), percent(r.drift), ", ".join(marks)])
+            marks = (
+                ["front"] * (id(p) in front)
+                + ["**chosen**"] * (p is self.chosen)
+                + ["errors cancel"] * (id(p) in self.cancelled)
+            )
+            rows.append(
+                [
+                    p.curve if not p.is_base else "–",
+                    p.value,
+                    r.elements or "–",
+                    r.steps,
+                    *([] if self.scene.is_explicit else [r.newton, r.linear, r.cuts]),
+                    big(p.work),
+                    number(r.core_seconds),
+                    self._told(p) if p.is_good else f"**{p.status}**",
+                    *(
+                        error_text(p.errors[o.name], self.reference.uncertainty[o.name]) if p.errors else "–"
+                        for o in self.outputs
+                    ),
+                    number(r.penetration, 2),
+                    percent(r.drift),
+                    ", ".join(marks),
+                ]
+            )
         return rows
 
     def _told(self, point):
@@ -351,41 +484,108 @@ class Sweep:
         return f"({told})" if id(point) in self.cancelled else told
 
     def head(self):
-        return ["knob", "value", "elements", "steps", *([] if self.scene.is_explicit else ["Newton", "linear", "cuts"]),
-                "work", "core-seconds", "error", *(o.name for o in self.outputs), "penetration / h", "drift", ""]
+        return [
+            "knob",
+            "value",
+            "elements",
+            "steps",
+            *([] if self.scene.is_explicit else ["Newton", "linear", "cuts"]),
+            "work",
+            "core-seconds",
+            "error",
+            *(o.name for o in self.outputs),
+            "penetration / h",
+            "drift",
+            "",
+        ]
 
     def reference_table(self):
-        rows = [[name, axis, levels, ", ".join(percent(d) for d in differences) or "–", number(observed, 2),
-                 "–" if not levels else "extrapolated" if order else "finest taken", percent(uncertainty)]
-                for name, axis, levels, differences, observed, order, uncertainty in self.reference.rows]
-        return table(["output", "axis", "from coarse to fine", "differences", "observed order", "limit", "uncertainty"], rows)
+        rows = [
+            [
+                name,
+                axis,
+                levels,
+                ", ".join(percent(d) for d in differences) or "–",
+                number(observed, 2),
+                "–" if not levels else "extrapolated" if order else "finest taken",
+                percent(uncertainty),
+            ]
+            for name, axis, levels, differences, observed, order, uncertainty in self.reference.rows
+        ]
+        return table(
+            [
+                "output",
+                "axis",
+                "from coarse to fine",
+                "differences",
+                "observed order",
+                "limit",
+                "uncertainty",
+            ],
+            rows,
+        )
 
     def bought_table(self):
         base = self.base
         rows = []
         for knob, best, keep in self.purchases():
+
             def cell(p):
                 ratio = self.cost_of(p) / self.cost_of(base)
                 return f"{p.value}: {error_text(self.ranked(p), self.uncertainty)} at {number(ratio, 2)}"
+
             rows.append([knob, cell(best) if best else "–", cell(keep) if keep else "–"])
-        return table(["knob", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"], rows)
+        return table(
+            ["knob", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"], rows
+        )
 
     def page(self, title, command, remarks, picture):
         weights = ", ".join(f"{o.name} ({o.meaning}), weight {self.weights[o.name]:g}" for o in self.outputs)
-        uncertainty = "; ".join(f"{o.name} {percent(self.reference.uncertainty[o.name])}" for o in self.outputs)
+        uncertainty = "; ".join(
+            f"{o.name} {percent(self.reference.uncertainty[o.name])}" for o in self.outputs
+        )
         parts = [f"# What accuracy costs: {title}", f"Written by `{command}`."]
         parts += [" ".join(self.words())]
         if picture:
             parts.append(f"![Error over cost]({picture})")
-        parts += [f"Errors: {weights}; their weighted mean is the error. Work: {WORK[self.scene.is_explicit]}. Core-seconds: user and system, of all "
-                  "ranks, start-up and output included; " + ("median of " + self.timed() + (f", which differ by {percent(self.noise)} (median)" if self.noise and any(
-                      len(p.result.seconds) > 1 for p in self.points) else "") + "."), *remarks]
-        parts += ["## What each knob buys", "The others as they are written; an error below the reference's uncertainty counts as that.",
-                  self.bought_table()] if self.base.is_good and not self.is_blind else []
-        parts += ["## All runs", "Failed runs have no error; in brackets: errors that cancel. Penetration: the deepest, in facet sizes. Drift: the largest of the energy "
-                  "balance, over the largest sum of energies.", table(self.head(), self.rows()),
-                  "## The reference", f"Uncertainty: {uncertainty}; of the weighted mean {percent(self.uncertainty)}. No error below it is told. Differences "
-                  "are those of neighbours.", self.reference_table()]
+        parts += [
+            f"Errors: {weights}; their weighted mean is the error. Work: {WORK[self.scene.is_explicit]}."
+            " Core-seconds: user and system, of all ranks, start-up and output included; "
+            + (
+                "median of "
+                + self.timed()
+                + (
+                    f", which differ by {percent(self.noise)} (median)"
+                    if self.noise and any(len(p.result.seconds) > 1 for p in self.points)
+                    else ""
+                )
+                + "."
+            ),
+            *remarks,
+        ]
+        parts += (
+            [
+                "## What each knob buys",
+                "The others as they are written; an error below the reference's uncertainty counts as that.",
+                self.bought_table(),
+            ]
+            if self.base.is_good and not self.is_blind
+            else []
+        )
+        parts += [
+            "## All runs",
+            (
+                "Failed runs have no error; in brackets: errors that cancel. Penetration: the deepest, in"
+                " facet sizes. Drift: the largest of the energy balance, over the largest sum of energies."
+            ),
+            table(self.head(), self.rows()),
+            "## The reference",
+            (
+                f"Uncertainty: {uncertainty}; of the weighted mean {percent(self.uncertainty)}. No error"
+                " below it is told. Differences are those of neighbours."
+            ),
+            self.reference_table(),
+        ]
         if self.reference.remarks:
             parts.append("Of the reference's own runs, " + "; ".join(self.reference.remarks) + ".")
         return "\n\n".join(parts) + "\n"
@@ -401,23 +601,101 @@ class Sweep:
         front = set(map(id, self.front))
         with open(file, "w", newline="") as stream:
             out = csv.writer(stream, lineterminator="\n")
-            out.writerow(["kind", "knob", "value", "status", "reason", "elements", "steps", "newton_iterations", "linear_iterations", "cuts",
-                          "work", "core_seconds", "timed", "error", "difference", "uncertainty", *(f"{kind}_{n}" for n in names for kind in ("difference", "uncertainty")),
-                          "penetration_over_facet", "energy_drift", "on_front", "chosen", "error_to_rank_by", "changes"])
+            out.writerow(
+                [
+                    "kind",
+                    "knob",
+                    "value",
+                    "status",
+                    "reason",
+                    "elements",
+                    "steps",
+                    "newton_iterations",
+                    "linear_iterations",
+                    "cuts",
+                    "work",
+                    "core_seconds",
+                    "timed",
+                    "error",
+                    "difference",
+                    "uncertainty",
+                    *(f"{kind}_{n}" for n in names for kind in ("difference", "uncertainty")),
+                    "penetration_over_facet",
+                    "energy_drift",
+                    "on_front",
+                    "chosen",
+                    "error_to_rank_by",
+                    "changes",
+                ]
+            )
 
-            def line(kind, knob, value, status, reason, r, work, error, errors, on_front, chosen, ranked, changes):
-                out.writerow([kind, knob, value, status, short(reason), r.elements, r.steps, r.newton, r.linear, r.cuts, plain(work),
-                              plain(r.core_seconds), len(r.seconds), plain(max(error, self.uncertainty) if error == error else error), plain(error), plain(self.uncertainty),
-                              *(plain(v) for n in names for v in (errors.get(n, math.nan), self.reference.uncertainty[n])), plain(r.penetration), plain(r.drift), int(on_front), int(chosen), plain(ranked),
-                              " ; ".join(f"{k} = {'' if v is None else v}" for k, v in changes.items())])
+            def line(
+                kind, knob, value, status, reason, r, work, error, errors, on_front, chosen, ranked, changes
+            ):
+                out.writerow(
+                    [
+                        kind,
+                        knob,
+                        value,
+                        status,
+                        short(reason),
+                        r.elements,
+                        r.steps,
+                        r.newton,
+                        r.linear,
+                        r.cuts,
+                        plain(work),
+                        plain(r.core_seconds),
+                        len(r.seconds),
+                        plain(max(error, self.uncertainty) if error == error else error),
+                        plain(error),
+                        plain(self.uncertainty),
+                        *(
+                            plain(v)
+                            for n in names
+                            for v in (errors.get(n, math.nan), self.reference.uncertainty[n])
+                        ),
+                        plain(r.penetration),
+                        plain(r.drift),
+                        int(on_front),
+                        int(chosen),
+                        plain(ranked),
+                        " ; ".join(f"{k} = {'' if v is None else v}" for k, v in changes.items()),
+                    ]
+                )
 
             for p in self.points:
-                line("scene" if p.is_base else "sweep", "" if p.is_base else p.curve, p.value, p.status, p.reason, p.result, p.work,
-                     p.error, p.errors, id(p) in front, p is self.chosen,
-                     max(self.ranked(p), self.uncertainty) if p.is_good else math.nan, p.changes)
+                line(
+                    "scene" if p.is_base else "sweep",
+                    "" if p.is_base else p.curve,
+                    p.value,
+                    p.status,
+                    p.reason,
+                    p.result,
+                    p.work,
+                    p.error,
+                    p.errors,
+                    id(p) in front,
+                    p is self.chosen,
+                    max(self.ranked(p), self.uncertainty) if p.is_good else math.nan,
+                    p.changes,
+                )
             for label, result in reference_runs:
-                line("reference", "reference", label, result.status, result.reason, result,
-                     work_of(result, result.elements, self.scene.is_explicit), math.nan, {}, False, False, math.nan, {})
+                line(
+                    "reference",
+                    "reference",
+                    label,
+                    result.status,
+                    result.reason,
+                    result,
+                    work_of(result, result.elements, self.scene.is_explicit),
+                    math.nan,
+                    {},
+                    False,
+                    False,
+                    math.nan,
+                    {},
+                )
 
 
 def but_the_mesh(point):
@@ -440,7 +718,8 @@ def has_shorter_steps(point, other):
 
 
 def timing_noise(timings):
-    """Median over points of what repeated timings differ by, as part of their median; a fifth where nothing was repeated."""
+    """Median over points of what repeated timings differ by, as part of their median; a fifth where nothing
+    was repeated."""
     spreads = [(max(t) - min(t)) / max(1e-9, statistics.median(t)) for t in timings if len(t) > 1]
     return statistics.median(spreads) if spreads else 0.2
 
@@ -453,4 +732,4 @@ def short(text):
     """Its first sentence, or what stands before a list of details."""
     text = " ".join(text.split())
     first = re.match(r"(.+?)(?:\.(?= [A-Z])|\.?$)", text).group(1) if text else ""
-    return first if len(first) <= 400 else first[:first.rindex(" ", 0, 397)].rstrip(",;:") + " ..."
+    return first if len(first) <= 400 else first[: first.rindex(" ", 0, 397)].rstrip(",;:") + " ..."

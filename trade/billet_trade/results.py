@@ -10,7 +10,12 @@ from functools import cached_property
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference, vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkGenericCell, vtkStaticCellLocator, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import (
+    VTK_HEXAHEDRON,
+    vtkGenericCell,
+    vtkStaticCellLocator,
+    vtkUnstructuredGrid,
+)
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 from . import TradeError, measure
@@ -23,8 +28,13 @@ FACES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (
 
 def output_settings(scene):
     """What a measured run writes: its history, and fields at the start and the end."""
-    changes = {"Output/Folder": "results", "Output/Format": "vtu", "Output/Every steps": 0, "Output/Verbosity": "steps",
-               "Output/Stress": "false"}
+    changes = {
+        "Output/Folder": "results",
+        "Output/Format": "vtu",
+        "Output/Every steps": 0,
+        "Output/Verbosity": "steps",
+        "Output/Stress": "false",
+    }
     if scene.number("Output/Interval") > 0:
         changes["Output/Interval"] = 0
     for key in ("Every steps", "Interval"):
@@ -35,7 +45,8 @@ def output_settings(scene):
     return changes
 
 
-# --- what is kept of a run ---------------------------------------------------------------------------------------
+# --- what is kept of a run ------------------------------------------------------------------------
+
 
 def read_history(file):
     """{column: array}; a line that was cut off is left out."""
@@ -54,7 +65,11 @@ def largest_drift(history):
     """Of the energies' balance, as part of the largest sum of energies."""
     if "energy_drift" not in history or not len(history["energy_drift"]):
         return math.nan
-    kinds = [name for name in history if name.endswith(("_energy", "_work", "_dissipation")) and name != "external_work"]
+    kinds = [
+        name
+        for name in history
+        if name.endswith(("_energy", "_work", "_dissipation")) and name != "external_work"
+    ]
     total = sum(history[name] for name in kinds)
     largest = float(numpy.max(numpy.abs(total), initial=0.0))
     return float(numpy.max(numpy.abs(history["energy_drift"]))) / largest if largest > 0 else math.nan
@@ -67,7 +82,10 @@ def read_grid(file):
     reader.Update()
     grid = reader.GetOutput()
     data = grid.GetPointData()
-    fields = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float) for i in range(data.GetNumberOfArrays())}
+    fields = {
+        data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float)
+        for i in range(data.GetNumberOfArrays())
+    }
     fields["points"] = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
     fields["cells"] = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
     return fields
@@ -75,8 +93,12 @@ def read_grid(file):
 
 def read_fields(file):
     arrays = read_grid(file)
-    kept = {"places": arrays["points"] - arrays["displacement"], "displacement": arrays["displacement"], "body": arrays["body"],
-            "cells": arrays["cells"]}
+    kept = {
+        "places": arrays["points"] - arrays["displacement"],
+        "displacement": arrays["displacement"],
+        "body": arrays["body"],
+        "cells": arrays["cells"],
+    }
     for name in ("velocity", "equivalent_plastic_strain", "contact_pair"):
         if name in arrays:
             kept[name] = arrays[name]
@@ -97,17 +119,24 @@ def facet_size(fields):
     return math.sqrt(float(numpy.median(areas))) if len(areas) else math.nan
 
 
-COMPLETED = (0, 6, 7)  # exit codes of runs that came to their end: without complaint, with warnings, beside the target error
+# exit codes of runs that came to their end: without complaint, with warnings, beside the target error
+COMPLETED = (0, 6, 7)
 
 
 def failure(code, said, time, error):
-    """Status and reason of an exit code, what was said on standard error, and the message that ended the run."""
+    """Status and reason of an exit code, what was said on standard error, and the message that ended the
+    run."""
     if code in COMPLETED:
         return "ok", ""
-    reason = re.sub(r"\s+", " ", re.sub(r"-{40,}.*?-{40,}", "", error.get("message", said), flags=re.DOTALL)).strip()
+    reason = re.sub(
+        r"\s+", " ", re.sub(r"-{40,}.*?-{40,}", "", error.get("message", said), flags=re.DOTALL)
+    ).strip()
     reason = re.sub(r"^error\[[\w-]+\]: ", "", reason)
     if code is None:
-        return "out of time", f"at time {time:.3g}: a longer --time-limit, or a smaller pilot (--mesh, --until), may do"
+        return (
+            "out of time",
+            f"at time {time:.3g}: a longer --time-limit, or a smaller pilot (--mesh, --until), may do",
+        )
     if code == 2:
         return "refused", reason
     if code == 3:
@@ -128,14 +157,23 @@ def collect(folder, code, limit):
     last = float(last_of("time"))
     error = failure_of(read_records(folder / "results/diagnostics.jsonl"))
     status, reason = failure(code, (folder / "stderr").read_text(), last, error)
-    kept = {"status": status, "reason": reason[:2000], "code": code, "limit": limit, "time": last,
-            "steps": max(int(last_of("step")), int(value_of(error, "steps"))),
-            # With those of a step that failed for good, which no history has.
-            "newton": max(int(last_of("total_iterations")), int(value_of(error, "Newton iterations"))),
-            "cuts": int(last_of("total_cuts")),
-            "linear": int(numpy.sum(history.get("linear_iterations", 0))),
-            "first_step": float(lengths[0]) if len(lengths) else 0.0,
-            "drift": largest_drift(history), "penetration": math.nan, "facet": math.nan, "elements": 0}
+    kept = {
+        "status": status,
+        "reason": reason[:2000],
+        "code": code,
+        "limit": limit,
+        "time": last,
+        "steps": max(int(last_of("step")), int(value_of(error, "steps"))),
+        # With those of a step that failed for good, which no history has.
+        "newton": max(int(last_of("total_iterations")), int(value_of(error, "Newton iterations"))),
+        "cuts": int(last_of("total_cuts")),
+        "linear": int(numpy.sum(history.get("linear_iterations", 0))),
+        "first_step": float(lengths[0]) if len(lengths) else 0.0,
+        "drift": largest_drift(history),
+        "penetration": math.nan,
+        "facet": math.nan,
+        "elements": 0,
+    }
     pictures = sorted((folder / "results").glob("fields_*.pvtu"))
     if pictures and status == "ok":
         fields = read_fields(pictures[-1])
@@ -204,8 +242,11 @@ class BodyMesh:
     def volumes(self):
         """By the diagonals: exact for parallelepipeds, and no more than a weight here."""
         p = self.places[self.cells]
-        edges = [p[:, [1, 2, 5, 6]].mean(1) - p[:, [0, 3, 4, 7]].mean(1), p[:, [2, 3, 6, 7]].mean(1) - p[:, [0, 1, 4, 5]].mean(1),
-                 p[:, [4, 5, 6, 7]].mean(1) - p[:, [0, 1, 2, 3]].mean(1)]
+        edges = [
+            p[:, [1, 2, 5, 6]].mean(1) - p[:, [0, 3, 4, 7]].mean(1),
+            p[:, [2, 3, 6, 7]].mean(1) - p[:, [0, 1, 4, 5]].mean(1),
+            p[:, [4, 5, 6, 7]].mean(1) - p[:, [0, 1, 2, 3]].mean(1),
+        ]
         return numpy.abs(numpy.einsum("ij,ij->i", edges[0], numpy.cross(edges[1], edges[2])))
 
     def nodal(self, values):
@@ -216,19 +257,24 @@ class BodyMesh:
         return (numpy.bincount(node, values[self.points]) / numpy.bincount(node))[node]
 
     def at(self, place, *fields):
-        """Values at the point of the body that is nearest to the place, of fields by its own points; and the distance."""
+        """Values at the point of the body that is nearest to the place, of fields by its own points; and the
+        distance."""
         cell, sub, distance = reference(0), reference(0), reference(0.0)
         nearest, pcoords, weights = [0.0] * 3, [0.0] * 3, [0.0] * 8
         self.locator.FindClosestPoint(place, nearest, vtkGenericCell(), cell, sub, distance)
-        self.grid.GetCell(int(cell)).EvaluatePosition(nearest, [0.0] * 3, sub, pcoords, reference(0.0), weights)
+        self.grid.GetCell(int(cell)).EvaluatePosition(
+            nearest, [0.0] * 3, sub, pcoords, reference(0.0), weights
+        )
         corners = self.cells[int(cell)]
         return [numpy.tensordot(weights, f[corners], 1) for f in fields], math.sqrt(max(0.0, float(distance)))
 
 
-# --- outputs -----------------------------------------------------------------------------------------------------
+# --- outputs --------------------------------------------------------------------------------------
+
 
 class Output:
-    """An output of a run as an array of vectors, with a norm. `values` are those that the reference extrapolates."""
+    """An output of a run as an array of vectors, with a norm. `values` are those that the reference
+    extrapolates."""
 
     def error(self, result, reference_values):
         """Relative to the reference's own size."""
@@ -239,12 +285,14 @@ class Output:
 
 
 class Force(Output):
-    """Forces of tools, or of contact pairs of bodies where there are no tools: ∫|F − F*| / ∫|F*| over time, at the ends of
-    steps. Explicit histories, which ring, by running means.
+    """Forces of tools, or of contact pairs of bodies where there are no tools: ∫|F − F*| / ∫|F*| over time,
+    at the ends of steps. Explicit histories, which ring, by running means.
 
-    What the reference extrapolates are curves at the ends of the centre's steps. Between them it goes as the `finest` run
-    does, by whose difference from it, which has hardly any corners, it is carried over: curves have corners, which no
-    interpolation of long steps can tell (Roache and Knupp 1993, completed extrapolation)."""
+    What the reference extrapolates are curves at the ends of the centre's steps. Between them it goes as the
+    `finest` run does, by whose difference from it, which has hardly any corners, it is carried over: curves
+    have corners, which no interpolation of long steps can tell (Roache and Knupp 1993, completed
+    extrapolation)."""
+
     name, meaning = "force", "∫|F − F*| / ∫|F*| over time"
 
     def __init__(self, result, scene, columns, window, finest=None):
@@ -253,9 +301,14 @@ class Force(Output):
         for column in self.columns:
             if column not in result.history:
                 have = sorted(c for c in result.history if ".force_" in c)
-                raise TradeError(f"--force: the history has no column '{column}'; it has {', '.join(have) or 'no force at all'}")
+                raise TradeError(
+                    f"--force: the history has no column '{column}'; it has"
+                    f" {', '.join(have) or 'no force at all'}"
+                )
         self.window = window * scene.end_time if scene.is_explicit else 0.0
-        self.times = numpy.linspace(0.0, scene.end_time, 201)[1:] if self.window else self._curve(result)[0][1:]
+        self.times = (
+            numpy.linspace(0.0, scene.end_time, 201)[1:] if self.window else self._curve(result)[0][1:]
+        )
         self.weights = measure.trapezoids(self.times)
 
     @staticmethod
@@ -283,14 +336,16 @@ class Force(Output):
     def error(self, result, reference_values):
         if self.window:
             return super().error(result, reference_values)
-        # At the ends of the run's own steps: what lies between them was not computed, and the jump within the first
-        # step of the reference is nobody's fault.
+        # At the ends of the run's own steps: what lies between them was not computed, and the jump within the
+        # first step of the reference is nobody's fault.
         times, forces = self._curve(result)
         inside = times >= self.times[0] * (1 - 1e-9)
         times, forces = times[inside], forces[inside]
         finest_times, finest = (values[1:] for values in self._curve(self.finest))
         differences = reference_values - measure.interpolate(finest_times, finest, self.times)
-        exact = measure.interpolate(finest_times, finest, times) + measure.interpolate(self.times, differences, times)
+        exact = measure.interpolate(finest_times, finest, times) + measure.interpolate(
+            self.times, differences, times
+        )
         weights = measure.trapezoids(times) if len(times) > 1 else numpy.ones(1)
         return measure.mean_length(forces - exact, weights) / measure.mean_length(exact, weights)
 
@@ -300,7 +355,9 @@ class Force(Output):
 
 
 class Profile(Output):
-    """Along a line in the undeformed bodies: the logarithmic stretch along it, or the equivalent plastic strain."""
+    """Along a line in the undeformed bodies: the logarithmic stretch along it, or the equivalent plastic
+    strain."""
+
     name, meaning = "strain", "L2 norm along the line"
     SEGMENTS = 40
 
@@ -319,27 +376,47 @@ class Profile(Output):
     def values(self, result):
         meshes = result.body_meshes.values()
         if self.kind == "stretch":
-            nearest = [min((mesh.at(place, mesh.places, result.fields["displacement"][mesh.points]) for mesh in meshes),
-                           key=lambda found: found[1])[0] for place in self.places]
+            nearest = [
+                min(
+                    (
+                        mesh.at(place, mesh.places, result.fields["displacement"][mesh.points])
+                        for mesh in meshes
+                    ),
+                    key=lambda found: found[1],
+                )[0]
+                for place in self.places
+            ]
             places = numpy.array([n[0] for n in nearest])
             lengths = numpy.linalg.norm(numpy.diff(places, axis=0), axis=1)
-            moved = numpy.linalg.norm(numpy.diff(places + numpy.array([n[1] for n in nearest]), axis=0), axis=1)
+            moved = numpy.linalg.norm(
+                numpy.diff(places + numpy.array([n[1] for n in nearest]), axis=0), axis=1
+            )
             good = lengths > 0
-            return numpy.where(good, numpy.log(numpy.where(good, moved, 1.0) / numpy.where(good, lengths, 1.0)), 0.0)[:, None]
+            return numpy.where(
+                good, numpy.log(numpy.where(good, moved, 1.0) / numpy.where(good, lengths, 1.0)), 0.0
+            )[:, None]
         if "equivalent_plastic_strain" not in result.fields:
             raise TradeError("--profile: nothing yields in this scene; 'stretch' does without")
         smooth = {id(mesh): mesh.nodal(result.fields["equivalent_plastic_strain"]) for mesh in meshes}
-        return numpy.array([min((mesh.at(place, smooth[id(mesh)]) for mesh in meshes), key=lambda found: found[1])[0]
-                            for place in self.places])
+        return numpy.array(
+            [
+                min((mesh.at(place, smooth[id(mesh)]) for mesh in meshes), key=lambda found: found[1])[0]
+                for place in self.places
+            ]
+        )
 
     def norm(self, values):
         return measure.root_mean_square(values, self.weights)
 
 
 class Shape(Output):
-    """Final places of material points over the bodies' volume: root mean square of the difference, over that of the
-    reference's displacements without the rigid motion of each body."""
-    name, meaning = "shape", "root mean square of the differences of final places over that of the deformation"
+    """Final places of material points over the bodies' volume: root mean square of the difference, over that
+    of the reference's displacements without the rigid motion of each body."""
+
+    name, meaning = (
+        "shape",
+        "root mean square of the differences of final places over that of the deformation",
+    )
     MOST = 1500
 
     def __init__(self, result):
@@ -365,15 +442,18 @@ class Shape(Output):
     def scale(self, reference_values):
         deformations, begin = [], 0
         for body, places in self.places.items():
-            u = reference_values[begin:begin + len(places)]
+            u = reference_values[begin : begin + len(places)]
             deformations.append(measure.without_rigid_motion(places, u, self.weights[body]))
             begin += len(places)
         deformation = self.norm(numpy.concatenate(deformations))
-        return deformation if deformation > 1e-6 * self.norm(reference_values) else self.norm(reference_values)
+        return (
+            deformation if deformation > 1e-6 * self.norm(reference_values) else self.norm(reference_values)
+        )
 
 
 class Rebound(Output):
     """Mean velocities of the bodies at the end, and those of tools with mass."""
+
     name, meaning = "rebound", "difference of the bodies' final velocities over these velocities"
 
     def __init__(self, result, scene):

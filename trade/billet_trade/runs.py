@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Running billet. Whatever a run gives is kept in a folder named by a hash of scene, program and ranks, so that nothing is
-ever run twice: a sweep that was stopped goes on."""
+"""Running billet. Whatever a run gives is kept in a folder named by a hash of scene, program and ranks, so
+that nothing is ever run twice: a sweep that was stopped goes on."""
 
 import fcntl
 import hashlib
@@ -24,20 +24,26 @@ class Stopped(Exception):
 
 
 def find_program(named, beside):
-    """The program: the one named, else $BILLET, else the one beside this program, else the one on the path."""
+    """The program: the one named, else $BILLET, else the one beside this program, else the one on the
+    path."""
     wanted = named or os.environ.get("BILLET")
     if wanted:
         found = shutil.which(wanted)
         if not found:
-            raise TradeError(f"the program '{wanted}' ({'--program' if named else 'BILLET in the environment'}) was not found, or cannot be run")
+            raise TradeError(
+                f"the program '{wanted}' ({'--program' if named else 'BILLET in the environment'}) was not"
+                " found, or cannot be run"
+            )
         return Path(found).resolve()
     for folder in (Path(beside).absolute().parent, Path(beside).resolve().parent):
         if os.access(folder / "billet", os.X_OK) and (folder / "billet").is_file():
             return folder / "billet"
     found = shutil.which("billet")
     if not found:
-        raise TradeError("the program billet was not found: neither beside this one nor on the path. Name it with --program, "
-                         "or in the environment variable BILLET")
+        raise TradeError(
+            "the program billet was not found: neither beside this one nor on the path. Name it with"
+            " --program, or in the environment variable BILLET"
+        )
     return Path(found).resolve()
 
 
@@ -46,7 +52,9 @@ class Program:
 
     def __init__(self, path, ranks):
         self.path, self.ranks = Path(path), ranks
-        self.command = ([] if ranks == 1 else [shutil.which("mpirun") or "mpirun", "-n", str(ranks)]) + [str(path)]
+        self.command = ([] if ranks == 1 else [shutil.which("mpirun") or "mpirun", "-n", str(ranks)]) + [
+            str(path)
+        ]
         if ranks > 1 and not shutil.which("mpirun"):
             raise TradeError("mpirun was not found; --ranks 1 does without")
         self.version = self._say("--version").strip()
@@ -62,8 +70,12 @@ class Program:
     def check(self, file):
         """Exit code, what the scene is, and why it is refused, '' if it is not."""
         # Alone, without Open MPI's daemon: a good part of the time of a tiny scene.
-        done = subprocess.run([str(self.path), "--check", "--json", str(file)], capture_output=True, text=True,
-                              env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"})
+        done = subprocess.run(
+            [str(self.path), "--check", "--json", str(file)],
+            capture_output=True,
+            text=True,
+            env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"},
+        )
         try:
             scene = json.loads(done.stdout)
         except ValueError:
@@ -85,11 +97,13 @@ def end(process, ranks):
 
 
 def execute(command, folder, limit, stop, ranks=1):
-    """Exit code (None: out of time), core-seconds of the process and all its children, and seconds on the clock."""
+    """Exit code (None: out of time), core-seconds of the process and all its children, and seconds on the
+    clock."""
     begin = time.monotonic()
     with open(folder / "stdout", "w") as out, open(folder / "stderr", "w") as err:
-        process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
-                                   start_new_session=True)
+        process = subprocess.Popen(
+            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, start_new_session=True
+        )
     was_late, pause = False, 0.005
     while True:
         pid, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -109,7 +123,8 @@ def execute(command, folder, limit, stop, ranks=1):
 
 
 class Runner:
-    """Runs variants of one scene, `jobs` of which may run at a time, each again until it was timed `repeat` times."""
+    """Runs variants of one scene, `jobs` of which may run at a time, each again until it was timed `repeat`
+    times."""
 
     def __init__(self, program, folder, limit, repeat):
         self.program, self.limit, self.repeat = program, limit, repeat
@@ -123,7 +138,9 @@ class Runner:
             self._lock = open(self.folder / "lock", "w")  # as long as this process lives
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise TradeError(f"another billet-trade works in the folder '{folder}': wait for it, or name another --folder") from None
+            raise TradeError(
+                f"another billet-trade works in the folder '{folder}': wait for it, or name another --folder"
+            ) from None
         except OSError as error:
             raise TradeError(f"the folder '{folder}' cannot be written to: {error.strerror}") from None
 
@@ -136,11 +153,20 @@ class Runner:
 
     def key(self, text):
         contents = [hashlib.sha256(file.read_bytes()).hexdigest() for file in self.files.values()]
-        whole = json.dumps([results.FORMAT, sorted(entries(text).items()), contents, self.program.fingerprint, self.program.ranks])
+        whole = json.dumps(
+            [
+                results.FORMAT,
+                sorted(entries(text).items()),
+                contents,
+                self.program.fingerprint,
+                self.program.ranks,
+            ]
+        )
         return hashlib.sha256(whole.encode()).hexdigest()[:20]
 
     def check(self, scene):
-        """Elements of a scene, why the program refuses it, '' if it does not, and what the program says it is."""
+        """Elements of a scene, why the program refuses it, '' if it does not, and what the program says it
+        is."""
         text = self.prepared(scene)
         kept = self.folder / "checks" / (self.key(text) + ".json")
         if not kept.exists():
@@ -152,7 +178,14 @@ class Runner:
                 raise Stopped
             if code not in (0, 2):
                 raise TradeError(f"'{self.program.path} --check' ended with {code}: {against}", 3)
-            write_json(kept, {"code": code, "scene": checked, "against": against.replace(str(file), "scene").replace(file.name, "scene")})
+            write_json(
+                kept,
+                {
+                    "code": code,
+                    "scene": checked,
+                    "against": against.replace(str(file), "scene").replace(file.name, "scene"),
+                },
+            )
         known = json.loads(kept.read_text())
         why = "" if known["code"] == 0 else known["against"]
         return known["scene"].get("elements", 0), re.sub(r"^scene:?\d*:? ?", "", why), known["scene"]
@@ -198,7 +231,9 @@ class Runner:
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
         try:
-            code, seconds, clock = execute(self.program.command + ["scene.prm"], work, self.limit, self.stop, self.program.ranks)
+            code, seconds, clock = execute(
+                self.program.command + ["scene.prm"], work, self.limit, self.stop, self.program.ranks
+            )
         except Stopped:
             shutil.rmtree(work, ignore_errors=True)
             raise

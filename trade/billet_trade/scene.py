@@ -20,8 +20,8 @@ def _words(name):
 
 
 def statements(text):
-    """(first line, line after the last, path of the subsections, kind, rest) of each statement; kind is 'subsection',
-    'end', 'set' or ''. Lines that end in a backslash go on in the next one."""
+    """(first line, line after the last, path of the subsections, kind, rest) of each statement; kind is
+    'subsection', 'end', 'set' or ''. Lines that end in a backslash go on in the next one."""
     lines, stack, number = text.splitlines(), [], 0
     while number < len(lines):
         first, statement = number, lines[number].split("#")[0].strip()
@@ -54,8 +54,8 @@ def entries(text):
 
 
 def variant(text, changes):
-    """The scene `text` with the entries {path: value} set anew wherever they stand, or added at the end; None takes an
-    entry away."""
+    """The scene `text` with the entries {path: value} set anew wherever they stand, or added at the end; None
+    takes an entry away."""
     changes = {path: None if value is None else str(value) for path, value in changes.items()}
     old, lines, left = text.splitlines(), [], dict(changes)
     for first, after, path, kind, rest in statements(text):
@@ -74,8 +74,8 @@ def variant(text, changes):
 
 
 class Scene:
-    """A scene's `text` and `entries`; `defaults` is the text that `billet --print-parameters` prints, `presets` are what its
-    profile or target error makes of entries that it does not set, {path: value}."""
+    """A scene's `text` and `entries`; `defaults` is the text that `billet --print-parameters` prints,
+    `presets` are what its profile or target error makes of entries that it does not set, {path: value}."""
 
     def __init__(self, text, defaults="", presets=None):
         self.presets = presets or {}
@@ -107,7 +107,9 @@ class Scene:
         wanted = path.split("/")
         for key, value in self._defaults.items():
             parts = key.split("/")
-            if len(parts) == len(wanted) and all(a == b or a.startswith("(name of") for a, b in zip(parts, wanted)):
+            if len(parts) == len(wanted) and all(
+                a == b or a.startswith("(name of") for a, b in zip(parts, wanted)
+            ):
                 return value
         return None
 
@@ -135,15 +137,20 @@ class Scene:
 
     def step(self, name):
         """'Initial step' or 'Largest step' of an implicit scene, with what `automatic` makes of it."""
+
         def given(key, otherwise):
             value = self.get("Time stepping/" + key)
             return otherwise if value in ("automatic", "") else float(value)
+
         largest = given("Largest step", 0.1 * self.end_time)
         initial = given("Initial step", min(0.01 * self.end_time, largest))
         return initial if name == "Initial step" else max(largest, initial)
 
     def files(self, folder):
         """{path: absolute file} of the files that the scene names, seen from the folder of its file."""
-        named = {path: (Path(folder) / value).resolve() for path, value in self.entries.items()
-                 if path.split("/")[-1] == "File" and value}
+        named = {
+            path: (Path(folder) / value).resolve()
+            for path, value in self.entries.items()
+            if path.split("/")[-1] == "File" and value
+        }
         return {path: file for path, file in named.items() if file.is_file()}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the laws say of one brick, computed here without the program. Stresses are Kirchhoff stresses of logarithmic strains
-(doc/theory.md, 'The law'); all numbers in any consistent unit."""
+"""What the laws say of one brick, computed here without the program. Stresses are Kirchhoff stresses of
+logarithmic strains (doc/theory.md, 'The law'); all numbers in any consistent unit."""
 
 import math
 
@@ -29,7 +29,8 @@ def shear(young, poisson):
 
 
 def uniaxial_hencky(young, strain, yield_stress=math.inf, modulus=0.0):
-    """(Kirchhoff stress, plastic strain) of a bar stretched monotonically to the logarithmic strain `strain`."""
+    """(Kirchhoff stress, plastic strain) of a bar stretched monotonically to the logarithmic strain
+    `strain`."""
     trial = young * abs(strain)
     if trial <= yield_stress:
         return young * strain, 0.0
@@ -59,9 +60,9 @@ def uniaxial_neo_hookean(young, poisson, strain):
 
 
 def uniaxial_hypoelastic(young, poisson, strains, yield_stress=None):
-    """(Kirchhoff stress, logarithmic strain across) of a bar at the last of the logarithmic strains, reached step by step: the
-    deviator grows by 2 G times that of 2 Δλ/(λ_n + λ_n+1) in all three directions, the pressure is κ ln J; returned radially
-    to yield_stress(plastic strain)."""
+    """(Kirchhoff stress, logarithmic strain across) of a bar at the last of the logarithmic strains, reached
+    step by step: the deviator grows by 2 G times that of 2 Δλ/(λ_n + λ_n+1) in all three directions, the
+    pressure is κ ln J; returned radially to yield_stress(plastic strain)."""
     kappa, g = bulk(young, poisson), shear(young, poisson)
 
     def midpoint(a, b):
@@ -69,12 +70,15 @@ def uniaxial_hypoelastic(young, poisson, strains, yield_stress=None):
 
     across = stress = plastic = 0.0
     for before, after in zip(strains, strains[1:]):
+
         def returned(side):
             """(stress along if there is none across, plastic strain)"""
             trial = stress + 2 * g * (midpoint(before, after) - midpoint(across, side))
             if yield_stress is None or abs(trial) <= yield_stress(plastic):
                 return trial, plastic
-            flow = root(lambda p: abs(trial) - 3 * g * p - yield_stress(plastic + p), 0.0, abs(trial) / (3 * g))
+            flow = root(
+                lambda p: abs(trial) - 3 * g * p - yield_stress(plastic + p), 0.0, abs(trial) / (3 * g)
+            )
             return math.copysign(abs(trial) - 3 * g * flow, trial), plastic + flow
 
         bound = 5 * abs(after - before)
@@ -103,7 +107,9 @@ def impact_stress(young_a, density_a, young_b, density_b, speed):
     return a * b / (a + b) * speed
 
 
-def friction_limit(law, pressure, slip_rate, mu, largest=math.inf, kinetic=0.0, decay=0.0, reference=1.0, exponent=1.0):
+def friction_limit(
+    law, pressure, slip_rate, mu, largest=math.inf, kinetic=0.0, decay=0.0, reference=1.0, exponent=1.0
+):
     if law == "shear limited":
         return min(mu * pressure, largest)
     if law == "static-kinetic":
@@ -111,3 +117,16 @@ def friction_limit(law, pressure, slip_rate, mu, largest=math.inf, kinetic=0.0, 
     if law == "pressure dependent":
         return mu * (pressure / reference) ** (exponent - 1) * pressure if pressure > 0 else 0.0
     return mu * pressure
+
+
+def yield_stress_of(k, plastic, young=None):
+    """At this plastic strain, of the law that these knobs make."""
+    e = young or k.young
+    y, h = k.all["yield"] * e, k.hardening_modulus * e
+    if k.hardening == "linear":
+        return y + h * plastic
+    if k.hardening == "Voce":
+        return 2 * y - y * math.exp(-10 * plastic) + h * plastic
+    if k.hardening == "power law":
+        return 3 * y * (1e-3 + plastic) ** 0.2
+    return y + h * min(plastic, 5)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What must hold in a scene, computed from what the run wrote, not from what it thinks of itself. Each takes a Result and gives
-Findings: an error, and how large it may be. All numbers are in base units and upright."""
+"""What must hold in a scene, computed from what the run wrote, not from what it thinks of itself. Each takes
+a Result and gives Findings: an error, and how large it may be. All numbers are in base units and upright."""
 
 import math
 from dataclasses import dataclass
@@ -24,7 +24,10 @@ class Finding:
         return bool(self.error <= self.allowed)  # NaN does not
 
     def __str__(self):
-        return f"{self.name}: off by {self.error:.3g}, allowed {self.allowed:.3g}{': ' + self.said if self.said else ''}"
+        return (
+            f"{self.name}: off by {self.error:.3g}, allowed"
+            f" {self.allowed:.3g}{': ' + self.said if self.said else ''}"
+        )
 
 
 def part(error, scale):
@@ -35,8 +38,11 @@ def part(error, scale):
 
 def newton(r, times=10.0, least=1e-5):
     """Of forces: what Newton's method may leave."""
-    return max(least, times * float(r.knobs.tolerance or (1e-3 if r.knobs.profile == "fast" else 0)
-                                    or 0), 1e-3 if r.knobs.target_error else 0)
+    return max(
+        least,
+        times * float(r.knobs.tolerance or (1e-3 if r.knobs.profile == "fast" else 0) or 0),
+        1e-3 if r.knobs.target_error else 0,
+    )
 
 
 def finite(r):
@@ -45,32 +51,59 @@ def finite(r):
     bad += sum(int(numpy.sum(~numpy.isfinite(v))) for v in r.fields.values() if v.dtype.kind == "f")
     end = float(r.setup.sections["Time stepping"]["End time"]) / r.setup.frame.time
     time = r.history["time"][-1] if len(r.history.get("time", ())) else 0.0
-    return [Finding("finite", bad, 0), Finding("comes to its end", abs(time - end) / end, 1e-3 if r.is_explicit else 1e-9)]
+    return [
+        Finding("finite", bad, 0),
+        Finding("comes to its end", abs(time - end) / end, 1e-3 if r.is_explicit else 1e-9),
+    ]
 
 
 def residual(r):
-    """No step of statics is accepted with more than 'Force tolerance' asks for (in motion there may be no forces); what chooses
-    tolerances by itself is looked at by its errors. Beside that the last bits of positions may stay, times the springs of a face of
-    unit size."""
-    if "residual" not in r.history or "kinetic_energy" in r.history or r.knobs.profile or r.knobs.target_error:
+    """No step of statics is accepted with more than 'Force tolerance' asks for (in motion there may be no
+    forces); what chooses tolerances by itself is looked at by its errors. Beside that the last bits of
+    positions may stay, times the springs of a face of unit size."""
+    if (
+        "residual" not in r.history
+        or "kinetic_energy" in r.history
+        or r.knobs.profile
+        or r.knobs.target_error
+    ):
         return []
-    # Of the first three steps, in which loads may begin, the program accepts what round-off leaves, however much; the last one counts.
-    after = numpy.r_[3:max(3, len(r.history["residual"])), -1]
-    forces = numpy.max([numpy.abs(r.history[name][after]) for name in r.history if name.endswith(".force_z")] or [0 * after], axis=0)
+    # Of the first three steps, in which loads may begin, the program accepts what round-off leaves, however
+    # much; the last one counts.
+    after = numpy.r_[3 : max(3, len(r.history["residual"])), -1]
+    forces = numpy.max(
+        [numpy.abs(r.history[name][after]) for name in r.history if name.endswith(".force_z")] or [0 * after],
+        axis=0,
+    )
     springs = float(r.knobs.penalty) * float(r.knobs.young) * (r.knobs.bricks or 2)
-    bits = numpy.divide(3 * numpy.finfo(float).eps * springs, forces, out=numpy.zeros(len(after)), where=forces > 0)
-    return [Finding("residual of steps", float(numpy.max(r.history["residual"][after] - bits, initial=0.0)),
-                    1.001 * float(r.knobs.tolerance or 1e-6))]
+    bits = numpy.divide(
+        3 * numpy.finfo(float).eps * springs, forces, out=numpy.zeros(len(after)), where=forces > 0
+    )
+    return [
+        Finding(
+            "residual of steps",
+            float(numpy.max(r.history["residual"][after] - bits, initial=0.0)),
+            1.001 * float(r.knobs.tolerance or 1e-6),
+        )
+    ]
 
 
 def deepest(r):
     """How deep nodes go in, relative to a facet: the root of the largest area of a node."""
     area = float(numpy.max(r.fields.get("contact_area", numpy.zeros(1)), initial=0.0))
-    depth = max((float(numpy.max(v, initial=0.0)) for name, v in r.history.items() if name.endswith(".deepest_penetration")), default=0.0)
+    depth = max(
+        (
+            float(numpy.max(v, initial=0.0))
+            for name, v in r.history.items()
+            if name.endswith(".deepest_penetration")
+        ),
+        default=0.0,
+    )
     return depth / math.sqrt(area) if area > 0 else 0.0
 
 
-# --- forces ------------------------------------------------------------------------------------------------------------------
+# --- forces ---------------------------------------------------------------------------------------
+
 
 def largest_force(r):
     return max((float(numpy.max(numpy.abs(r.force(name)), initial=0.0)) for name in r.named), default=0.0)
@@ -78,20 +111,32 @@ def largest_force(r):
 
 def balanced(a, b):
     """The forces of two tools on a body without supports are opposite."""
+
     def check(r):
-        return [Finding("equilibrium", part(numpy.max(numpy.abs((r.force(a) + r.force(b))[:, 2])), largest_force(r)), newton(r))]
+        return [
+            Finding(
+                "equilibrium",
+                part(numpy.max(numpy.abs((r.force(a) + r.force(b))[:, 2])), largest_force(r)),
+                newton(r),
+            )
+        ]
+
     return check
 
 
 def driven(column, value):
     """A tool that a force, or a moment, drives presses with just that."""
+
     def check(r):
         return [Finding("driven", part(abs(r.history[column][-1] - value), abs(value)), newton(r, 10, 1e-4))]
+
     return check
 
 
 def bears(name, pressure, end):
-    """The floor takes the momentum that the pressure gives, but for what the block still has of it; with springs, no more than that."""
+    """The floor takes the momentum that the pressure gives, but for what the block still has of it; with
+    springs, no more than that."""
+
     def check(r):
         h = r.history
         gap = numpy.diff(numpy.concatenate(([0.0], h["time"])))
@@ -99,21 +144,33 @@ def bears(name, pressure, end):
         taken = float(numpy.sum(0.5 * (f[1:] + f[:-1]) * gap))
         given = 0.5 * pressure * end
         if r.knobs.spring:
-            return [Finding("pushes up", max(0.0, -taken) / given, 1e-6), Finding("bears no more than the load", max(0.0, taken / given - 1), 0.1 + 4 * r.knobs.load)]
-        return [Finding("bears the load", abs(taken + float(-h["momentum_z"][-1]) - given) / given, 0.05 + 4 * r.knobs.load)]
+            return [
+                Finding("pushes up", max(0.0, -taken) / given, 1e-6),
+                Finding("bears no more than the load", max(0.0, taken / given - 1), 0.1 + 4 * r.knobs.load),
+            ]
+        return [
+            Finding(
+                "bears the load",
+                abs(taken + float(-h["momentum_z"][-1]) - given) / given,
+                0.05 + 4 * r.knobs.load,
+            )
+        ]
+
     return check
 
 
 def believed(r, fine):
-    """What a run with a 'Target error' believes to be off is no less than a third of what it is off a fine run, in its forces
-    over time; of a fine run itself no more is known than 2e-4."""
+    """What a run with a 'Target error' believes to be off is no less than a third of what it is off a fine
+    run, in its forces over time; of a fine run itself no more is known than 2e-4."""
     names = [name for name in r.named if name in fine.named]
     t, to = r.history["time"], fine.history["time"]
     weights = 0.5 * (numpy.diff(t, append=t[-1]) + numpy.diff(t, prepend=t[0]))
     off = size = 0.0
     for name in names:
         f, exact = r.force(name), fine.force(name)
-        there = numpy.stack([numpy.interp(t, numpy.append(0.0, to), numpy.append(0.0, exact[:, i])) for i in range(3)], axis=1)
+        there = numpy.stack(
+            [numpy.interp(t, numpy.append(0.0, to), numpy.append(0.0, exact[:, i])) for i in range(3)], axis=1
+        )
         off += float(numpy.sum(weights * numpy.linalg.norm(f - there, axis=1)))
         size += float(numpy.sum(weights * numpy.linalg.norm(there, axis=1)))
     told = r.believed.get("error", math.nan)
@@ -122,24 +179,33 @@ def believed(r, fine):
 
 def sideways_free(name):
     """A frictionless or symmetrically loaded flat tool has no force across its normal."""
+
     def check(r):
         f = r.force(name)
         return [Finding("no force across", part(numpy.max(numpy.abs(f[:, :2])), largest_force(r)), newton(r))]
+
     return check
 
 
 def pushes(name):
     """A tool below a body never pulls."""
+
     def check(r):
         f = r.force(name)
         return [Finding("pushes", part(max(0.0, -float(numpy.min(f[:, 2]))), largest_force(r)), 1e-9)]
+
     return check
 
 
 def force_cone(name):
     """The whole force of a flat tool along its face is within the limit of its force across."""
+
     def check(r):
-        f, law, area = r.force(name), r.setup.facts["friction"], numpy.abs(r.history.get(f"{name}.contact_area", 0.0))
+        f, law, area = (
+            r.force(name),
+            r.setup.facts["friction"],
+            numpy.abs(r.history.get(f"{name}.contact_area", 0.0)),
+        )
         along, across = numpy.hypot(f[:, 0], f[:, 1]), numpy.abs(f[:, 2])
         limit = law["mu"] * across
         if law["law"] == "shear limited":
@@ -148,19 +214,35 @@ def force_cone(name):
             mean = numpy.where(area > 0, across / numpy.where(area > 0, area, 1), 0)
             limit = law["mu"] * law["reference"] * area * (mean / law["reference"]) ** law["exponent"]
         tilted = r.between_bodies  # the faces themselves turn
-        return [Finding("friction cone, whole", part(max(0.0, float(numpy.max(along - limit))), largest_force(r)),
-                        max(0.02 if tilted else 0.0, newton(r) * (1 + law["mu"])))]
+        return [
+            Finding(
+                "friction cone, whole",
+                part(max(0.0, float(numpy.max(along - limit))), largest_force(r)),
+                max(0.02 if tilted else 0.0, newton(r) * (1 + law["mu"])),
+            )
+        ]
+
     return check
 
 
 def gross_slip(name):
-    """Where every node slides, Coulomb's law holds of the whole force, and it is dragged where the tool goes."""
+    """Where every node slides, Coulomb's law holds of the whole force, and it is dragged where the tool
+    goes."""
+
     def check(r):
         law, status = r.setup.facts["friction"], r.fields.get("contact_status")
-        if law["law"] != "Coulomb" or law["mu"] == 0 or status is None or not numpy.all(status[r.in_contact] == 2):
+        if (
+            law["law"] != "Coulomb"
+            or law["mu"] == 0
+            or status is None
+            or not numpy.all(status[r.in_contact] == 2)
+        ):
             return []
         f = r.force(name)[-1]
-        return [Finding("Coulomb's limit", part(abs(f[0] - law["mu"] * abs(f[2])), law["mu"] * abs(f[2])), 0.05)]
+        return [
+            Finding("Coulomb's limit", part(abs(f[0] - law["mu"] * abs(f[2])), law["mu"] * abs(f[2])), 0.05)
+        ]
+
     return check
 
 
@@ -171,7 +253,14 @@ def moment_cone(name):
             return []
         radius = float(numpy.max(numpy.hypot(*(r.fields["places"] + r.fields["displacement"])[:, :2].T)))
         scale = float(numpy.max(f)) * radius
-        return [Finding("friction cone, moment", part(max(0.0, float(numpy.max(numpy.abs(m) - law["mu"] * f * radius * 1.2))), scale), newton(r))]
+        return [
+            Finding(
+                "friction cone, moment",
+                part(max(0.0, float(numpy.max(numpy.abs(m) - law["mu"] * f * radius * 1.2))), scale),
+                newton(r),
+            )
+        ]
+
     return check
 
 
@@ -183,56 +272,97 @@ def cone(r):
     scale = float(numpy.max(numpy.abs(t), initial=0.0))
     found = [Finding("no tension", part(max(0.0, -float(numpy.min(p, initial=0.0))), scale), 1e-6)]
     along = numpy.sqrt(numpy.maximum(numpy.sum(t * t, axis=1) - p * p, 0.0))
-    limit = numpy.array([closed_forms.friction_limit(pressure=max(float(x), 0.0), slip_rate=0.0, **law) for x in p])
+    limit = numpy.array(
+        [closed_forms.friction_limit(pressure=max(float(x), 0.0), slip_rate=0.0, **law) for x in p]
+    )
     if law["law"] == "pressure dependent" and r.between_bodies:
         return found  # tractions are means over the facets of a node, and the law is not linear
     over = float(numpy.max(along - limit, initial=0.0))
-    return found + [Finding("friction cone", part(max(0.0, over), scale), 2e-3 if not r.between_bodies else 1e-2)]
+    return found + [
+        Finding("friction cone", part(max(0.0, over), scale), 2e-3 if not r.between_bodies else 1e-2)
+    ]
 
 
 def penalty_depth(name, facet):
     """Under a uniform pressure nodes go in by the pressure over the penalty."""
+
     def check(r):
-        if "penalty" not in r.knobs.chosen or r.knobs.augmentation is not None or r.knobs.profile or r.knobs.target_error:
+        if (
+            "penalty" not in r.knobs.chosen
+            or r.knobs.augmentation is not None
+            or r.knobs.profile
+            or r.knobs.target_error
+        ):
             return []  # as deep as the program finds right
         f, area = abs(r.force(name)[-1][2]), r.history[f"{name}.contact_area"][-1]
         expected = f / area / (r.knobs.penalty * r.knobs.young / facet) if area > 0 else 0.0
-        return [Finding("penetration", part(abs(r.history[f"{name}.deepest_penetration"][-1] - expected), expected), newton(r, 100, 1e-3))]
+        return [
+            Finding(
+                "penetration",
+                part(abs(r.history[f"{name}.deepest_penetration"][-1] - expected), expected),
+                newton(r, 100, 1e-3),
+            )
+        ]
+
     return check
 
 
 def augmented(name, facet):
-    """With augmentation nodes go in no deeper than the 'Penetration tolerance' of a facet, at the end of any step."""
+    """With augmentation nodes go in no deeper than the 'Penetration tolerance' of a facet, at the end of any
+    step."""
+
     def check(r):
-        return [Finding("penetration, augmented", float(numpy.max(r.history[f"{name}.deepest_penetration"])) / facet, r.knobs.augmentation * (1 + 1e-6))]
+        return [
+            Finding(
+                "penetration, augmented",
+                float(numpy.max(r.history[f"{name}.deepest_penetration"])) / facet,
+                r.knobs.augmentation * (1 + 1e-6),
+            )
+        ]
+
     return check
 
 
 def depth_bound(name, bound):
     """Nodes go in no deeper than the tool went down."""
+
     def check(r):
-        return [Finding("penetration bound", part(float(numpy.max(r.history[f"{name}.deepest_penetration"])), bound), 1 + 1e-6)]
+        return [
+            Finding(
+                "penetration bound",
+                part(float(numpy.max(r.history[f"{name}.deepest_penetration"])), bound),
+                1 + 1e-6,
+            )
+        ]
+
     return check
 
 
 def touched(r, name):
     """Where tractions are augmented, what presses need not be deep."""
-    return any(float(numpy.max(r.history[f"{name}.{what}"], initial=0.0)) > 0 for what in ("deepest_penetration", "contact_area"))
+    return any(
+        float(numpy.max(r.history[f"{name}.{what}"], initial=0.0)) > 0
+        for what in ("deepest_penetration", "contact_area")
+    )
 
 
 def touches(name):
     """Where the ends are led together to the end, and the ring does not grow around them."""
+
     def check(r):
         if r.knobs.step and r.knobs.step < 0.1 or r.knobs.nu < 0:
             return []
         return [Finding("touches", 0.0 if touched(r, name) else 1.0, 0.5)]
+
     return check
 
 
 def meets(name):
     """What flies at a tool, or what a tool comes down on, is touched by it."""
+
     def check(r):
         return [Finding("meets the tool", 0.0 if touched(r, name) else 1.0, 0.5)]
+
     return check
 
 
@@ -241,22 +371,49 @@ def energies(r):
     h = r.history
     found = []
     stored = [h[c] for c in ("elastic_energy", "contact_energy") if c in h]
-    scale = max((float(numpy.max(numpy.abs(h[c]))) for c in h if c.endswith(("_energy", "_work", "_dissipation"))), default=0.0)
+    scale = max(
+        (float(numpy.max(numpy.abs(h[c]))) for c in h if c.endswith(("_energy", "_work", "_dissipation"))),
+        default=0.0,
+    )
     for column in ("plastic_work", "friction_dissipation"):
         if column in h and len(h[column]):
             falls = float(numpy.max(-numpy.diff(numpy.concatenate(([0.0], h[column]))), initial=0.0))
             found.append(Finding(f"{column} grows", part(falls, scale), 1e-6))
-    found.append(Finding("stored energy", part(max(0.0, -min(float(numpy.min(s, initial=0.0)) for s in stored)), scale), 1e-9))
+    found.append(
+        Finding(
+            "stored energy",
+            part(max(0.0, -min(float(numpy.min(s, initial=0.0)) for s in stored)), scale),
+            1e-9,
+        )
+    )
     if "external_work" in h and "kinetic_energy" not in h:
-        total = sum(h[c] for c in ("elastic_energy", "plastic_work", "contact_energy", "friction_dissipation", "hourglass_energy") if c in h)
-        found.append(Finding("energy ledger", part(numpy.max(numpy.abs(total - h["external_work"] + h["energy_drift"])), scale), 1e-8))
+        total = sum(
+            h[c]
+            for c in (
+                "elastic_energy",
+                "plastic_work",
+                "contact_energy",
+                "friction_dissipation",
+                "hourglass_energy",
+            )
+            if c in h
+        )
+        found.append(
+            Finding(
+                "energy ledger",
+                part(numpy.max(numpy.abs(total - h["external_work"] + h["energy_drift"])), scale),
+                1e-8,
+            )
+        )
     return found
 
 
-# --- stress ------------------------------------------------------------------------------------------------------------------
+# --- stress ---------------------------------------------------------------------------------------
 
 GAUSS = numpy.array([[(1 + s * g) / 2 for s in (-1, 1)] for g in (-1 / math.sqrt(3), 1 / math.sqrt(3))])
-CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+CORNERS = numpy.array(
+    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
+)
 
 
 def jacobi_matrices(points):
@@ -280,7 +437,9 @@ def determinants(points):
 def volume_ratio(r):
     cells = r.fields["cells"]
     x = r.fields["places"]
-    return determinants((x + r.fields["displacement"])[cells]).sum(axis=1) / determinants(x[cells]).sum(axis=1)
+    return determinants((x + r.fields["displacement"])[cells]).sum(axis=1) / determinants(x[cells]).sum(
+        axis=1
+    )
 
 
 def volume_ratio_of_law(r):
@@ -290,7 +449,10 @@ def volume_ratio_of_law(r):
     x, cells = r.fields["places"], r.fields["cells"]
     before, now = jacobi_matrices(x[cells]), jacobi_matrices((x + r.fields["displacement"])[cells])
     weights = numpy.linalg.det(before)
-    mean = numpy.einsum("eq,eqij->eij", weights, now @ numpy.linalg.inv(before)) / weights.sum(axis=1)[:, None, None]
+    mean = (
+        numpy.einsum("eq,eqij->eij", weights, now @ numpy.linalg.inv(before))
+        / weights.sum(axis=1)[:, None, None]
+    )
     return numpy.linalg.det(mean)
 
 
@@ -306,19 +468,36 @@ def yields(r):
     k = r.knobs
     if k.law != "elastoplastic" or "equivalent_plastic_strain" not in r.fields:
         return []
-    from .scenes import yield_stress
     first = r.fields["cells"][:, 0]
     stress, plastic = r.fields["von_mises_stress"][first], r.fields["equivalent_plastic_strain"][first]
     body = r.fields["body"][first]
     j = volume_ratio_of_law(r)
-    limit = numpy.array([yield_stress(k, float(a), k.young * (k.modulus_ratio if b == 1 else 1.0)) for a, b in zip(plastic, body)])
+    limit = numpy.array(
+        [
+            closed_forms.yield_stress_of(k, float(a), k.young * (k.modulus_ratio if b == 1 else 1.0))
+            for a, b in zip(plastic, body)
+        ]
+    )
     loose = 3e-2 if k.hardening != "linear" else 3e-3
-    gentle = (k.penalty < 10 or abs(k.strain) < 0.05 or k.press < 0.02 or k.slide < 0.2 or k.speed < 0.01 or k.step is not None or k.force or k.moment
-              or k.modulus_ratio != 1 or k.turns < 0.1 or k.radius != 1
-              or any("Loads" in of_body for of_body in r.setup.sections["Bodies"].values()))
+    gentle = (
+        k.penalty < 10
+        or abs(k.strain) < 0.05
+        or k.press < 0.02
+        or k.slide < 0.2
+        or k.speed < 0.01
+        or k.step is not None
+        or k.force
+        or k.moment
+        or k.modulus_ratio != 1
+        or k.turns < 0.1
+        or k.radius != 1
+        or any("Loads" in of_body for of_body in r.setup.sections["Bodies"].values())
+    )
     found = [] if gentle else [Finding("yields at all", 0.0 if float(numpy.max(plastic)) > 0 else 1.0, 0.5)]
-    return found + [Finding("plastic strain >= 0", max(0.0, -float(numpy.min(plastic))), 1e-9),
-            Finding("yield condition", float(numpy.max(stress * j / limit - 1)), loose)]
+    return found + [
+        Finding("plastic strain >= 0", max(0.0, -float(numpy.min(plastic))), 1e-9),
+        Finding("yield condition", float(numpy.max(stress * j / limit - 1)), loose),
+    ]
 
 
 def ends(r):
@@ -339,7 +518,11 @@ def stretch(r):
 def strained(r):
     """The block itself is strained as named, in the mean: neither penalties nor the step gave way instead."""
     named, (reached, known) = r.setup.facts["strain"], stretch(r)
-    return [Finding("strained as named", abs(reached - named) / abs(named), 0.1 + known / abs(named), f"{reached:.3g}")]
+    return [
+        Finding(
+            "strained as named", abs(reached - named) / abs(named), 0.1 + known / abs(named), f"{reached:.3g}"
+        )
+    ]
 
 
 def bar_in_motion(r):
@@ -350,11 +533,18 @@ def bar_in_motion(r):
         return []
     stress, across, loose = expected
     cauchy = stress / math.exp(strain + 2 * across)
-    return [Finding("stress of the bar", abs(float(numpy.mean(r.fields["stress_zz"])) - cauchy) / abs(cauchy), 0.1 + loose + 3 * part(known, abs(strain)))]
+    return [
+        Finding(
+            "stress of the bar",
+            abs(float(numpy.mean(r.fields["stress_zz"])) - cauchy) / abs(cauchy),
+            0.1 + loose + 3 * part(known, abs(strain)),
+        )
+    ]
 
 
 def expected_stress(r, strain):
-    """(Kirchhoff stress, logarithmic strain across, allowed relative error), None where there is no closed form."""
+    """(Kirchhoff stress, logarithmic strain across, allowed relative error), None where there is no closed
+    form."""
     k = r.knobs
     if k.kinematics == "neo-Hookean":
         if k.law != "elastic":
@@ -362,24 +552,28 @@ def expected_stress(r, strain):
         return (*closed_forms.uniaxial_neo_hookean(k.young, k.nu, strain), 0.0)
     loose = 0.0
     if k.kinematics == "hypoelastic":
-        # What counts are the steps, parts of a linear motion; what contact took of it is spread evenly. Where they are many
-        # and short the midpoint rule's error, x²/12 of each step's x, is small.
+        # What counts are the steps, parts of a linear motion; what contact took of it is spread evenly. Where
+        # they are many and short the midpoint rule's error, x²/12 of each step's x, is small.
         times = numpy.concatenate(([0.0], numpy.cumsum(r.history["step_length"])))
         named = r.setup.facts["strain"]
         strains = numpy.log1p(math.expm1(named) * times / times[-1])
         x = float(numpy.max(numpy.abs(numpy.diff(strains))))
         if x > 0.1:
-            from .scenes import yield_stress
             stress, across = closed_forms.uniaxial_hypoelastic(
-                k.young, k.nu, strains * strain / named, (lambda a: yield_stress(k, a)) if k.law == "elastoplastic" else None)
+                k.young,
+                k.nu,
+                strains * strain / named,
+                (lambda a: closed_forms.yield_stress_of(k, a)) if k.law == "elastoplastic" else None,
+            )
             return stress, across, 1e-6 + x * x / 6 * abs(strain / named - 1)
         loose = x * x / 6 + (0.02 if k.law == "elastoplastic" else 0.0)
     if k.law == "elastic":
         return k.young * strain, -k.nu * strain, loose
-    from .scenes import yield_stress
-    if k.young * abs(strain) <= yield_stress(k, 0.0):
+    if k.young * abs(strain) <= closed_forms.yield_stress_of(k, 0.0):
         return k.young * strain, -k.nu * strain, loose
-    plastic = closed_forms.root(lambda a: k.young * (abs(strain) - a) - yield_stress(k, a), 0.0, abs(strain))
+    plastic = closed_forms.root(
+        lambda a: k.young * (abs(strain) - a) - closed_forms.yield_stress_of(k, a), 0.0, abs(strain)
+    )
     stress = math.copysign(k.young * (abs(strain) - plastic), strain)
     return stress, closed_forms.lateral_hencky(k.young, k.nu, strain, stress), loose
 
@@ -393,10 +587,22 @@ def bar(r):
     stress, _, loose = expected
     force = -stress / math.exp(strain)
     uncertain = part(known, abs(strain)) if r.knobs.law == "elastic" else part(known, abs(strain)) + known
-    found = [Finding("force of the bar", part(abs(abs(r.force("ram")[-1][2]) - abs(force)), abs(force)), newton(r, 10, 1e-4) + uncertain + loose)]
+    found = [
+        Finding(
+            "force of the bar",
+            part(abs(abs(r.force("ram")[-1][2]) - abs(force)), abs(force)),
+            newton(r, 10, 1e-4) + uncertain + loose,
+        )
+    ]
     if r.knobs.law == "elastic" and r.knobs.kinematics == "Hencky":
         energy = 0.5 * r.knobs.young * strain**2 * r.setup.facts["height"]
-        found.append(Finding("elastic energy", part(abs(r.history["elastic_energy"][-1] - energy), energy), newton(r, 20, 2e-4) + 2 * uncertain))
+        found.append(
+            Finding(
+                "elastic energy",
+                part(abs(r.history["elastic_energy"][-1] - energy), energy),
+                newton(r, 20, 2e-4) + 2 * uncertain,
+            )
+        )
     return found
 
 
@@ -413,8 +619,18 @@ def bar_stress(r):
     side = max(newton(r, 10, 1e-4), 2e-6 / r.knobs.aspect)
     got = r.fields["stress_zz"]
     scale = max(abs(cauchy), 1e-300)
-    return [Finding("stress of the bar", float(numpy.max(numpy.abs(got - cauchy))) / scale, side + loose + part(known, abs(strain)) + 3 * known),
-            Finding("no stress across", float(numpy.max(numpy.abs(r.fields["stress_xx"]))) / scale, side * max(1.0, math.exp(-2 * across)))]
+    return [
+        Finding(
+            "stress of the bar",
+            float(numpy.max(numpy.abs(got - cauchy))) / scale,
+            side + loose + part(known, abs(strain)) + 3 * known,
+        ),
+        Finding(
+            "no stress across",
+            float(numpy.max(numpy.abs(r.fields["stress_xx"]))) / scale,
+            side * max(1.0, math.exp(-2 * across)),
+        ),
+    ]
 
 
 def bar_shape(r):
@@ -427,15 +643,27 @@ def bar_shape(r):
     moved = r.fields["displacement"][r.fields["places"][:, 0] > 1 - 1e-6, 0]
     wanted = math.expm1(across)
     scale = max(abs(wanted), abs(math.expm1(strain)) * 0.1)
-    return [Finding("sides", part(float(numpy.max(numpy.abs(moved - wanted))), scale),
-                    (newton(r, 10, 2e-4) + loose * 3) * max(1.0, 0.3 / max(0.5 - r.knobs.nu, 1e-9) * 1e-2) + part(known, abs(strain)))]
+    return [
+        Finding(
+            "sides",
+            part(float(numpy.max(numpy.abs(moved - wanted))), scale),
+            (newton(r, 10, 2e-4) + loose * 3) * max(1.0, 0.3 / max(0.5 - r.knobs.nu, 1e-9) * 1e-2)
+            + part(known, abs(strain)),
+        )
+    ]
 
 
 def uniform_stress(r):
     if r.knobs.mu > 0:
         return []
     v = r.fields["von_mises_stress"]
-    return [Finding("uniform stress", part(float(numpy.max(v) - numpy.min(v)), float(numpy.max(v))), newton(r, 100, 1e-3))]
+    return [
+        Finding(
+            "uniform stress",
+            part(float(numpy.max(v) - numpy.min(v)), float(numpy.max(v))),
+            newton(r, 100, 1e-3),
+        )
+    ]
 
 
 def uniform_stress_of_bodies(r):
@@ -443,12 +671,20 @@ def uniform_stress_of_bodies(r):
     found = []
     for b in (0, 1):
         v = r.fields["stress_zz"][r.fields["body"] == b]
-        found.append(Finding("patch test", part(float(numpy.max(v) - numpy.min(v)), float(numpy.max(numpy.abs(v)))), newton(r, 100, 1e-3)))
+        found.append(
+            Finding(
+                "patch test",
+                part(float(numpy.max(v) - numpy.min(v)), float(numpy.max(numpy.abs(v)))),
+                newton(r, 100, 1e-3),
+            )
+        )
     return found
 
 
 def stack(young_low, young_high):
-    """Two confined columns: each has the stress of its own stretch, and both are the pair's force over the area."""
+    """Two confined columns: each has the stress of its own stretch, and both are the pair's force over the
+    area."""
+
     def check(r):
         k, x, u = r.knobs, r.fields["places"][:, 2], r.fields["displacement"][:, 2]
         if k.law != "elastic" or k.press == 0:
@@ -461,26 +697,40 @@ def stack(young_low, young_high):
             strain = math.log1p(top - bottom)
             tau = closed_forms.confined_hencky(young, k.nu, strain)
             if k.kinematics == "neo-Hookean":
-                tau = closed_forms.bulk(young, k.nu) * strain + closed_forms.shear(young, k.nu) * (
-                    math.exp(4 * strain / 3) - math.exp(-2 * strain / 3)) * 2 / 3
+                tau = (
+                    closed_forms.bulk(young, k.nu) * strain
+                    + closed_forms.shear(young, k.nu)
+                    * (math.exp(4 * strain / 3) - math.exp(-2 * strain / 3))
+                    * 2
+                    / 3
+                )
             loose = 1e-3 if k.kinematics == "hypoelastic" else 0.0
             known = 4 * ROUNDING * (abs(top) + abs(bottom))
             if part(known, abs(strain)) > 0.1:
                 continue  # too stiff for what is written of it
-            found.append(Finding("force of the column", part(abs(abs(tau) / math.exp(strain) - force), force),
-                                 newton(r, 10, 1e-4) + part(known, abs(strain)) * 2 + loose))
+            found.append(
+                Finding(
+                    "force of the column",
+                    part(abs(abs(tau) / math.exp(strain) - force), force),
+                    newton(r, 10, 1e-4) + part(known, abs(strain)) * 2 + loose,
+                )
+            )
         return found
+
     return check
 
 
-# --- symmetry ----------------------------------------------------------------------------------------------------------------
+# --- symmetry -------------------------------------------------------------------------------------
+
 
 def partners(places, images, bodies):
     """Index of the place of the same body where each image is; None if the mesh itself is not symmetric."""
     scale = float(numpy.max(numpy.abs(places))) or 1.0
+
     def keys(p):
         whole = numpy.column_stack((numpy.round(p / scale * 2e4 + 1e-3), bodies))
         return [tuple(row) for row in whole.astype(int)]
+
     index = {}
     for i, key in enumerate(keys(places)):
         index.setdefault(key, i)
@@ -496,10 +746,12 @@ NUDGE = 1e-13
 
 
 def sensitivity(r, nudged):
-    """How far displacements at the end differ from those of the same motion with its first velocity nudged. A motion that
-    forgets how it began keeps no symmetry better than that."""
+    """How far displacements at the end differ from those of the same motion with its first velocity nudged. A
+    motion that forgets how it began keeps no symmetry better than that."""
     u = r.fields["displacement"]
-    return part(float(numpy.max(numpy.abs(nudged.fields["displacement"] - u))), float(numpy.max(numpy.abs(u))))
+    return part(
+        float(numpy.max(numpy.abs(nudged.fields["displacement"] - u))), float(numpy.max(numpy.abs(u)))
+    )
 
 
 def symmetry(r, name, map_point, map_vector):
@@ -510,15 +762,20 @@ def symmetry(r, name, map_point, map_vector):
     if to is None:
         return []
     scale = float(numpy.max(numpy.abs(u)))
-    return [Finding(name, part(float(numpy.max(numpy.abs(u[to] - map_vector(u)))), scale), newton(r, 100, 1e-4))]
+    return [
+        Finding(name, part(float(numpy.max(numpy.abs(u[to] - map_vector(u)))), scale), newton(r, 100, 1e-4))
+    ]
 
 
 def mirror(normal, distance):
     n = numpy.asarray(normal, float)
+
     def check(r):
         def vector(u):
             return u - 2 * numpy.outer(u @ n, n)
+
         return symmetry(r, "mirror symmetry", lambda x: vector(x) + 2 * distance * n, vector)
+
     return check
 
 
@@ -530,20 +787,35 @@ def diagonal_symmetry(r):
 def quarter_turn(r):
     def turn(v):
         return numpy.stack((-v[:, 1], v[:, 0], v[:, 2]), axis=1)
+
     return symmetry(r, "symmetry of quarter turns", turn, turn)
 
 
-# --- motion ------------------------------------------------------------------------------------------------------------------
+# --- motion ---------------------------------------------------------------------------------------
+
 
 def nothing_happens(r):
     e = r.knobs.young
     forces = max((float(numpy.max(numpy.abs(r.force(name)), initial=0.0)) for name in r.named), default=0.0)
-    return [Finding("no displacement", float(numpy.max(numpy.abs(r.fields["displacement"]))), 1e-9), Finding("no force", forces / e, 1e-9)]
+    return [
+        Finding("no displacement", float(numpy.max(numpy.abs(r.fields["displacement"]))), 1e-9),
+        Finding("no force", forces / e, 1e-9),
+    ]
 
 
 def ledger(h):
-    gains = ("kinetic_energy", "elastic_energy", "plastic_work", "contact_energy", "friction_dissipation", "viscous_dissipation",
-             "hourglass_energy", "numerical_dissipation", "tool_kinetic_energy", "release_dissipation")
+    gains = (
+        "kinetic_energy",
+        "elastic_energy",
+        "plastic_work",
+        "contact_energy",
+        "friction_dissipation",
+        "viscous_dissipation",
+        "hourglass_energy",
+        "numerical_dissipation",
+        "tool_kinetic_energy",
+        "release_dissipation",
+    )
     return sum(h[c] for c in h if c in gains or c.endswith(("_dissipation",)))
 
 
@@ -552,9 +824,18 @@ def drift(r):
     h = r.history
     total = ledger(h) - h["external_work"]
     scale = max(float(numpy.max(ledger(h))), float(numpy.max(numpy.abs(h["external_work"] + total[0]))))
-    return [Finding("energy balance", part(float(numpy.max(numpy.abs(h["energy_drift"]))), scale), 0.06),
-            Finding("energy balance at the end", part(abs(h["energy_drift"][-1]), scale), 0.055),
-            Finding("energy ledger", part(float(numpy.max(numpy.abs(total - total[0] + h["energy_drift"] - h["energy_drift"][0]))), scale), 1e-6)]
+    return [
+        Finding("energy balance", part(float(numpy.max(numpy.abs(h["energy_drift"]))), scale), 0.06),
+        Finding("energy balance at the end", part(abs(h["energy_drift"][-1]), scale), 0.055),
+        Finding(
+            "energy ledger",
+            part(
+                float(numpy.max(numpy.abs(total - total[0] + h["energy_drift"] - h["energy_drift"][0]))),
+                scale,
+            ),
+            1e-6,
+        ),
+    ]
 
 
 def energy_not_made(r):
@@ -562,44 +843,84 @@ def energy_not_made(r):
     begin = 0.5 * r.setup.facts.get("mass", 0.0) * r.setup.facts["speed"] ** 2
     if not begin or r.knobs.mass_scaling:
         begin = float(h["kinetic_energy"][0])  # with the mass that is added
-    return [Finding("no energy is made", part(max(0.0, float(h["kinetic_energy"][-1] + h["elastic_energy"][-1]) - begin), begin), 0.02)]
+    return [
+        Finding(
+            "no energy is made",
+            part(max(0.0, float(h["kinetic_energy"][-1] + h["elastic_energy"][-1]) - begin), begin),
+            0.02,
+        )
+    ]
 
 
 def momentum(expected, scale, held=()):
     """Stays as it is, but for components that supports hold."""
+
     def check(r):
         p = numpy.stack([r.history[f"momentum_{i}"] for i in "xyz"], axis=1)
         p[:, list(held)] = 0
         if r.knobs.mass_scaling:
-            return [Finding("momentum", float(numpy.max(numpy.abs(p - p[0]))) / float(numpy.max(numpy.abs(p))), 1e-9)]
-        return [Finding("momentum", float(numpy.max(numpy.abs(p - numpy.asarray(expected)))) / scale, 1e-9 if r.is_explicit else newton(r, 100, 1e-4))]
+            return [
+                Finding(
+                    "momentum", float(numpy.max(numpy.abs(p - p[0]))) / float(numpy.max(numpy.abs(p))), 1e-9
+                )
+            ]
+        return [
+            Finding(
+                "momentum",
+                float(numpy.max(numpy.abs(p - numpy.asarray(expected)))) / scale,
+                1e-9 if r.is_explicit else newton(r, 100, 1e-4),
+            )
+        ]
+
     return check
 
 
 def impulse(name, speed):
     """Momentum changes by the tool's force over time; none across it."""
+
     def check(r):
         h, m = r.history, r.setup.facts["mass"]
         p, f, t = h["momentum_z"], h[f"{name}.force_z"], h["time"]
-        found = [Finding("momentum across", float(numpy.max(numpy.abs(h["momentum_x"]) + numpy.abs(h["momentum_y"]))) / (m * speed), 1e-6)]
+        found = [
+            Finding(
+                "momentum across",
+                float(numpy.max(numpy.abs(h["momentum_x"]) + numpy.abs(h["momentum_y"]))) / (m * speed),
+                1e-6,
+            )
+        ]
         steps = float(h["step"][-1])
         if r.knobs.penalty <= 1e3 and (not r.is_explicit or steps < 3 * len(t)):
-            # Implicit steps take the mean of the forces at their ends, or, where contacts open and close, that at their end.
+            # Implicit steps take the mean of the forces at their ends, or, where contacts open and close,
+            # that at their end.
             mean = 0.5 * (f[1:] + f[:-1])
             other = mean if r.is_explicit else f[1:]
-            low, high = (numpy.concatenate(([0.0], numpy.cumsum(rule(mean, other) * numpy.diff(t)))) for rule in (numpy.minimum, numpy.maximum))
+            low, high = (
+                numpy.concatenate(([0.0], numpy.cumsum(rule(mean, other) * numpy.diff(t))))
+                for rule in (numpy.minimum, numpy.maximum)
+            )
             missing = float(numpy.max(numpy.maximum(low - (p - p[0]), p - p[0] - high))) / (m * speed)
             found.append(Finding("impulse", missing, 0.15))
         return found
+
     return check
 
 
 def impact_force(name, force, begin, end):
     """ρ c v A, in the mean, until the wave is back."""
+
     def check(r):
         k = r.knobs
-        stiffest = k.penalty * max(k.modulus_ratio, 1 / k.modulus_ratio)  # from 1e3 on nodes rattle, and rows of the history are samples of blows
-        if k.mass_scaling or k.speed > 0.03 or k.law != "elastic" or k.penalty < 3 or stiffest >= 1e3 or k.nu != 0.0 or (k.bricks or 8) < 8:
+        # from 1e3 on nodes rattle, and rows of the history are samples of blows
+        stiffest = k.penalty * max(k.modulus_ratio, 1 / k.modulus_ratio)
+        if (
+            k.mass_scaling
+            or k.speed > 0.03
+            or k.law != "elastic"
+            or k.penalty < 3
+            or stiffest >= 1e3
+            or k.nu != 0.0
+            or (k.bricks or 8) < 8
+        ):
             return []
         t, f = r.history["time"], numpy.abs(r.force(name)[:, 2])
         window = (t > begin) & (t < end)
@@ -607,62 +928,104 @@ def impact_force(name, force, begin, end):
             return []
         mean = float(numpy.trapz(f[window], t[window]) / (t[window][-1] - t[window][0]))
         return [Finding("stress of the impact", abs(mean - force) / force, 0.12)]
+
     return check
 
 
 def skidding(mass, speed, gravity):
     """Friction takes, since the start, no more than µ times what the floor gave upwards."""
+
     def check(r):
         h, law = r.history, r.setup.facts["friction"]
         t, along, up = h["time"], h["momentum_x"], h["momentum_z"] + mass * gravity * h["time"]
         scale = mass * max(speed, gravity * float(t[-1]))
-        found = [Finding("momentum across", float(numpy.max(numpy.abs(h["momentum_y"]))) / scale, 1e-4),
-                 Finding("not pushed", max(0.0, float(numpy.max(along - mass * speed))) / scale, 1e-3),
-                 Finding("borne", max(0.0, -float(numpy.min(up))) / scale, 1e-6)]
+        found = [
+            Finding("momentum across", float(numpy.max(numpy.abs(h["momentum_y"]))) / scale, 1e-4),
+            Finding("not pushed", max(0.0, float(numpy.max(along - mass * speed))) / scale, 1e-3),
+            Finding("borne", max(0.0, -float(numpy.min(up))) / scale, 1e-6),
+        ]
         if law["law"] != "pressure dependent":
-            found.append(Finding("friction's impulse", max(0.0, float(numpy.max(mass * speed - along - law["mu"] * up))) / scale, 0.02))
+            found.append(
+                Finding(
+                    "friction's impulse",
+                    max(0.0, float(numpy.max(mass * speed - along - law["mu"] * up))) / scale,
+                    0.02,
+                )
+            )
         if law["law"] == "Coulomb" and law["mu"] == 0:
-            found.append(Finding("no friction", float(numpy.max(numpy.abs(along - mass * speed))) / scale, 1e-9 if r.is_explicit else 1e-5))
+            found.append(
+                Finding(
+                    "no friction",
+                    float(numpy.max(numpy.abs(along - mass * speed))) / scale,
+                    1e-9 if r.is_explicit else 1e-5,
+                )
+            )
         return found
+
     return check
 
 
 def stays_put(weight):
     """The floor bears the weight, and nothing wanders off sideways."""
+
     def check(r):
         h = r.history
         late = h["time"] > 0.5 * h["time"][-1]
         mean = float(numpy.mean(h["foot.force_z" if "foot.force_z" in h else "floor.force_z"][late]))
         long = r.knobs.cycles >= 100  # by then bulk viscosity has taken what the start made
-        return [Finding("bears the weight", abs(mean - weight) / weight, 1e-6 if long else 0.05),
-                Finding("stays where it is", float(numpy.max(numpy.abs(r.fields["displacement"][:, :2]))), 1e-3),
-                Finding("comes to rest", float(numpy.max(h["kinetic_energy"][late])) / float(numpy.max(h["kinetic_energy"])), 1e-6 if long else 1.0)]
+        return [
+            Finding("bears the weight", abs(mean - weight) / weight, 1e-6 if long else 0.05),
+            Finding("stays where it is", float(numpy.max(numpy.abs(r.fields["displacement"][:, :2]))), 1e-3),
+            Finding(
+                "comes to rest",
+                float(numpy.max(h["kinetic_energy"][late])) / float(numpy.max(h["kinetic_energy"])),
+                1e-6 if long else 1.0,
+            ),
+        ]
+
     return check
 
 
 def closed_cycles(name):
     """After the first ones, a cycle ends where the one before did."""
+
     def check(r):
         t, f = r.history["time"], r.force(name)
         at = [int(numpy.argmin(numpy.abs(t - (1 + i)))) for i in range(r.knobs.cycles + 1)]
         if r.knobs.cycles < 3 or abs(t[at[-1]] - t[at[-2]] - 1) > 1e-6:
             return []
-        return [Finding("cycles close", part(float(numpy.max(numpy.abs(f[at[-1]] - f[at[-2]]))), largest_force(r)), 1e-5)]
+        return [
+            Finding(
+                "cycles close",
+                part(float(numpy.max(numpy.abs(f[at[-1]] - f[at[-2]]))), largest_force(r)),
+                1e-5,
+            )
+        ]
+
     return check
 
 
-# --- two runs ----------------------------------------------------------------------------------------------------------------
+# --- two runs -------------------------------------------------------------------------------------
+
 
 def same(r, other, loose=1e-6, count="exact"):
-    """The same scene in other units, or turned: as many iterations and steps, and the same history. Where units are no powers of
-    two round-off differs, and a node that is just at the limit of friction may slip in the one and stick in the other: one
-    correction more or less, or two ('nearly'), but as many steps and cuts."""
+    """The same scene in other units, or turned: as many iterations and steps, and the same history. Where
+    units are no powers of two round-off differs, and a node that is just at the limit of friction may slip in
+    the one and stick in the other: one correction more or less, or two ('nearly'), but as many steps and
+    cuts."""
     found = []
     if count:
         for column in ("step", "total_iterations", "total_cuts"):
             if column in r.history and column in other.history:
                 a, b = float(r.history[column][-1]), float(other.history[column][-1])
-                found.append(Finding(f"as many: {column}", abs(a - b), 2.0 if count == "nearly" and column == "total_iterations" else 0.0, f"{a:g} for {b:g}"))
+                found.append(
+                    Finding(
+                        f"as many: {column}",
+                        abs(a - b),
+                        2.0 if count == "nearly" and column == "total_iterations" else 0.0,
+                        f"{a:g} for {b:g}",
+                    )
+                )
     for name in r.named:
         if name not in other.named:
             continue
@@ -670,8 +1033,20 @@ def same(r, other, loose=1e-6, count="exact"):
         n = min(len(a), len(b))
         if count != "exact":
             a, b, n = a[-1:], b[-1:], 1
-        found.append(Finding(f"same force: {name}", part(float(numpy.max(numpy.abs(a[:n] - b[:n]))), max(largest_force(r), largest_force(other))), loose))
+        found.append(
+            Finding(
+                f"same force: {name}",
+                part(float(numpy.max(numpy.abs(a[:n] - b[:n]))), max(largest_force(r), largest_force(other))),
+                loose,
+            )
+        )
     u, v = r.fields["displacement"], other.fields["displacement"]
     if u.shape == v.shape:
-        found.append(Finding("same displacements", part(float(numpy.max(numpy.abs(u - v))), float(numpy.max(numpy.abs(v)))), max(loose, 3e-6)))
+        found.append(
+            Finding(
+                "same displacements",
+                part(float(numpy.max(numpy.abs(u - v))), float(numpy.max(numpy.abs(v)))),
+                max(loose, 3e-6),
+            )
+        )
     return found

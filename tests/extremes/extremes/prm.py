@@ -31,8 +31,9 @@ def rotation(axis, degrees):
 
 
 class Frame:
-    """Numbers are thought of in base units and an upright frame, and written down in others: lengths, stresses and times times
-    so much, everything turned by `degrees` about `axis`. What a run gives is read back into base units."""
+    """Numbers are thought of in base units and an upright frame, and written down in others: lengths,
+    stresses and times times so much, everything turned by `degrees` about `axis`. What a run gives is read
+    back into base units."""
 
     def __init__(self, length=1.0, stress=1.0, time=1.0, axis=(1, 1, 1), degrees=0.0):
         self.length, self.stress, self.time = length, stress, time

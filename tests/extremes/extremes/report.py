@@ -5,42 +5,102 @@ import math
 import re
 from collections import Counter, defaultdict
 
-import matplotlib
+from matplotlib import pyplot
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.patches import Patch
 
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
-from matplotlib.colors import BoundaryNorm, ListedColormap  # noqa: E402
-from matplotlib.patches import Patch  # noqa: E402
+from .invariants import NUDGE, SYMMETRIES
+from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE
+from .plan import FRICTION_LAWS
+from .scenes import KINDS, KNOBS
 
-from .invariants import NUDGE, SYMMETRIES  # noqa: E402
-from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE  # noqa: E402
-from .plan import FRICTION_LAWS  # noqa: E402
-from .scenes import KINDS, KNOBS  # noqa: E402
+COLOURS = {
+    "right": "#4c9f70",
+    "told": "#7fbf94",
+    "soft": "#b9dcc3",
+    "doubtful": "#c7dc6b",
+    "refused": "#9db4d6",
+    "failed": "#f2c14e",
+    "unhelpful": "#e08e45",
+    "wrong": "#d1495b",
+    "crashed": "#3b0f2b",
+    "hung": "#7a5195",
+    None: "#f4f4f4",
+}
+WORDS = {
+    "penalty": "penalty, E/h",
+    "augmented penalty": "penalty, E/h, with augmentation",
+    "mu": "friction coefficient",
+    **{f"mu, {law}": f"friction coefficient, `{law}`" for law in FRICTION_LAWS[1:]},
+    "nu": "Poisson's ratio",
+    "step": "fixed step, of the load",
+    "aspect": "height over width of a brick",
+    "yield": "yield stress, E",
+    "hardening modulus": "hardening modulus, E",
+    "augmentation": "`Penetration tolerance`",
+    "tangential penalty": "tangential penalty, E/h",
+    "grading": "largest over smallest element",
+    "distortion": "inner node moved, bricks",
+    "length": "length of the scene",
+    "radius": "radius of the tool, block sizes",
+    "turns": "turns of a tool",
+    "oscillations": "oscillations of a tool",
+    "cycles": "cycles of friction",
+    "tolerance": "`Force tolerance`",
+    "modulus ratio": "ratio of moduli",
+    "density ratio": "ratio of densities",
+    "speed": "speed, wave speeds",
+    "safety": "`Safety factor`",
+    "resolution": "`Contact resolution`",
+    "mass scaling": "`Mass scaling step`",
+    "linear viscosity": "`Linear bulk viscosity`",
+    "spectral radius": "`Spectral radius`",
+    "error tolerance": "`Error tolerance`",
+    "bricks": "bricks along an edge",
+    "feature": "feature of a tool on nodes",
+    "turned": "scene turned, degrees",
+    "units": "units",
+    "facets": "`Facets`, `Passes`",
+    "element": "`Element`",
+    "law": "`Kinematics`",
+    "tangent": "`Contact tangent`",
+    "solver": "`Linear solver`",
+    "method": "`Method`",
+    "profile": "`Profile`",
+    "instructions": "`Instructions`",
+    "number type": "`Number type`",
+    "whole load": "whole load in the first step",
+    "force": "force on a tool, E",
+    "moment": "moment on a tool, E",
+    "load": "pressure, E",
+    "spring": "stiffness of springs, E",
+    "edges": "`Edges`",
+    "smoothing": "`Smoothing`",
+    "margin": "`Search margin`",
+    "target error": "`Target error`",
+    "press": "travel of a tool, block sizes",
+    "explicit steps": "explicit steps of a resting pile",
+    "predictor": "`Predictor`",
+    "line search": "`Line search`",
+    "material tangent": "`Material tangent`",
+}
+COLUMNS = {
+    "statics": lambda base: "." not in base,
+    "implicit dynamics": lambda base: base.endswith(".implicit"),
+    "explicit": lambda base: base.endswith(".explicit"),
+}
 
-COLOURS = {"right": "#4c9f70", "told": "#7fbf94", "soft": "#b9dcc3", "doubtful": "#c7dc6b", "refused": "#9db4d6", "failed": "#f2c14e", "unhelpful": "#e08e45",
-           "wrong": "#d1495b", "crashed": "#3b0f2b", "hung": "#7a5195", None: "#f4f4f4"}
-WORDS = {"penalty": "penalty, E/h", "augmented penalty": "penalty, E/h, with augmentation", "mu": "friction coefficient",
-         **{f"mu, {law}": f"friction coefficient, `{law}`" for law in FRICTION_LAWS[1:]}, "nu": "Poisson's ratio", "step": "fixed step, of the load",
-         "aspect": "height over width of a brick", "yield": "yield stress, E",
-         "hardening modulus": "hardening modulus, E", "augmentation": "`Penetration tolerance`",
-         "tangential penalty": "tangential penalty, E/h", "grading": "largest over smallest element", "distortion": "inner node moved, bricks",
-         "length": "length of the scene", "radius": "radius of the tool, block sizes", "turns": "turns of a tool", "oscillations": "oscillations of a tool",
-         "cycles": "cycles of friction", "tolerance": "`Force tolerance`", "modulus ratio": "ratio of moduli", "density ratio": "ratio of densities",
-         "speed": "speed, wave speeds", "safety": "`Safety factor`", "resolution": "`Contact resolution`", "mass scaling": "`Mass scaling step`",
-         "linear viscosity": "`Linear bulk viscosity`", "spectral radius": "`Spectral radius`", "error tolerance": "`Error tolerance`",
-         "bricks": "bricks along an edge", "feature": "feature of a tool on nodes", "turned": "scene turned, degrees", "units": "units",
-         "facets": "`Facets`, `Passes`", "element": "`Element`", "law": "`Kinematics`", "tangent": "`Contact tangent`", "solver": "`Linear solver`",
-         "method": "`Method`", "profile": "`Profile`", "instructions": "`Instructions`", "number type": "`Number type`", "whole load": "whole load in the first step",
-         "force": "force on a tool, E", "moment": "moment on a tool, E", "load": "pressure, E", "spring": "stiffness of springs, E", "edges": "`Edges`",
-         "smoothing": "`Smoothing`", "margin": "`Search margin`", "target error": "`Target error`", "press": "travel of a tool, block sizes",
-         "explicit steps": "explicit steps of a resting pile", "predictor": "`Predictor`", "line search": "`Line search`",
-         "material tangent": "`Material tangent`"}
-COLUMNS = {"statics": lambda base: "." not in base, "implicit dynamics": lambda base: base.endswith(".implicit"),
-           "explicit": lambda base: base.endswith(".explicit")}
 
-
-STRAINS = ("strain", *(f"strain{law}{yields}" for law in ("", ", neo-Hookean", ", hypoelastic") for yields in ("", ", yields") if law or yields))
-WORDS |= {row: "logarithmic strain" + row[len("strain"):] for row in STRAINS}
+STRAINS = (
+    "strain",
+    *(
+        f"strain{law}{yields}"
+        for law in ("", ", neo-Hookean", ", hypoelastic")
+        for yields in ("", ", yields")
+        if law or yields
+    ),
+)
+WORDS |= {row: "logarithmic strain" + row[len("strain") :] for row in STRAINS}
 KNOB_OF = {"augmented penalty": "penalty", **dict.fromkeys(STRAINS, "strain")}
 DEFAULTS = {**KNOBS, "law": "Hencky"}
 PENALTIES = ("penalty", "augmented penalty")
@@ -52,8 +112,10 @@ def shown(value):
 
 
 def table(header, rows):
-    return "\n".join(["| " + " | ".join(header) + " |", "| " + " | ".join("---" for _ in header) + " |"]
-                     + ["| " + " | ".join(str(c) for c in row) + " |" for row in rows])
+    return "\n".join(
+        ["| " + " | ".join(header) + " |", "| " + " | ".join("---" for _ in header) + " |"]
+        + ["| " + " | ".join(str(c) for c in row) + " |" for row in rows]
+    )
 
 
 def alone(records, parameter):
@@ -61,20 +123,34 @@ def alone(records, parameter):
 
 
 def outcome_of(record):
-    """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "told" if only a warning says by how much."""
+    """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "told" if only
+    a warning says by how much."""
     if record.get("outcome") != "right" or not record.get("soft"):
         return record.get("outcome")
-    return "soft" if record.get("depth", DEEP) > DEEP or "penalty-too-low" in record.get("warnings", ["penalty-too-low"]) else "told"
+    return (
+        "soft"
+        if record.get("depth", DEEP) > DEEP
+        or "penalty-too-low" in record.get("warnings", ["penalty-too-low"])
+        else "told"
+    )
 
 
 def is_default(record, but=None):
-    return all(p == but or v == DEFAULTS.get(KNOB_OF.get(p, p)) for p, v in zip(record["parameters"], record["values"]))
+    return all(
+        p == but or v == DEFAULTS.get(KNOB_OF.get(p, p))
+        for p, v in zip(record["parameters"], record["values"])
+    )
 
 
 def variant(record):
     """The scene in which its parameters are turned: the base, with what is set beside."""
     turned = {KNOB_OF.get(p, p) for p in record["parameters"]}
-    return "/".join([record.get("base", ""), *(f"{p}={v}" for p, v in record.get("changes", {}).items() if p not in turned)])
+    return "/".join(
+        [
+            record.get("base", ""),
+            *(f"{p}={v}" for p, v in record.get("changes", {}).items() if p not in turned),
+        ]
+    )
 
 
 def soft_by_default(records):
@@ -83,15 +159,26 @@ def soft_by_default(records):
 
 
 def safe(records, parameter, soft=frozenset()):
-    """Of the scenes in which this parameter alone is turned, any other being as it is by default: the values, in a row around the
-    default, at which all are right, and no penalty is soft, but for those that are `soft` by default where it is not about penalties;
-    words: those at which all are. Where it is never turned alone, of all its scenes: what is soft there is so by the other one."""
+    """Of the scenes in which this parameter alone is turned, any other being as it is by default: the values,
+    in a row around the default, at which all are right, and no penalty is soft, but for those that are `soft`
+    by default where it is not about penalties; words: those at which all are. Where it is never turned alone,
+    of all its scenes: what is soft there is so by the other one."""
     own = [r for r in alone(records, parameter) if is_default(r, parameter)]
     if not own:
         pairs = alone(records, parameter)
         return f"{span(pairs, parameter)}, in pairs" if pairs else ""
     is_strict = parameter in PENALTIES + STRAINED
-    return span([r if not is_strict and (variant(r) in soft or outcome_of(r) == "told") else {**r, "outcome": outcome_of(r)} for r in own], parameter)
+    return span(
+        [
+            (
+                r
+                if not is_strict and (variant(r) in soft or outcome_of(r) == "told")
+                else {**r, "outcome": outcome_of(r)}
+            )
+            for r in own
+        ],
+        parameter,
+    )
 
 
 def span(own, parameter):
@@ -101,7 +188,13 @@ def span(own, parameter):
     good = {v for v, outcomes in by_value.items() if outcomes == {"right"}}
     if any(isinstance(v, str) for v in by_value):
         bad = [v for v in by_value if v not in good]
-        return "all" if not bad else f"all but {', '.join(map(str, bad))}" if len(bad) <= 3 else f"{len(good)} of {len(by_value)}"
+        return (
+            "all"
+            if not bad
+            else f"all but {', '.join(map(str, bad))}"
+            if len(bad) <= 3
+            else f"{len(good)} of {len(by_value)}"
+        )
     values = sorted(by_value)
     if not good:
         return "-"
@@ -113,9 +206,11 @@ def span(own, parameter):
         elif row:
             runs.append(row)
             row = []
+
     def worth(run):
         holds = default is not None and isinstance(default, (int, float)) and run[0] <= default <= run[-1]
         return holds, len(run)
+
     best = max(runs, key=worth)
     return shown(best[0]) if len(best) == 1 else f"{shown(best[0])} to {shown(best[-1])}"
 
@@ -155,14 +250,24 @@ def programs(records, ours):
     count = Counter(r["program"] for r in records)
     checks = Counter(r.get("checks of") for r in records)
     if set(count) == {ours}:
-        return ("All of them ran with one and the same program" + (
-            ", and were judged by the same checks." if len(checks) == 1 else f"; {len(records) - max(checks.values())} were judged by older checks."))
+        return "All of them ran with one and the same program" + (
+            ", and were judged by the same checks."
+            if len(checks) == 1
+            else f"; {len(records) - max(checks.values())} were judged by older checks."
+        )
     now = count.pop(ours, 0)
     others = ", ".join(f"{n} with {name}" for name, n in count.most_common())
     other = sum(count.values())
-    return (f"{now} scene{'s' * (now != 1)} ran with the program as it is" + f", {other} with {'one other state' if len(count) == 1 else f'{len(count)} other states'} "
-            f"of it and are kept from then ({others}; `--stale` runs these once more). Of those with others "
-            + ", ".join(f"{n} {o}" for o, n in Counter(r["outcome"] for r in records if r["program"] != ours).most_common()) + ".")
+    return (
+        f"{now} scene{'s' * (now != 1)} ran with the program as it is"
+        + f", {other} with {'one other state' if len(count) == 1 else f'{len(count)} other states'} "
+        f"of it and are kept from then ({others}; `--stale` runs these once more). Of those with others "
+        + ", ".join(
+            f"{n} {o}"
+            for o, n in Counter(r["outcome"] for r in records if r["program"] != ours).most_common()
+        )
+        + "."
+    )
 
 
 def units(records):
@@ -175,8 +280,11 @@ def units(records):
     if not named or not exact:
         return ""
     same = named.count(False)
-    return (f"Of {len(named)} scenes in other units {same} take{'s' * (same == 1)} as many steps, cuts and iterations, {named.count(True)} one or two iterations more or "
-            f"less; of {len(exact)} in units that differ by powers of 2, {exact.count(False)}.")
+    return (
+        f"Of {len(named)} scenes in other units {same} take{'s' * (same == 1)} as many steps, cuts and"
+        f" iterations, {named.count(True)} one or two iterations more or less; of {len(exact)} in units that"
+        f" differ by powers of 2, {exact.count(False)}."
+    )
 
 
 def steps(record):
@@ -190,10 +298,15 @@ def slow(records):
     if not took:
         return ""
     if not long:
-        return f"None took more than {PATIENCE:g} s of the processor; the longest, `{took[0][1]['name']}`, {took[0][0]:.0f} s."
-    return (f"{len(long)} took more than {PATIENCE:g} s of the processor: " + ", ".join(
-        f"`{r['name']}` ({s:.0f} s, {r['outcome']}{steps(r)})"
-        for s, r in long[:5]) + ".")
+        return (
+            f"None took more than {PATIENCE:g} s of the processor; the longest, `{took[0][1]['name']}`,"
+            f" {took[0][0]:.0f} s."
+        )
+    return (
+        f"{len(long)} took more than {PATIENCE:g} s of the processor: "
+        + ", ".join(f"`{r['name']}` ({s:.0f} s, {r['outcome']}{steps(r)})" for s, r in long[:5])
+        + "."
+    )
 
 
 def forgetful(records):
@@ -201,16 +314,28 @@ def forgetful(records):
     lost = [r for r in records if r["outcome"] == "right" and r.get("sensitivity")]
     if not lost:
         return ""
-    return (f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows until symmetry is lost; run once more, nudged at the start by "
-            f"{NUDGE:g} of velocity and size, displacements at the end differ by as much, or at least a tenth of it; among them are " + ", ".join(
-                f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged {r['sensitivity']:.1g})" for r in lost[:5]) + ".")
+    return (
+        f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows"
+        f" until symmetry is lost; run once more, nudged at the start by {NUDGE:g} of velocity and size,"
+        " displacements at the end differ by as much, or at least a tenth of it; among them are "
+        + ", ".join(
+            f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged"
+            f" {r['sensitivity']:.1g})"
+            for r in lost[:5]
+        )
+        + "."
+    )
 
 
-# Why a scene comes out otherwise than before 2026-11-22, by its name: each was run with mean dilatation, too, the element of then.
+# Why a scene comes out otherwise than before 2026-11-22, by its name: each was run with mean dilatation, too,
+# the element of then.
 REASONS = (
     (r"drag/.*mu=0\.3|laden\.implicit/|bar\.explicit/", "the element: with mean dilatation it ends"),
     (r"drop\.explicit/", "the element: with mean dilatation no corner turns inside out"),
-    (r"drag/.*mu=10|drop\.implicit/|press\.|stretch\..*hypoelastic|strike\.implicit/", "the element: with mean dilatation it fails as before"),
+    (
+        r"drag/.*mu=10|drop\.implicit/|press\.|stretch\..*hypoelastic|strike\.implicit/",
+        "the element: with mean dilatation it fails as before",
+    ),
     (r"stretch\.", "the element: mean dilatation turns corners inside out, or leaves the uniform state"),
     (r"strike\.explicit/|slide/|upset/", "contact: it ends with both elements"),
 )
@@ -224,7 +349,10 @@ def changed(records, before):
     """A section on the scenes that have come out otherwise than an older version's."""
     then = {r["name"]: r for r in before}
     both = [(then[r["name"]], r) for r in records if r["name"] in then]
-    other = sorted(((a, b) for a, b in both if a["outcome"] != b["outcome"]), key=lambda pair: (pair[0]["outcome"], pair[1]["outcome"], pair[1]["name"]))
+    other = sorted(
+        ((a, b) for a, b in both if a["outcome"] != b["outcome"]),
+        key=lambda pair: (pair[0]["outcome"], pair[1]["outcome"], pair[1]["name"]),
+    )
     if not both:
         return []
 
@@ -232,42 +360,79 @@ def changed(records, before):
         words = " ".join((newer["reason"] or older["reason"]).split())
         return re.sub(r"^scene\.prm(:\d+)?: ", "", words)[:200].replace("|", "\\|")
 
-    return ["## Another outcome than before", f"{len(both)} of these scenes ran with an older version, too; {len(other)} came out otherwise. "
-            "Said: now, or before where nothing is now. Reason: from the same scene with mean dilatation, the default before.",
-            table(["before", "now", "scene", "reason", "said"],
-                  [[a["outcome"], b["outcome"], f"`{b['name']}`", reason_for(b["name"]), said(a, b)] for a, b in other])]
+    return [
+        "## Another outcome than before",
+        (
+            f"{len(both)} of these scenes ran with an older version, too; {len(other)} came out otherwise."
+            " Said: now, or before where nothing is now. Reason: from the same scene with mean dilatation,"
+            " the default before."
+        ),
+        table(
+            ["before", "now", "scene", "reason", "said"],
+            [
+                [a["outcome"], b["outcome"], f"`{b['name']}`", reason_for(b["name"]), said(a, b)]
+                for a, b in other
+            ],
+        ),
+    ]
 
 
 def write(records, folder, planned=0, program="", before=()):
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
     soft = soft_by_default(records)
-    outcomes = [o for o in (OUTCOMES[0], "told", "soft", *OUTCOMES[1:]) if any(outcome_of(r) == o for r in records)]
+    outcomes = [
+        o for o in (OUTCOMES[0], "told", "soft", *OUTCOMES[1:]) if any(outcome_of(r) == o for r in records)
+    ]
     whole = Counter(map(outcome_of, records))
-    parts = ["# Scenes at the extremes", f"Written by `scripts/extremes`, on one rank: {len(records)} {f'of the {planned} ' if planned > len(records) else ''}tiny scenes of the plan "
-             "(1 to 64 bricks), each parameter over its range, alone and in pairs, in every kind of run. In each, what must hold is "
-             "computed from what the run wrote: equilibrium, closed forms of bars and columns, the yield condition, the friction cone "
-             "of nodes and of whole forces, the ledger of energies, momentum, impulse, mirror symmetry, penetration, elements inside "
-             "out, and that the same scene in other units takes as many steps and iterations, and turned in space gives the same.",
-             "*right*: all of that holds. *told*: it does, and a warning says that penetration takes more than 4 % of the energy along a load path, and how much. "
-             f"*soft*: it does, but a node goes deeper than {DEEP:g} facet sizes, or the log says that the penalty is low for the facets: what is in balance then is less "
-             "than the scene asks for, and forces are too small, by any factor. A larger penalty, "
-             "or a 'Penetration tolerance', mends both. *doubtful*: it does not hold, and the log says why, and what to do: energies fail to balance, a law is no longer "
-             "stable at such strains, or elements are too stiff or too soft in bending. "
-             "*refused*, *failed*: with a message that says where, why and what to do. *unhelpful*: with one that does not. "
-             f"*wrong*, *crashed*, *hung* (no step accepted in {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
-             + slow(records),
-             " ".join(said for said in (units(records), forgetful(records), programs(records, program)) if said),
-             table(["", *outcomes, "scenes"], [["all", *[whole[o] for o in outcomes], len(records)]]
-                   + [[kind, *[sum(r["base"] in bases and outcome_of(r) == o for r in records) for o in outcomes],
-                       sum(r["base"] in bases for r in records)] for kind, bases in KINDS.items()]),
-             "## By parameter", "*Safe* is the widest range around the default (for words: those) in which every scene that turns this parameter "
-             "alone is right or told, and not soft, by the kind of run; beyond it at least one of them is not, which may be one of many, or none was tried. "
-             "Scenes that are soft as they are" + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "") + " count as soft for penalties, strains and shapes only, and so do those that are told. "
-             "Blocks are strained as named only under penalties that do not give way: where a strain or a shape is turned they are raised to what that takes, "
-             "up to 1e5 E/h (the default of 10 E/h lets an elastic block that is pressed to ln -1 give way at -0.76, and one pressed to ln -3 at -1.3: soft, and the log says so). "
-             "*In pairs*: it is never turned alone, and all its scenes count; soft ones are so by the other parameter. Empty: not tried. Counts are of all scenes, those in pairs with it included. Scenes of "
-             "fixed steps below a hundredth of the load end after twenty of them."]
+    parts = [
+        "# Scenes at the extremes",
+        (
+            "Written by `scripts/extremes`, on one rank:"
+            f" {len(records)} {f'of the {planned} ' if planned > len(records) else ''}tiny scenes of the plan"
+            " (1 to 64 bricks), each parameter over its range, alone and in pairs, in every kind of run. In"
+            " each, what must hold is computed from what the run wrote: equilibrium, closed forms of bars"
+            " and columns, the yield condition, the friction cone of nodes and of whole forces, the ledger"
+            " of energies, momentum, impulse, mirror symmetry, penetration, elements inside out, and that"
+            " the same scene in other units takes as many steps and iterations, and turned in space gives"
+            " the same."
+        ),
+        "*right*: all of that holds. *told*: it does, and a warning says that penetration takes more than 4"
+        " % of the energy along a load path, and how much. *soft*: it does, but a node goes deeper than"
+        f" {DEEP:g} facet sizes, or the log says that the penalty is low for the facets: what is in balance"
+        " then is less than the scene asks for, and forces are too small, by any factor. A larger penalty,"
+        " or a 'Penetration tolerance', mends both. *doubtful*: it does not hold, and the log says why, and"
+        " what to do: energies fail to balance, a law is no longer stable at such strains, or elements are"
+        " too stiff or too soft in bending. *refused*, *failed*: with a message that says where, why and"
+        " what to do. *unhelpful*: with one that does not. *wrong*, *crashed*, *hung* (no step accepted in"
+        f" {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
+        + slow(records),
+        " ".join(said for said in (units(records), forgetful(records), programs(records, program)) if said),
+        table(
+            ["", *outcomes, "scenes"],
+            [["all", *[whole[o] for o in outcomes], len(records)]]
+            + [
+                [
+                    kind,
+                    *[sum(r["base"] in bases and outcome_of(r) == o for r in records) for o in outcomes],
+                    sum(r["base"] in bases for r in records),
+                ]
+                for kind, bases in KINDS.items()
+            ],
+        ),
+        "## By parameter",
+        "*Safe* is the widest range around the default (for words: those) in which every scene that turns"
+        " this parameter alone is right or told, and not soft, by the kind of run; beyond it at least one of"
+        " them is not, which may be one of many, or none was tried. Scenes that are soft as they are"
+        + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "")
+        + " count as soft for penalties, strains and shapes only, and so do those that are told. Blocks are"
+        " strained as named only under penalties that do not give way: where a strain or a shape is turned"
+        " they are raised to what that takes, up to 1e5 E/h (the default of 10 E/h lets an elastic block"
+        " that is pressed to ln -1 give way at -0.76, and one pressed to ln -3 at -1.3: soft, and the log"
+        " says so). *In pairs*: it is never turned alone, and all its scenes count; soft ones are so by the"
+        " other parameter. Empty: not tried. Counts are of all scenes, those in pairs with it included."
+        " Scenes of fixed steps below a hundredth of the load end after twenty of them.",
+    ]
     names = []
     for r in records:
         names += [p for p in r["parameters"] if p not in names]
@@ -275,35 +440,75 @@ def write(records, folder, planned=0, program="", before=()):
     for name in names:
         mine = alone(records, name)
         count = Counter(map(outcome_of, mine))
-        rows.append([WORDS.get(name, name), tried(records, name), len(mine), *[count[o] or "" for o in outcomes],
-                     *[safe([r for r in mine if of(r["base"])], name, soft) for of in COLUMNS.values()]])
+        rows.append(
+            [
+                WORDS.get(name, name),
+                tried(records, name),
+                len(mine),
+                *[count[o] or "" for o in outcomes],
+                *[safe([r for r in mine if of(r["base"])], name, soft) for of in COLUMNS.values()],
+            ]
+        )
     rows.sort(key=lambda row: -row[2])
     parts.append(table(["parameter", "tried", "scenes", *outcomes, *(f"safe: {c}" for c in COLUMNS)], rows))
     parts += draw_all(records, folder / "images")
-    for outcome, title in (("failed", "What failed, and what was said"), ("refused", "What was refused"),
-                           ("unhelpful", "Messages that do not help"), ("doubtful", "Doubtful")):
+    for outcome, title in (
+        ("failed", "What failed, and what was said"),
+        ("refused", "What was refused"),
+        ("unhelpful", "Messages that do not help"),
+        ("doubtful", "Doubtful"),
+    ):
         found = reasons(records, outcome)
         if found:
-            parts += [f"## {title}", table(["scenes", "said (numbers left out)", "such as"],
-                                           [[len(n), words.replace("|", "\\|"), examples(n)] for words, n in found[:25]])]
+            parts += [
+                f"## {title}",
+                table(
+                    ["scenes", "said (numbers left out)", "such as"],
+                    [[len(n), words.replace("|", "\\|"), examples(n)] for words, n in found[:25]],
+                ),
+            ]
     bad = [r for r in records if r["outcome"] in ("wrong", "crashed", "hung")]
     if bad:
-        parts += ["## What must not be", table(["", "scene", "why"], [
-            [r["outcome"], f"`{r['name']}`", " ".join(r["reason"].split())[:240].replace("|", "\\|")] for r in sorted(bad, key=lambda r: (r["outcome"], r["name"]))])]
+        parts += [
+            "## What must not be",
+            table(
+                ["", "scene", "why"],
+                [
+                    [r["outcome"], f"`{r['name']}`", " ".join(r["reason"].split())[:240].replace("|", "\\|")]
+                    for r in sorted(bad, key=lambda r: (r["outcome"], r["name"]))
+                ],
+            ),
+        ]
     parts += changed(records, before)
     (folder / "results/extremes.md").write_text("\n\n".join(parts) + "\n")
 
 
-# --- pictures ----------------------------------------------------------------------------------------------------------------
+# --- pictures -------------------------------------------------------------------------------------
 
 PICTURES = {
-    "penalty_friction": (("penalty", "mu"), "normal penalty, E/h", "friction coefficient", (
-        ("slide", "a block dragged on a tool"), ("drag", "a block dragged on a block"), ("skid.explicit", "explicit: skidding"),
-        ("skid.implicit", "implicit dynamics: skidding"))),
-    "nu_step": (("step", "nu"), "fixed step, part of the load (below 0.01: twenty of them)", "Poisson's ratio", (
-        ("upset", "elastic, pressed to ln -0.5"), ("pull", "plastic, pulled to ln 0.5"))),
-    "aspect_strain": (("aspect", "strain"), "height over width", "logarithmic strain", (
-        ("upset", "pressed between tools"), ("pull", "pulled"))),
+    "penalty_friction": (
+        ("penalty", "mu"),
+        "normal penalty, E/h",
+        "friction coefficient",
+        (
+            ("slide", "a block dragged on a tool"),
+            ("drag", "a block dragged on a block"),
+            ("skid.explicit", "explicit: skidding"),
+            ("skid.implicit", "implicit dynamics: skidding"),
+        ),
+    ),
+    "nu_step": (
+        ("step", "nu"),
+        "fixed step, part of the load (below 0.01: twenty of them)",
+        "Poisson's ratio",
+        (("upset", "elastic, pressed to ln -0.5"), ("pull", "plastic, pulled to ln 0.5")),
+    ),
+    "aspect_strain": (
+        ("aspect", "strain"),
+        "height over width",
+        "logarithmic strain",
+        (("upset", "pressed between tools"), ("pull", "pulled")),
+    ),
 }
 
 
@@ -326,19 +531,35 @@ def draw(records, file, pair, x_label, y_label, bases):
         return False
     order = list(COLOURS)
     figure, axes = pyplot.subplots(1, len(panels), figsize=(1.2 + 3.9 * len(panels), 4.4), squeeze=False)
-    colours, norm = ListedColormap([COLOURS[o] for o in order]), BoundaryNorm([i - 0.5 for i in range(len(order) + 1)], len(order))
+    colours, norm = ListedColormap([COLOURS[o] for o in order]), BoundaryNorm(
+        [i - 0.5 for i in range(len(order) + 1)], len(order)
+    )
     used = set()
     for ax, (base, title) in zip(axes[0], panels):
         found = cells[base]
         xs, ys = sorted({k[0] for k in found}), sorted({k[1] for k in found})
         outcome = [[outcome_of(found.get((a, b), {})) for a in xs] for b in ys]
         used |= {o for row in outcome for o in row if o}
-        ax.imshow([[order.index(o) for o in row] for row in outcome], cmap=colours, norm=norm, origin="lower", aspect="auto")
+        ax.imshow(
+            [[order.index(o) for o in row] for row in outcome],
+            cmap=colours,
+            norm=norm,
+            origin="lower",
+            aspect="auto",
+        )
         for i, b in enumerate(ys):
             for j, a in enumerate(xs):
                 r = found.get((a, b))
                 if r and r.get("iterations"):
-                    ax.text(j, i, f"{r['iterations'] / max(r['steps'], 1):.1f}", ha="center", va="center", fontsize=6.5, color="#10301c")
+                    ax.text(
+                        j,
+                        i,
+                        f"{r['iterations'] / max(r['steps'], 1):.1f}",
+                        ha="center",
+                        va="center",
+                        fontsize=6.5,
+                        color="#10301c",
+                    )
         ax.set_xticks(range(len(xs)), [power(v) for v in xs], fontsize=8)
         ax.set_yticks(range(len(ys)), [f"{v:.4g}" for v in ys], fontsize=8)
         ax.set_title(title, fontsize=10)
@@ -350,7 +571,12 @@ def draw(records, file, pair, x_label, y_label, bases):
         ax.grid(which="minor", color="white", lw=1.2)
         ax.tick_params(which="both", length=0)
     axes[0][0].set_ylabel(y_label)
-    figure.legend(handles=[Patch(color=COLOURS[o], label=o) for o in order if o in used], loc="lower center", ncol=8, frameon=False)
+    figure.legend(
+        handles=[Patch(color=COLOURS[o], label=o) for o in order if o in used],
+        loc="lower center",
+        ncol=8,
+        frameon=False,
+    )
     figure.tight_layout(rect=(0, 0.07, 1, 1))
     figure.savefig(file, dpi=110)
     pyplot.close(figure)

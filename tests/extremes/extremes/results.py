@@ -13,9 +13,17 @@ VECTORS = ("displacement", "contact_traction", "velocity")
 def upright(fields, frame):
     """From the numbers in the file. Stress components are not turned back: their scalars do."""
     f = dict(fields)
-    unit = {"displacement": frame.length, "contact_traction": frame.stress, "contact_pressure": frame.stress,
-            "contact_gap": frame.length, "contact_slip": frame.length, "contact_area": frame.length**2,
-            "von_mises_stress": frame.stress, "pressure": frame.stress, "velocity": frame.speed}
+    unit = {
+        "displacement": frame.length,
+        "contact_traction": frame.stress,
+        "contact_pressure": frame.stress,
+        "contact_gap": frame.length,
+        "contact_slip": frame.length,
+        "contact_area": frame.length**2,
+        "von_mises_stress": frame.stress,
+        "pressure": frame.stress,
+        "velocity": frame.speed,
+    }
     for name, values in f.items():
         if name.startswith("stress_"):
             f[name] = values / frame.stress
@@ -72,7 +80,9 @@ class Result:
     def __init__(self, setup, history, fields, believed=None):
         """`believed`: {quantity: value} of error_estimate.csv."""
         self.setup, self.knobs, self.believed = setup, setup.knobs, believed or {}
-        self.history, self.fields = in_base_units(history, setup.frame), upright(fields, setup.frame) if fields else {}
+        self.history, self.fields = in_base_units(history, setup.frame), (
+            upright(fields, setup.frame) if fields else {}
+        )
 
     @classmethod
     def read(cls, setup, folder):
@@ -81,12 +91,14 @@ class Result:
         if file.exists():
             with open(file, newline="") as stream:
                 believed = {row["quantity"]: float(row["value"]) for row in csv.DictReader(stream)}
-        return cls(setup, read_history(folder / "history.csv"), read_grid(pictures[-1]) if pictures else {}, believed)
+        return cls(
+            setup, read_history(folder / "history.csv"), read_grid(pictures[-1]) if pictures else {}, believed
+        )
 
     @cached_property
     def named(self):
         """Tools and pairs with forces."""
-        return [name[:-len(".force_x")] for name in self.history if name.endswith(".force_x")]
+        return [name[: -len(".force_x")] for name in self.history if name.endswith(".force_x")]
 
     def force(self, name):
         return numpy.stack([self.history[f"{name}.force_{i}"] for i in "xyz"], axis=1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs scenes and keeps what became of them: a file for each below the run folder, so that a run that was stopped goes on."""
+"""Runs scenes and keeps what became of them: a file for each below the run folder, so that a run that was
+stopped goes on."""
 
 import dataclasses
 import hashlib
@@ -23,7 +24,14 @@ from .scenes import make, nudged
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Messages of a run that comes to its end, and what they make of it: doubtful, soft, ...
-DOUBT = ("energy-imbalance", "stalled-step", "unstable-law", "element-too-stiff", "element-too-soft", "inverted-at-end")
+DOUBT = (
+    "energy-imbalance",
+    "stalled-step",
+    "unstable-law",
+    "element-too-stiff",
+    "element-too-soft",
+    "inverted-at-end",
+)
 SOFT = ("penalty-too-low", "contact-too-soft")
 # ... or with forces as much of which need not balance.
 ROUND_OFF = ("round-off-limits-forces",)
@@ -33,16 +41,34 @@ RAISED = ("penalty-raised",)
 # So a step that was accepted where its residual no longer fell.
 STALLED = ("stalled-step",)
 DEEP = 0.1  # facet sizes
-BALANCES = ("residual of steps", "patch test", "equilibrium", "no force across", "pushes", "driven", "force of the bar", "force of the column")
+BALANCES = (
+    "residual of steps",
+    "patch test",
+    "equilibrium",
+    "no force across",
+    "pushes",
+    "driven",
+    "force of the bar",
+    "force of the column",
+)
 STALLED_AT_MOST = 2.01e-2  # the program's limit
 NOTED_AT_MOST = 1e-8  # the program's limit
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
-JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")  # what outcomes depend on beside the program
+# what outcomes depend on beside the program
+JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")
 FORGETS = 10.0  # a symmetry may be off by as many times what a nudge makes of the motion
 # Corners that are inside out are doubtful where the run names them, and wrong in silence.
 INSIDE_OUT = ("inverted-at-end",)
-BEYOND_DOUBT = ("finite", "comes to its end", "elements inside out", "friction cone", "no tension", "yield condition",
-                "plastic strain >= 0", "energy ledger")
+BEYOND_DOUBT = (
+    "finite",
+    "comes to its end",
+    "elements inside out",
+    "friction cone",
+    "no tension",
+    "yield condition",
+    "plastic strain >= 0",
+    "energy ledger",
+)
 
 
 # Seconds of the processor: hung is what accepts no step in the first, or does not end in the second.
@@ -57,7 +83,7 @@ def processor_seconds(pid):
             text = file.read_text()
         except OSError:
             continue
-        fields = text[text.rindex(")") + 2:].split()  # from the third one on: names may have blanks
+        fields = text[text.rindex(")") + 2 :].split()  # from the third one on: names may have blanks
         if int(fields[3]) == pid or file.parent.name == str(pid):
             total += sum(int(f) for f in fields[11:15])
     return total / os.sysconf("SC_CLK_TCK")
@@ -80,7 +106,8 @@ def read_kept(folder, case):
 
 
 class Runner:
-    """`folder`: kept/ has a JSON file for each case; work/ is where a scene runs; scenes/ has those that are not right."""
+    """`folder`: kept/ has a JSON file for each case; work/ is where a scene runs; scenes/ has those that are
+    not right."""
 
     def __init__(self, program, folder, keep_all=False, patience=PATIENCE, at_most=AT_MOST):
         self.program, self.folder, self.keep_all = program, folder, keep_all
@@ -88,7 +115,9 @@ class Runner:
         for name in ("kept", "scenes", "work"):
             (folder / name).mkdir(parents=True, exist_ok=True)
         self.program_hash = hashlib.sha256(program.read_bytes()).hexdigest()[:12]
-        self.checks_hash = hashlib.sha256(b"".join((Path(__file__).parent / f"{name}.py").read_bytes() for name in JUDGES)).hexdigest()[:12]
+        self.checks_hash = hashlib.sha256(
+            b"".join((Path(__file__).parent / f"{name}.py").read_bytes() for name in JUDGES)
+        ).hexdigest()[:12]
         self._references = {}
 
     def kept(self, case):
@@ -101,8 +130,15 @@ class Runner:
     def run(self, case):
         """Its outcome, kept."""
         begin = time.monotonic()
-        record = {"name": case.name, "base": case.base, "changes": case.changes, "parameters": list(case.parameters),
-                  "values": list(case.values), "program": self.program_hash, "checks of": self.checks_hash}
+        record = {
+            "name": case.name,
+            "base": case.base,
+            "changes": case.changes,
+            "parameters": list(case.parameters),
+            "values": list(case.values),
+            "program": self.program_hash,
+            "checks of": self.checks_hash,
+        }
         try:
             record.update(self._judge(case))
         except Exception:  # a defect of ours: it must not stop the others, nor pass
@@ -123,7 +159,9 @@ class Runner:
         scene.unlink(missing_ok=True)
         verdict = {**self._verdict(case, setup, work, told), "processor seconds": round(told[3], 3)}
         if verdict["outcome"] not in ("right", "refused") or self.keep_all:
-            scene.write_text(f"# {case.name}: {verdict['outcome']}. {' '.join(verdict['reason'].split())[:300]}\n" + text)
+            scene.write_text(
+                f"# {case.name}: {verdict['outcome']}. {' '.join(verdict['reason'].split())[:300]}\n" + text
+            )
         shutil.rmtree(work, ignore_errors=True)
         return verdict
 
@@ -144,8 +182,15 @@ class Runner:
         if case.like is not None:
             other = self._reference(case)
             if other is None:
-                return {"outcome": "wrong", "reason": "this one runs, and the one that it is compared with does not"}
-            found += invariants.believed(result, other) if case.count == "believed" else invariants.same(result, other, case.loose, case.count)
+                return {
+                    "outcome": "wrong",
+                    "reason": "this one runs, and the one that it is compared with does not",
+                }
+            found += (
+                invariants.believed(result, other)
+                if case.count == "believed"
+                else invariants.same(result, other, case.loose, case.count)
+            )
         records = read_records(work / "results/diagnostics.jsonl")
         warnings = [r for r in records if r["severity"] == "warning"]
 
@@ -155,20 +200,49 @@ class Runner:
         if of(RAISED):
             found = [f for f in found if f.name != "penetration"]  # the penalty is no longer the scene's
         # It is printed once; later steps may leave more.
-        rounded = STALLED_AT_MOST if of(STALLED) else ROUND_OFF_AT_MOST if of(ROUND_OFF) else NOTED_AT_MOST if of(NOTED_ROUND_OFF) else 0.0
-        found = [dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f for f in found]
+        rounded = (
+            STALLED_AT_MOST
+            if of(STALLED)
+            else ROUND_OFF_AT_MOST
+            if of(ROUND_OFF)
+            else NOTED_AT_MOST
+            if of(NOTED_ROUND_OFF)
+            else 0.0
+        )
+        found = [
+            dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f
+            for f in found
+        ]
         numbers = {}
         if any(f.name in invariants.SYMMETRIES and not f.holds for f in found):
             numbers["sensitivity"] = self._sensitivity(setup, result, work)
-            found = [dataclasses.replace(f, allowed=max(f.allowed, FORGETS * numbers["sensitivity"])) if f.name in invariants.SYMMETRIES else f
-                     for f in found]
+            found = [
+                (
+                    dataclasses.replace(f, allowed=max(f.allowed, FORGETS * numbers["sensitivity"]))
+                    if f.name in invariants.SYMMETRIES
+                    else f
+                )
+                for f in found
+            ]
         doubts = of(DOUBT)
         broken = [str(f) for f in found if not f.holds]
-        beyond = [f for f in found if not f.holds and f.name in BEYOND_DOUBT and not (f.name == "elements inside out" and of(INSIDE_OUT))]
-        numbers |= {"steps": float(result.history["step"][-1]), "iterations": float(result.history.get("total_iterations", [0])[-1]),
-                    "cuts": float(result.history.get("total_cuts", [0])[-1]), "checks": len(found), "depth": invariants.deepest(result),
-                    "soft": bool(of(SOFT)) or invariants.deepest(result) > DEEP,
-                    "warnings": sorted({r["key"] for r in warnings}), "errors": {f.name: f.error for f in found}}
+        beyond = [
+            f
+            for f in found
+            if not f.holds
+            and f.name in BEYOND_DOUBT
+            and not (f.name == "elements inside out" and of(INSIDE_OUT))
+        ]
+        numbers |= {
+            "steps": float(result.history["step"][-1]),
+            "iterations": float(result.history.get("total_iterations", [0])[-1]),
+            "cuts": float(result.history.get("total_cuts", [0])[-1]),
+            "checks": len(found),
+            "depth": invariants.deepest(result),
+            "soft": bool(of(SOFT)) or invariants.deepest(result) > DEEP,
+            "warnings": sorted({r["key"] for r in warnings}),
+            "errors": {f.name: f.error for f in found},
+        }
         outcome = "right" if not broken else "doubtful" if doubts and not beyond else "wrong"
         said = f"{doubts[0]['message']} - " if outcome == "doubtful" else ""
         return {"outcome": outcome, "reason": said + "; ".join(broken), **numbers}
@@ -180,7 +254,9 @@ class Runner:
             return 0.0
         beside = work.with_name(work.name + "-nudged")
         code, _, _, _ = self._execute(prm.text(sections), beside)
-        differs = invariants.sensitivity(result, Result.read(setup, beside / "results")) if code in (0, 7) else 0.0
+        differs = (
+            invariants.sensitivity(result, Result.read(setup, beside / "results")) if code in (0, 7) else 0.0
+        )
         shutil.rmtree(beside, ignore_errors=True)
         return differs
 
@@ -195,7 +271,8 @@ class Runner:
         return self._references[key]
 
     def _execute(self, text, work):
-        """Exit code, what was said on standard error, why it was given up ('': it was not), and seconds of the processor."""
+        """Exit code, what was said on standard error, why it was given up ('': it was not), and seconds of
+        the processor."""
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
@@ -207,8 +284,15 @@ class Runner:
 
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         with open(work / "stdout", "w") as out, open(work / "stderr", "w") as err:
-            process = subprocess.Popen([str(self.program), "scene.prm"], cwd=work, stdout=out, stderr=err, preexec_fn=bounded,
-                                       start_new_session=True, env={**os.environ, **ALONE, "TMPDIR": str(work)})
+            process = subprocess.Popen(
+                [str(self.program), "scene.prm"],
+                cwd=work,
+                stdout=out,
+                stderr=err,
+                preexec_fn=bounded,
+                start_new_session=True,
+                env={**os.environ, **ALONE, "TMPDIR": str(work)},
+            )
             try:
                 hung = self._watch(process, work / "results" / "history.csv")
             finally:
@@ -220,7 +304,8 @@ class Runner:
         return process.returncode, (work / "stderr").read_text(errors="replace"), hung, spent
 
     def _watch(self, process, history):
-        """Waits for its end, or until it is worth no more waiting: says why. A step is accepted when the history grows."""
+        """Waits for its end, or until it is worth no more waiting: says why. A step is accepted when the
+        history grows."""
         size, last, last_seen, begin = -1, 0.0, time.monotonic(), time.monotonic()
         while True:
             try:
@@ -234,6 +319,12 @@ class Runner:
                 size, last, last_seen = grown, spent, now
             # The machine may have more to do: on its clock there is ten times as much.
             if spent > last + self.patience or now > last_seen + 10 * self.patience:
-                return f"no step was accepted in {self.patience:g} s of the processor, after {rows(history)} rows of the history"
+                return (
+                    f"no step was accepted in {self.patience:g} s of the processor, after"
+                    f" {rows(history)} rows of the history"
+                )
             if spent > self.at_most or now > begin + 10 * self.at_most:
-                return f"not finished after {self.at_most:g} s of the processor, and {rows(history)} rows of the history"
+                return (
+                    f"not finished after {self.at_most:g} s of the processor, and {rows(history)} rows of the"
+                    " history"
+                )

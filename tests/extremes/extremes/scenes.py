@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Base scenes: tiny, each with what must hold in it. A scene is made of knobs {name: value}; those that are not set have the
-defaults below. Base units: block sizes about 1, E = 1000; dynamic ones with a density of 1e-3, so that bars carry waves at 1000."""
+"""Base scenes: tiny, each with what must hold in it. A scene is made of knobs {name: value}; those that are
+not set have the defaults below. Base units: block sizes about 1, E = 1000; dynamic ones with a density of
+1e-3, so that bars carry waves at 1000."""
 
 import math
 
@@ -10,25 +11,76 @@ from .prm import Frame, number
 
 KNOBS = {
     # frame
-    "length": 1.0, "stress": 1.0, "time": 1.0, "turned": 0.0,
+    "length": 1.0,
+    "stress": 1.0,
+    "time": 1.0,
+    "turned": 0.0,
     # body
-    "law": "elastic", "element": "assumed strain", "kinematics": "Hencky", "nu": 0.3, "young": 1000.0,
-    "hardening": "linear", "yield": 0.01, "hardening modulus": 0.1, "density": 1e-3,
-    "bricks": None, "aspect": 1.0, "grading": 1.0, "distortion": 0.0,
-    "density ratio": 1.0, "modulus ratio": 1.0,
+    "law": "elastic",
+    "element": "assumed strain",
+    "kinematics": "Hencky",
+    "nu": 0.3,
+    "young": 1000.0,
+    "hardening": "linear",
+    "yield": 0.01,
+    "hardening modulus": 0.1,
+    "density": 1e-3,
+    "bricks": None,
+    "aspect": 1.0,
+    "grading": 1.0,
+    "distortion": 0.0,
+    "density ratio": 1.0,
+    "modulus ratio": 1.0,
     # loading
-    "strain": -0.1, "strained": False, "press": 0.02, "slide": 0.2, "speed": 0.01, "turns": 0.1, "oscillations": 0.0, "cycles": 0,
+    "strain": -0.1,
+    "strained": False,
+    "press": 0.02,
+    "slide": 0.2,
+    "speed": 0.01,
+    "turns": 0.1,
+    "oscillations": 0.0,
+    "cycles": 0,
     # contact
-    "penalty": 10.0, "mu": 0.0, "friction law": "Coulomb", "facets": None, "passes": None, "augmentation": None,
-    "tangential penalty": None, "radius": 1.0, "feature": "pole", "edges": None, "smoothing": None, "margin": None,
+    "penalty": 10.0,
+    "mu": 0.0,
+    "friction law": "Coulomb",
+    "facets": None,
+    "passes": None,
+    "augmentation": None,
+    "tangential penalty": None,
+    "radius": 1.0,
+    "feature": "pole",
+    "edges": None,
+    "smoothing": None,
+    "margin": None,
     # of tools that are driven, and loads: parts of E
-    "force": None, "moment": None, "load": 1e-3, "spring": None,
+    "force": None,
+    "moment": None,
+    "load": 1e-3,
+    "spring": None,
     # time and solver
-    "step": None, "first step": 0.1, "largest step": 0.25, "tangent": None, "tolerance": None, "solver": None,
-    "predictor": None, "line search": None, "safety": None, "resolution": None, "mass scaling": None, "instructions": None,
+    "step": None,
+    "first step": 0.1,
+    "largest step": 0.25,
+    "tangent": None,
+    "tolerance": None,
+    "solver": None,
+    "predictor": None,
+    "line search": None,
+    "safety": None,
+    "resolution": None,
+    "mass scaling": None,
+    "instructions": None,
     "number type": None,
-    "linear viscosity": None, "method": None, "spectral radius": None, "error tolerance": None, "profile": None,
-    "target error": None, "mass": None, "duration": 1.0, "material tangent": None,
+    "linear viscosity": None,
+    "method": None,
+    "spectral radius": None,
+    "error tolerance": None,
+    "profile": None,
+    "target error": None,
+    "mass": None,
+    "duration": 1.0,
+    "material tangent": None,
 }
 
 UPRIGHT = (1.0, 1.0, 1.0)
@@ -51,21 +103,24 @@ class Knobs:
 
 
 class Setup:
-    """`sections` of the scene file, the `frame` they are written in, what `must` hold (functions of a Result), and `facts`
-    that these functions need, in base units."""
+    """`sections` of the scene file, the `frame` they are written in, what `must` hold (functions of a
+    Result), and `facts` that these functions need, in base units."""
 
     def __init__(self, knobs, frame, sections, checks, **facts):
         self.knobs, self.frame, self.sections, self.checks, self.facts = knobs, frame, sections, checks, facts
 
 
 def nudged(setup, part):
-    """The sections of `setup` with every first velocity changed, so that no symmetry is left, by about this part of it, and by
-    what moves it until the end by this part of its size; None of a static scene."""
+    """The sections of `setup` with every first velocity changed, so that no symmetry is left, by about this
+    part of it, and by what moves it until the end by this part of its size; None of a static scene."""
     time_stepping = setup.sections["Time stepping"]
     if time_stepping.get("Scheme", "quasi-static") == "quasi-static":
         return None
     end = float(time_stepping["End time"]) / setup.frame.time
-    by = [number(share * part * (setup.facts.get("speed", 0.0) + 1 / end) * setup.frame.speed) for share in (1.0, -0.6, 0.3)]
+    by = [
+        number(share * part * (setup.facts.get("speed", 0.0) + 1 / end) * setup.frame.speed)
+        for share in (1.0, -0.6, 0.3)
+    ]
     bodies = {}
     for name, of_body in setup.sections["Bodies"].items():
         v = of_body.get("Initial velocity", "0; 0; 0").split(";")
@@ -110,25 +165,21 @@ def material(k, f, young=None, density=None):
         if k.hardening == "linear":
             m.update({"Yield stress": number(y), "Hardening modulus": number(h)})
         elif k.hardening == "Voce":
-            m.update({"Yield stress": number(y), "Hardening modulus": number(h), "Saturation stress": number(2 * y),
-                      "Saturation rate": 10})
+            m.update(
+                {
+                    "Yield stress": number(y),
+                    "Hardening modulus": number(h),
+                    "Saturation stress": number(2 * y),
+                    "Saturation rate": 10,
+                }
+            )
         elif k.hardening == "power law":
-            m.update({"Strength coefficient": number(3 * y), "Prestrain": number(1e-3), "Hardening exponent": 0.2})
+            m.update(
+                {"Strength coefficient": number(3 * y), "Prestrain": number(1e-3), "Hardening exponent": 0.2}
+            )
         elif k.hardening == "table":
             m["Table"] = ", ".join(f"{number(s)} : {number(y + h * s)}" for s in (0, 0.1, 0.5, 5))
     return m
-
-
-def yield_stress(k, plastic, young=None):
-    e = young or k.young
-    y, h = k.all["yield"] * e, k.hardening_modulus * e
-    if k.hardening == "linear":
-        return y + h * plastic
-    if k.hardening == "Voce":
-        return 2 * y - y * math.exp(-10 * plastic) + h * plastic
-    if k.hardening == "power law":
-        return 3 * y * (1e-3 + plastic) ** 0.2
-    return y + h * min(plastic, 5)
 
 
 def body(k, f, mesh, planes=None, young=None, density=None, **more):
@@ -143,8 +194,13 @@ def body(k, f, mesh, planes=None, young=None, density=None, **more):
 
 def box(n, low, high, **more):
     # deal.II's box, at base units; written as a product, since deal.II takes corners of any order.
-    return {"Primitive": "subdivided_hyper_rectangle",
-            "Arguments": f"{n[0]}, {n[1]}, {n[2]} : {', '.join(map(number, low))} : {', '.join(map(number, high))} : true", **more}
+    return {
+        "Primitive": "subdivided_hyper_rectangle",
+        "Arguments": (
+            f"{n[0]}, {n[1]}, {n[2]} : {', '.join(map(number, low))} : {', '.join(map(number, high))} : true"
+        ),
+        **more,
+    }
 
 
 def plane(f, point, normal):
@@ -165,9 +221,19 @@ def pair(k, f, **more):
         if k.friction_law == "shear limited":
             p["Largest shear stress"] = number(law["largest"] * f.stress)
         elif k.friction_law == "static-kinetic":
-            p.update({"Kinetic friction coefficient": number(law["kinetic"]), "Decay": number(law["decay"] / f.speed)})
+            p.update(
+                {
+                    "Kinetic friction coefficient": number(law["kinetic"]),
+                    "Decay": number(law["decay"] / f.speed),
+                }
+            )
         elif k.friction_law == "pressure dependent":
-            p.update({"Reference pressure": number(law["reference"] * f.stress), "Pressure exponent": number(law["exponent"])})
+            p.update(
+                {
+                    "Reference pressure": number(law["reference"] * f.stress),
+                    "Pressure exponent": number(law["exponent"]),
+                }
+            )
     for knob, key in (("edges", "Edges"), ("smoothing", "Smoothing"), ("margin", "Search margin")):
         if k.all[knob] is not None and "Second body" in more:
             p[key] = k.all[knob]
@@ -177,27 +243,48 @@ def pair(k, f, **more):
 
 def friction(k):
     """Parameters of the law, base units."""
-    return {"law": k.friction_law, "mu": k.mu, "largest": 0.005 * k.young, "kinetic": 0.5 * k.mu, "decay": 1.0,
-            "reference": 0.02 * k.young, "exponent": 0.7}
+    return {
+        "law": k.friction_law,
+        "mu": k.mu,
+        "largest": 0.005 * k.young,
+        "kinetic": 0.5 * k.mu,
+        "decay": 1.0,
+        "reference": 0.02 * k.young,
+        "exponent": 0.7,
+    }
 
 
 def tolerances(k):
-    """Of Newton's method: for comparisons to many digits, unless the scene, its profile or its target error has others."""
+    """Of Newton's method: for comparisons to many digits, unless the scene, its profile or its target error
+    has others."""
     if k.tolerance is not None:
         return {"Force tolerance": k.tolerance, "Energy tolerance": number(max(k.tolerance, 1e-15))}
     return {} if k.profile or k.target_error else {"Force tolerance": "1e-6", "Energy tolerance": "1e-10"}
 
 
 def statics(k, f, end=1.0, first=None, stops=()):
-    t = {"End time": number(end * f.time), "Initial step": number((first or k.first_step) * f.time),
-         "Largest step": number(k.largest_step * f.time), "Smallest step": number(1e-5 * f.time)}
+    t = {
+        "End time": number(end * f.time),
+        "Initial step": number((first or k.first_step) * f.time),
+        "Largest step": number(k.largest_step * f.time),
+        "Smallest step": number(1e-5 * f.time),
+    }
     if k.step is not None:
         t = {"End time": t["End time"], "Step control": "fixed", "Initial step": number(k.step * f.time)}
     if stops:
         t["Stops"] = ", ".join(number(s * f.time) for s in stops)
-    s = {name: value for name, value in {
-        "Contact tangent": k.tangent, "Linear solver": k.solver, "Predictor": k.predictor,
-        "Line search": k.line_search, "Material tangent": k.material_tangent, **tolerances(k)}.items() if value is not None}
+    s = {
+        name: value
+        for name, value in {
+            "Contact tangent": k.tangent,
+            "Linear solver": k.solver,
+            "Predictor": k.predictor,
+            "Line search": k.line_search,
+            "Material tangent": k.material_tangent,
+            **tolerances(k),
+        }.items()
+        if value is not None
+    }
     whole = {"Time stepping": t, "Solver": s, "Output": output()}
     return {**top(k), **whole}
 
@@ -207,37 +294,66 @@ def output(**more):
 
 
 def top(k):
-    return {name: value for name, value in {"Profile": k.profile, "Target error": k.target_error}.items() if value is not None}
+    return {
+        name: value
+        for name, value in {"Profile": k.profile, "Target error": k.target_error}.items()
+        if value is not None
+    }
 
 
 def dynamics(k, f, scheme, end, rows=400):
     """`end` in base units of time."""
     whole = {**top(k), "Time stepping": {"Scheme": scheme, "End time": number(end * f.time)}}
     if scheme == "explicit":
-        x = {"Safety factor": k.safety, "Contact resolution": k.resolution, "Instructions": k.instructions,
-             "Number type": k.number_type,
-             "Linear bulk viscosity": k.linear_viscosity,
-             "Mass scaling step": None if k.mass_scaling is None else number(k.mass_scaling * f.time)}
+        x = {
+            "Safety factor": k.safety,
+            "Contact resolution": k.resolution,
+            "Instructions": k.instructions,
+            "Number type": k.number_type,
+            "Linear bulk viscosity": k.linear_viscosity,
+            "Mass scaling step": None if k.mass_scaling is None else number(k.mass_scaling * f.time),
+        }
         whole["Explicit dynamics"] = {a: b for a, b in x.items() if b is not None}
         whole["Output"] = output(**{"Every steps": 0, "History interval": number(end * f.time / rows)})
     else:
-        whole["Time stepping"].update({"Initial step": number(end / 200 * f.time), "Largest step": number(end / 50 * f.time),
-                                       "Smallest step": number(end * 1e-7 * f.time)})
+        whole["Time stepping"].update(
+            {
+                "Initial step": number(end / 200 * f.time),
+                "Largest step": number(end / 50 * f.time),
+                "Smallest step": number(end * 1e-7 * f.time),
+            }
+        )
         if k.step is not None:
-            whole["Time stepping"].update({"Initial step": number(k.step * end * f.time), "Largest step": number(k.step * end * f.time)})
-        x = {"Method": k.method, "Spectral radius": k.spectral_radius, "Error tolerance": k.error_tolerance, "Mass": k.mass}
+            whole["Time stepping"].update(
+                {"Initial step": number(k.step * end * f.time), "Largest step": number(k.step * end * f.time)}
+            )
+        x = {
+            "Method": k.method,
+            "Spectral radius": k.spectral_radius,
+            "Error tolerance": k.error_tolerance,
+            "Mass": k.mass,
+        }
         whole["Implicit dynamics"] = {a: b for a, b in x.items() if b is not None}
-        whole["Solver"] = {a: b for a, b in {"Contact tangent": k.tangent, **tolerances(k),
-                                             "Linear solver": k.solver, "Material tangent": k.material_tangent}.items() if b is not None}
+        whole["Solver"] = {
+            a: b
+            for a, b in {
+                "Contact tangent": k.tangent,
+                **tolerances(k),
+                "Linear solver": k.solver,
+                "Material tangent": k.material_tangent,
+            }.items()
+            if b is not None
+        }
         whole["Output"] = output()
     return whole
 
 
-# --- statics with tools ------------------------------------------------------------------------------------------------------
+# --- statics with tools ---------------------------------------------------------------------------
+
 
 def shaped(k, n):
-    """Vertices of a unit block moved: graded along z so that the thickest layer is `grading` times the thinnest, its inner node
-    and the middles of its edges moved by `distortion` halves of a brick."""
+    """Vertices of a unit block moved: graded along z so that the thickest layer is `grading` times the
+    thinnest, its inner node and the middles of its edges moved by `distortion` halves of a brick."""
     x, y, z = "x", "y", "z"
     if k.grading != 1.0:
         ratio = k.grading ** (1 / max(n - 1, 1))
@@ -251,8 +367,8 @@ def shaped(k, n):
 
 
 def stiff(k, height, facet):
-    """With penalties that give way by less than a fiftieth of what is left of the height, or of its change, if the block is to be
-    `strained` as named; else as it is."""
+    """With penalties that give way by less than a fiftieth of what is left of the height, or of its change,
+    if the block is to be `strained` as named; else as it is."""
     if not k.strained:
         return k
     pressure = abs(k.strain) * math.exp(-(1 - 2 * k.nu) * k.strain)  # E, of a bar
@@ -265,18 +381,32 @@ def upset(k):
     f, n, h = frame_of(k), k.bricks or 2, k.aspect
     k = stiff(k, h, 1 / n)
     travel = h * (1 - math.exp(k.strain))
-    pushed = {"Force": f.expression(f"{number(k.force * k.young)}*{{t}}", number(f.force) + "*"), "Force direction": f.vector((0, 0, -1))} if k.force else None
+    pushed = (
+        {
+            "Force": f.expression(f"{number(k.force * k.young)}*{{t}}", number(f.force) + "*"),
+            "Force direction": f.vector((0, 0, -1)),
+        }
+        if k.force
+        else None
+    )
     mesh = box((n, n, n), (0, 0, 0), (1, 1, 1 if k.grading != 1 or k.distortion else h))
     if k.grading != 1 or k.distortion:
         mesh["Positions"] = shaped(k, n)
         travel, h = 1 - math.exp(k.strain), 1.0
     sections = {
         "Bodies": {"block": body(k, f, mesh, [((1, 0, 0), 0), ((0, 1, 0), 0)])},
-        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
-                  "ram": {"Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
-                          "Motion": pushed or {"Translation": f.expressions(("0", "0", f"{number(-travel)}*{{t}}"), f.length)}}},
-        "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
-                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        "Tools": {
+            "die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+            "ram": {
+                "Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
+                "Motion": pushed
+                or {"Translation": f.expressions(("0", "0", f"{number(-travel)}*{{t}}"), f.length)},
+            },
+        },
+        "Contact pairs": {
+            "low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
+            "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5}),
+        },
         **statics(k, f, end=reach(k, 1.0)),
     }
     checks = [must.finite, must.balanced("die", "ram"), must.yields, must.diagonal_symmetry, must.jacobians]
@@ -292,7 +422,9 @@ def upset(k):
         checks += [must.energies]
     if k.strained:
         checks += [must.strained]
-    return Setup(k, f, sections, checks, height=h, strain=k.strain, friction=friction(k), travel=travel, layers=n)
+    return Setup(
+        k, f, sections, checks, height=h, strain=k.strain, friction=friction(k), travel=travel, layers=n
+    )
 
 
 def pull(k):
@@ -300,13 +432,41 @@ def pull(k):
     f, n, h = frame_of(k), k.bricks or 1, k.aspect
     top_moves = h * (math.exp(k.strain) - 1)
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, h)), [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
-                                 Supports={"grip": {"Boundary ids": 5, "Components": "z",
-                                                    "Displacement": f"0 ; 0 ; {f.expression(number(top_moves) + '*{t}', number(f.length) + '*')}"}})},
+        "Bodies": {
+            "block": body(
+                k,
+                f,
+                box((n, n, n), (0, 0, 0), (1, 1, h)),
+                [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
+                Supports={
+                    "grip": {
+                        "Boundary ids": 5,
+                        "Components": "z",
+                        "Displacement": (
+                            f"0 ; 0 ; {f.expression(number(top_moves) + '*{t}', number(f.length) + '*')}"
+                        ),
+                    }
+                },
+            )
+        },
         **statics(k, f, end=reach(k, 1.0)),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.uniform_stress, must.bar_stress, must.jacobians],
-                 height=h, strain=k.strain, layers=n)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.diagonal_symmetry,
+            must.uniform_stress,
+            must.bar_stress,
+            must.jacobians,
+        ],
+        height=h,
+        strain=k.strain,
+        layers=n,
+    )
 
 
 def slide(k):
@@ -321,15 +481,35 @@ def slide(k):
         along = drawn(k, way)
     down = pressed(k)
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)),
-                                 Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
-        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1)),
-                          "Motion": {"Translation": f.expressions((along, "0", "0"), f.length)}}},
+        "Bodies": {
+            "block": body(
+                k,
+                f,
+                box((n, n, n), (0, 0, 0), (1, 1, 1)),
+                Supports={
+                    "head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}
+                },
+            )
+        },
+        "Tools": {
+            "die": {
+                "Surfaces": plane(f, (0, 0, 0), (0, 0, 1)),
+                "Motion": {"Translation": f.expressions((along, "0", "0"), f.length)},
+            }
+        },
         "Contact pairs": {"foot": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4})},
         **statics(k, f, end=end if k.cycles else reach(k, end), stops=(1.0,) if k.step is None else ()),
     }
-    checks = [must.finite, must.yields, must.cone, must.force_cone("die"), must.mirror((0, 1, 0), 0.5), must.energies,
-              must.pushes("die"), must.jacobians]
+    checks = [
+        must.finite,
+        must.yields,
+        must.cone,
+        must.force_cone("die"),
+        must.mirror((0, 1, 0), 0.5),
+        must.energies,
+        must.pushes("die"),
+        must.jacobians,
+    ]
     if not k.cycles:
         checks.append(must.gross_slip("die"))
     if k.kinematics == "Hencky" and k.cycles:
@@ -343,50 +523,119 @@ def ball(k):
     r = k.radius
     depth = k.press * 5 * min(r, 1.0)
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, 2), (0, 0, 0), (1, 1, 0.7)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
-        "Tools": {"bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
-                  "ball": {"Surfaces": {"sphere": {"Shape": "sphere", "Centre": f.vector((0, 0, 0.7 + r), f.length),
-                                                   "Radius": number(r * f.length), "Axis": f.vector((0, 0, 1))}},
-                           "Motion": {"Translation": f.expressions(("0", "0", f"{number(-depth)}*{{t}}"), f.length)}}},
-        "Contact pairs": {"low": pair(k.but({"mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
-                          "high": pair(k, f, Body="block", Tool="ball", **{"Boundary ids": 5})},
+        "Bodies": {
+            "block": body(k, f, box((n, n, 2), (0, 0, 0), (1, 1, 0.7)), [((1, 0, 0), 0), ((0, 1, 0), 0)])
+        },
+        "Tools": {
+            "bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+            "ball": {
+                "Surfaces": {
+                    "sphere": {
+                        "Shape": "sphere",
+                        "Centre": f.vector((0, 0, 0.7 + r), f.length),
+                        "Radius": number(r * f.length),
+                        "Axis": f.vector((0, 0, 1)),
+                    }
+                },
+                "Motion": {"Translation": f.expressions(("0", "0", f"{number(-depth)}*{{t}}"), f.length)},
+            },
+        },
+        "Contact pairs": {
+            "low": pair(k.but({"mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+            "high": pair(k, f, Body="block", Tool="ball", **{"Boundary ids": 5}),
+        },
         **statics(k, f, end=reach(k, 1.0)),
     }
-    return Setup(k, f, sections, [must.finite, must.balanced("bed", "ball"), must.yields, must.diagonal_symmetry, must.cone,
-                                  must.energies, must.depth_bound("ball", depth), must.jacobians],
-                 friction=friction(k))
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.balanced("bed", "ball"),
+            must.yields,
+            must.diagonal_symmetry,
+            must.cone,
+            must.energies,
+            must.depth_bound("ball", depth),
+            must.jacobians,
+        ],
+        friction=friction(k),
+    )
 
 
 def twist(k):
     """A plane tool pressed on a block and turned, or swung, about an axis through the middle node."""
     f, n = frame_of(k), k.bricks or 2
-    angle = (f"{number(2 * math.pi * k.turns)}*sin(2*pi*{number(k.oscillations)}*({{t}} - 1))*({{t}} > 1)" if k.oscillations
-             else drawn(k, 2 * math.pi * k.turns))
+    angle = (
+        f"{number(2 * math.pi * k.turns)}*sin(2*pi*{number(k.oscillations)}*({{t}} - 1))*({{t}} > 1)"
+        if k.oscillations
+        else drawn(k, 2 * math.pi * k.turns)
+    )
     down = pressed(k)
-    turned = {"Rotation angle": f.expression(angle)} if k.moment is None else {
-        "Moment": f.expression(f"{number(k.moment * k.young)}*if({{t}} > 1, {{t}} - 1, 0)", number(f.energy) + "*")}
+    turned = (
+        {"Rotation angle": f.expression(angle)}
+        if k.moment is None
+        else {
+            "Moment": f.expression(
+                f"{number(k.moment * k.young)}*if({{t}} > 1, {{t}} - 1, 0)", number(f.energy) + "*"
+            )
+        }
+    )
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)),
-                                 Supports={"foot": {"Boundary ids": 4}})},
-        "Tools": {"ram": {"Surfaces": plane(f, (0, 0, 0.5), (0, 0, -1)),
-                          "Motion": {"Translation": f.expressions(("0", "0", down), f.length),
-                                     **turned, "Rotation axis": f.vector((0, 0, 1)),
-                                     "Centre": f.vector((0, 0, 0.5), f.length)}}},
+        "Bodies": {
+            "block": body(
+                k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)), Supports={"foot": {"Boundary ids": 4}}
+            )
+        },
+        "Tools": {
+            "ram": {
+                "Surfaces": plane(f, (0, 0, 0.5), (0, 0, -1)),
+                "Motion": {
+                    "Translation": f.expressions(("0", "0", down), f.length),
+                    **turned,
+                    "Rotation axis": f.vector((0, 0, 1)),
+                    "Centre": f.vector((0, 0, 0.5), f.length),
+                },
+            }
+        },
         "Contact pairs": {"head": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **statics(k, f, end=reach(k, 2.0), stops=(1.0,) if k.step is None else ()),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.sideways_free("ram"), must.quarter_turn,
-                                  must.energies, must.moment_cone("ram"), must.jacobians,
-                                  *([] if k.moment is None else [must.driven("ram.moment_z", k.moment * k.young)])], friction=friction(k), slip_rate=k.turns * 5)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.sideways_free("ram"),
+            must.quarter_turn,
+            must.energies,
+            must.moment_cone("ram"),
+            must.jacobians,
+            *([] if k.moment is None else [must.driven("ram.moment_z", k.moment * k.young)]),
+        ],
+        friction=friction(k),
+        slip_rate=k.turns * 5,
+    )
 
 
 def features(f, k):
-    """Tools with edges, poles, axes, apices and seams exactly where nodes of the block are; faces at z = 0.5, looking down."""
+    """Tools with edges, poles, axes, apices and seams exactly where nodes of the block are; faces at z = 0.5,
+    looking down."""
     v, w = (lambda p: f.vector(p, f.length)), f.vector
 
     def rectangle(x, y, a, b):
-        return {"Shape": "rectangle", "Centre": v((x, y, 0.5)), "Normal": w((0, 0, -1)), "Direction": w((1, 0, 0)),
-                "Length": number(a * f.length), "Width": number(b * f.length)}
+        return {
+            "Shape": "rectangle",
+            "Centre": v((x, y, 0.5)),
+            "Normal": w((0, 0, -1)),
+            "Direction": w((1, 0, 0)),
+            "Length": number(a * f.length),
+            "Width": number(b * f.length),
+        }
 
     down = w((0, 0, -1))
     return {
@@ -394,22 +643,88 @@ def features(f, k):
         "rectangle of its size": {"a": rectangle(0, 0, 2, 2)},
         "coplanar": {"a": rectangle(-0.5, 0, 1, 4), "b": rectangle(1, 0, 2, 4)},
         "coincident": {"a": rectangle(0, 0, 4, 4), "b": rectangle(0, 0, 4, 4)},
-        "disc": {"a": {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Radius": number(0.5 * f.length)}},
-        "ring": {"a": {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Inner radius": number(0.5 * f.length),
-                       "Radius": number(3 * f.length)}},
-        "sectors": {str(i): {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Radius": number(3 * f.length), "Sector": 90,
-                             "Start": w(d)} for i, d in enumerate(((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)))},
-        "pole": {"a": {"Shape": "sphere", "Centre": v((0, 0, 2.5)), "Radius": number(2 * f.length), "Axis": w((0, 0, 1))}},
-        "pole aside": {"a": {"Shape": "sphere", "Centre": v((0, 0, 2.5)), "Radius": number(2 * f.length), "Axis": w((1, 1, 0))}},
-        "apex": {"a": {"Shape": "cone", "Apex": v((0, 0, 0.5)), "Axis": w((0, 0, 1)), "Half angle": 80, "To height": number(f.length)}},
-        "torus": {"a": {"Shape": "torus", "Centre": v((0, 0, 1)), "Axis": w((0, 0, 1)), "Ring radius": number(0.5 * f.length),
-                        "Tube radius": number(0.5 * f.length)}},
-        "profile": {"a": {"Shape": "revolved profile", "Corners": f"0, 0 ; {number(0.5 * f.length)}, 0 ; {number(2 * f.length)}, {number(0.5 * f.length)}",
-                          "Origin": v((0, 0, 0.5)), "Axis": w((0, 0, 1)), "Outside": "right"}},
-        "seams": {str(i): {"Shape": "coons patch", "Curves": " ; ".join(
-            f"line: {v(a)} to {v(b)}" for a, b in zip(c, c[1:] + c[:1]))} for i, c in enumerate(
-                [[(0, 0, 0.5), (0, 2, 0.5), (2, 2, 0.5), (2, 0, 0.5)], [(0, 0, 0.5), (2, 0, 0.5), (2, -2, 0.5), (0, -2, 0.5)],
-                 [(0, 0, 0.5), (0, -2, 0.5), (-2, -2, 0.5), (-2, 0, 0.5)], [(0, 0, 0.5), (-2, 0, 0.5), (-2, 2, 0.5), (0, 2, 0.5)]])},
+        "disc": {
+            "a": {"Shape": "disc", "Centre": v((0, 0, 0.5)), "Normal": down, "Radius": number(0.5 * f.length)}
+        },
+        "ring": {
+            "a": {
+                "Shape": "disc",
+                "Centre": v((0, 0, 0.5)),
+                "Normal": down,
+                "Inner radius": number(0.5 * f.length),
+                "Radius": number(3 * f.length),
+            }
+        },
+        "sectors": {
+            str(i): {
+                "Shape": "disc",
+                "Centre": v((0, 0, 0.5)),
+                "Normal": down,
+                "Radius": number(3 * f.length),
+                "Sector": 90,
+                "Start": w(d),
+            }
+            for i, d in enumerate(((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)))
+        },
+        "pole": {
+            "a": {
+                "Shape": "sphere",
+                "Centre": v((0, 0, 2.5)),
+                "Radius": number(2 * f.length),
+                "Axis": w((0, 0, 1)),
+            }
+        },
+        "pole aside": {
+            "a": {
+                "Shape": "sphere",
+                "Centre": v((0, 0, 2.5)),
+                "Radius": number(2 * f.length),
+                "Axis": w((1, 1, 0)),
+            }
+        },
+        "apex": {
+            "a": {
+                "Shape": "cone",
+                "Apex": v((0, 0, 0.5)),
+                "Axis": w((0, 0, 1)),
+                "Half angle": 80,
+                "To height": number(f.length),
+            }
+        },
+        "torus": {
+            "a": {
+                "Shape": "torus",
+                "Centre": v((0, 0, 1)),
+                "Axis": w((0, 0, 1)),
+                "Ring radius": number(0.5 * f.length),
+                "Tube radius": number(0.5 * f.length),
+            }
+        },
+        "profile": {
+            "a": {
+                "Shape": "revolved profile",
+                "Corners": (
+                    f"0, 0 ; {number(0.5 * f.length)}, 0 ; {number(2 * f.length)}, {number(0.5 * f.length)}"
+                ),
+                "Origin": v((0, 0, 0.5)),
+                "Axis": w((0, 0, 1)),
+                "Outside": "right",
+            }
+        },
+        "seams": {
+            str(i): {
+                "Shape": "coons patch",
+                "Curves": " ; ".join(f"line: {v(a)} to {v(b)}" for a, b in zip(c, c[1:] + c[:1])),
+            }
+            for i, c in enumerate(
+                [
+                    [(0, 0, 0.5), (0, 2, 0.5), (2, 2, 0.5), (2, 0, 0.5)],
+                    [(0, 0, 0.5), (2, 0, 0.5), (2, -2, 0.5), (0, -2, 0.5)],
+                    [(0, 0, 0.5), (0, -2, 0.5), (-2, -2, 0.5), (-2, 0, 0.5)],
+                    [(0, 0, 0.5), (-2, 0, 0.5), (-2, 2, 0.5), (0, 2, 0.5)],
+                ]
+            )
+        },
     }
 
 
@@ -420,15 +735,31 @@ def place(k):
     """A quarter of a block pressed on a bed by a tool whose features are exactly on nodes."""
     f, n = frame_of(k), k.bricks or 2
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, 1), (0, 0, 0), (1, 1, 0.5)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
-        "Tools": {"bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
-                  "ram": {"Surfaces": features(f, k)[k.feature],
-                          "Motion": {"Translation": f.expressions(("0", "0", f"{number(-k.press)}*{{t}}"), f.length)}}},
-        "Contact pairs": {"low": pair(k.but({"mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
-                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        "Bodies": {
+            "block": body(k, f, box((n, n, 1), (0, 0, 0), (1, 1, 0.5)), [((1, 0, 0), 0), ((0, 1, 0), 0)])
+        },
+        "Tools": {
+            "bed": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+            "ram": {
+                "Surfaces": features(f, k)[k.feature],
+                "Motion": {"Translation": f.expressions(("0", "0", f"{number(-k.press)}*{{t}}"), f.length)},
+            },
+        },
+        "Contact pairs": {
+            "low": pair(k.but({"mu": 0.0}), f, Body="block", Tool="bed", **{"Boundary ids": 4}),
+            "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5}),
+        },
         **statics(k, f, end=reach(k, 1.0)),
     }
-    checks = [must.finite, must.balanced("bed", "ram"), must.yields, must.cone, must.energies, must.depth_bound("ram", k.press), must.jacobians]
+    checks = [
+        must.finite,
+        must.balanced("bed", "ram"),
+        must.yields,
+        must.cone,
+        must.energies,
+        must.depth_bound("ram", k.press),
+        must.jacobians,
+    ]
     if k.feature not in ("coplanar",) or k.mu == 0:
         checks.append(must.diagonal_symmetry)
     return Setup(k, f, sections, checks, friction=friction(k))
@@ -438,23 +769,34 @@ def rest(k):
     """A block that just touches two tools, and nothing moves."""
     f, n = frame_of(k), k.bricks or 2
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)), [((1, 0, 0), 0), ((0, 1, 0), 0)])},
-        "Tools": {"die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}, "ram": {"Surfaces": plane(f, (0, 0, 1), (0, 0, -1))}},
-        "Contact pairs": {"low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
-                          "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
+        "Bodies": {
+            "block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, 1)), [((1, 0, 0), 0), ((0, 1, 0), 0)])
+        },
+        "Tools": {
+            "die": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))},
+            "ram": {"Surfaces": plane(f, (0, 0, 1), (0, 0, -1))},
+        },
+        "Contact pairs": {
+            "low": pair(k, f, Body="block", Tool="die", **{"Boundary ids": 4}),
+            "high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5}),
+        },
         **statics(k, f),
     }
     return Setup(k, f, sections, [must.finite, must.nothing_happens])
 
 
-# --- statics between bodies --------------------------------------------------------------------------------------------------
+# --- statics between bodies -----------------------------------------------------------------------
+
 
 def contact_of_bodies(k):
-    return {name: value for name, value in {"Facets": k.facets, "Passes": k.passes}.items() if value is not None}
+    return {
+        name: value for name, value in {"Facets": k.facets, "Passes": k.passes}.items() if value is not None
+    }
 
 
 def stack(k):
-    """Two confined blocks pressed on each other: the stress is uniform. Their meshes do not fit where facets overlap."""
+    """Two confined blocks pressed on each other: the stress is uniform. Their meshes do not fit where facets
+    overlap."""
     f = frame_of(k)
     over = k.facets in (None, "overlap")
     n = (3, 2) if over else (2, 2)
@@ -463,16 +805,51 @@ def stack(k):
     lower, upper = k.young, k.young * k.modulus_ratio
     sections = {
         "Bodies": {
-            "lower": body(k, f, box((n[0], n[0], 1), (0, 0, -1), (1, 1, 0)), sides, young=lower,
-                          Supports={"foot": {"Boundary ids": 4}}),
-            "upper": body(k, f, box((n[1], n[1], 1), (0, 0, 0), (1, 1, 1)), sides, young=upper,
-                          Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}})},
-        "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
-                                        **contact_of_bodies(k))},
+            "lower": body(
+                k,
+                f,
+                box((n[0], n[0], 1), (0, 0, -1), (1, 1, 0)),
+                sides,
+                young=lower,
+                Supports={"foot": {"Boundary ids": 4}},
+            ),
+            "upper": body(
+                k,
+                f,
+                box((n[1], n[1], 1), (0, 0, 0), (1, 1, 1)),
+                sides,
+                young=upper,
+                Supports={
+                    "head": {"Boundary ids": 5, "Displacement": f.expressions(("0", "0", down), f.length)}
+                },
+            ),
+        },
+        "Contact pairs": {
+            "joint": pair(
+                k,
+                f,
+                Body="upper",
+                **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                **contact_of_bodies(k),
+            )
+        },
         **statics(k, f, end=reach(k, 1.0)),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.stack(lower, upper), must.uniform_stress_of_bodies,
-                                  must.energies, must.jacobians], friction=friction(k))
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.stack(lower, upper),
+            must.uniform_stress_of_bodies,
+            must.energies,
+            must.jacobians,
+        ],
+        friction=friction(k),
+    )
 
 
 def touching(k):
@@ -489,15 +866,50 @@ def drag(k):
     lower, upper = k.young, k.young * k.modulus_ratio
     sections = {
         "Bodies": {
-            "lower": body(k, f, box((3, 2, 1), (-0.25, -0.25, -0.5), (1.5, 1.25, 0)), young=lower, Supports={"foot": {"Boundary ids": 4}}),
-            "upper": body(k, f, box((2, 2, 1), (0, 0, 0), (1, 1, 0.5)), young=upper,
-                          Supports={"head": {"Boundary ids": 5, "Displacement": f.expressions((along, "0", down), f.length)}})},
-        "Contact pairs": {"joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
-                                        **contact_of_bodies(k))},
+            "lower": body(
+                k,
+                f,
+                box((3, 2, 1), (-0.25, -0.25, -0.5), (1.5, 1.25, 0)),
+                young=lower,
+                Supports={"foot": {"Boundary ids": 4}},
+            ),
+            "upper": body(
+                k,
+                f,
+                box((2, 2, 1), (0, 0, 0), (1, 1, 0.5)),
+                young=upper,
+                Supports={
+                    "head": {"Boundary ids": 5, "Displacement": f.expressions((along, "0", down), f.length)}
+                },
+            ),
+        },
+        "Contact pairs": {
+            "joint": pair(
+                k,
+                f,
+                Body="upper",
+                **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                **contact_of_bodies(k),
+            )
+        },
         **statics(k, f, end=reach(k, 2.0), stops=(1.0,) if k.step is None else ()),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.force_cone("joint"), must.mirror((0, 1, 0), 0.5),
-                                  must.energies, must.jacobians], friction=friction(k), slip_rate=k.slide)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.force_cone("joint"),
+            must.mirror((0, 1, 0), 0.5),
+            must.energies,
+            must.jacobians,
+        ],
+        friction=friction(k),
+        slip_rate=k.slide,
+    )
 
 
 def clip(k):
@@ -505,16 +917,33 @@ def clip(k):
     f, n = frame_of(k), k.bricks or 12
     gap = 0.1
     half = math.pi - 0.5 * gap
-    mesh = box((1, n, 1), (1, 0, 0), (1.25, 1, 0.25), Positions=f"x*cos({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; "
-               f"x*sin({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; z")
+    mesh = box(
+        (1, n, 1),
+        (1, 0, 0),
+        (1.25, 1, 0.25),
+        Positions=(
+            f"x*cos({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; "
+            f"x*sin({number(math.pi + half)} - {number(2 * half)}*(1 - y)) ; z"
+        ),
+    )
     # the outer faces next to the ends, and the one opposite
     sin_first = 1.25 * math.sin(0.5 * gap + half / n)
-    mesh["Boundary ids"] = (f"7 : (x < -1.1)*(x*x + y*y > {number(1.2**2)}) ; 8 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y > 0)*(y < {number(1.2 * sin_first)}) ; "
-                            f"9 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y < 0)*(y > {number(-1.2 * sin_first)})")
+    mesh["Boundary ids"] = (
+        f"7 : (x < -1.1)*(x*x + y*y > {number(1.2**2)}) ; 8 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y >"
+        f" 0)*(y < {number(1.2 * sin_first)}) ; 9 : (x > 0)*(x*x + y*y > {number(1.2**2)})*(y < 0)*(y >"
+        f" {number(-1.2 * sin_first)})"
+    )
     if f.length != 1.0:
         s = number(f.length)
-        mesh["Boundary ids"] = mesh["Boundary ids"].replace("x*x", f"(x*x/{s}^2)").replace("y*y", f"(y*y/{s}^2)").replace(
-            "(x <", f"(x/{s} <").replace("(x >", f"(x/{s} >").replace("(y <", f"(y/{s} <").replace("(y >", f"(y/{s} >")
+        mesh["Boundary ids"] = (
+            mesh["Boundary ids"]
+            .replace("x*x", f"(x*x/{s}^2)")
+            .replace("y*y", f"(y*y/{s}^2)")
+            .replace("(x <", f"(x/{s} <")
+            .replace("(x >", f"(x/{s} >")
+            .replace("(y <", f"(y/{s} <")
+            .replace("(y >", f"(y/{s} >")
+        )
     close = 0.5 * gap * 1.1 * 4 * k.press / 0.08 * 1.0
     move = f"{number(close)}*{{t}}"
 
@@ -522,18 +951,45 @@ def clip(k):
         return f"0 ; {f.expression(sign + move, number(f.length) + '*')} ; 0"
 
     sections = {
-        "Bodies": {"ring": body(k, f, mesh, [((0, 0, 1), 0)], Supports={
-            "back": {"Boundary ids": 7},
-            "above": {"Boundary ids": 8, "Components": "y", "Displacement": pinch("-")},
-            "below": {"Boundary ids": 9, "Components": "y", "Displacement": pinch("")}})},
-        "Contact pairs": {"ends": pair(k, f, Body="ring", **{"Boundary ids": "2, 3", "Second body": "ring"}, **contact_of_bodies(k))},
+        "Bodies": {
+            "ring": body(
+                k,
+                f,
+                mesh,
+                [((0, 0, 1), 0)],
+                Supports={
+                    "back": {"Boundary ids": 7},
+                    "above": {"Boundary ids": 8, "Components": "y", "Displacement": pinch("-")},
+                    "below": {"Boundary ids": 9, "Components": "y", "Displacement": pinch("")},
+                },
+            )
+        },
+        "Contact pairs": {
+            "ends": pair(
+                k, f, Body="ring", **{"Boundary ids": "2, 3", "Second body": "ring"}, **contact_of_bodies(k)
+            )
+        },
         **statics(k, f, end=reach(k, 1.0)),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.energies, must.jacobians,
-                                  must.touches("ends")], friction=friction(k))
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.mirror((0, 1, 0), 0.0),
+            must.energies,
+            must.jacobians,
+            must.touches("ends"),
+        ],
+        friction=friction(k),
+    )
 
 
-# --- dynamics ----------------------------------------------------------------------------------------------------------------
+# --- dynamics -------------------------------------------------------------------------------------
+
 
 def velocity(f, v):
     return " ; ".join(number(x) for x in f.turned(v) * f.speed)
@@ -547,20 +1003,44 @@ def drop(k, scheme):
     gap = min(0.02, 0.5 * k.speed)
     end = k.duration * (gap / v + 5.0 / c)
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, gap), (0.5, 0.5, 1 + gap)), density=k.density,
-                                 **{"Initial velocity": velocity(f, (0, 0, -v))})},
+        "Bodies": {
+            "block": body(
+                k,
+                f,
+                box((n, n, n), (-0.5, -0.5, gap), (0.5, 0.5, 1 + gap)),
+                density=k.density,
+                **{"Initial velocity": velocity(f, (0, 0, -v))},
+            )
+        },
         "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
         "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
         **dynamics(k, f, scheme, end),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((1, 0, 0), 0.0), must.mirror((0, 1, 0), 0.0),
-                                  must.diagonal_symmetry, must.drift, must.impulse("floor", v), must.energy_not_made, must.jacobians],
-                 friction=friction(k), mass=k.density, speed=v)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.mirror((1, 0, 0), 0.0),
+            must.mirror((0, 1, 0), 0.0),
+            must.diagonal_symmetry,
+            must.drift,
+            must.impulse("floor", v),
+            must.energy_not_made,
+            must.jacobians,
+        ],
+        friction=friction(k),
+        mass=k.density,
+        speed=v,
+    )
 
 
 def strike(k, scheme):
-    """A quarter of a block flies up against a tool whose features are exactly on nodes, and back; with a radius, against a ball
-    whose pole is on one. A whole block where the tool turns."""
+    """A quarter of a block flies up against a tool whose features are exactly on nodes, and back; with a
+    radius, against a ball whose pole is on one. A whole block where the tool turns."""
     f, n = frame_of(k), k.bricks or 2
     c = bar_speed(k.young, k.density)
     v = k.speed * c
@@ -568,29 +1048,70 @@ def strike(k, scheme):
     end = k.duration * (gap / v + 5.0 / c)
     turns = k.turns != KNOBS["turns"] or k.oscillations > 0
     r = k.radius
-    surfaces = features(f, k)[k.feature] if r == KNOBS["radius"] else {
-        "a": {"Shape": "sphere", "Centre": f.vector((0, 0, 0.5 + r), f.length), "Radius": number(r * f.length), "Axis": f.vector((0, 0, 1))}}
-    angle = (f"{number(2 * math.pi * k.turns)}*sin({number(2 * math.pi * k.oscillations / end)}*{{t}})" if k.oscillations
-             else f"{number(2 * math.pi * k.turns / end)}*{{t}}")
-    motion = {"Motion": {"Rotation angle": f.expression(angle), "Rotation axis": f.vector((0, 0, 1)),
-                         "Centre": f.vector((0, 0, 0.5), f.length)}} if turns else {}
+    surfaces = (
+        features(f, k)[k.feature]
+        if r == KNOBS["radius"]
+        else {
+            "a": {
+                "Shape": "sphere",
+                "Centre": f.vector((0, 0, 0.5 + r), f.length),
+                "Radius": number(r * f.length),
+                "Axis": f.vector((0, 0, 1)),
+            }
+        }
+    )
+    angle = (
+        f"{number(2 * math.pi * k.turns)}*sin({number(2 * math.pi * k.oscillations / end)}*{{t}})"
+        if k.oscillations
+        else f"{number(2 * math.pi * k.turns / end)}*{{t}}"
+    )
+    motion = (
+        {
+            "Motion": {
+                "Rotation angle": f.expression(angle),
+                "Rotation axis": f.vector((0, 0, 1)),
+                "Centre": f.vector((0, 0, 0.5), f.length),
+            }
+        }
+        if turns
+        else {}
+    )
     sections = {
-        "Bodies": {"block": body(k, f, box((2 * n, 2 * n, 2), (-1, -1, -0.5 - gap), (1, 1, 0.5 - gap)) if turns else
-                                 box((n, n, 2), (0, 0, -0.5 - gap), (1, 1, 0.5 - gap)), None if turns else [((1, 0, 0), 0), ((0, 1, 0), 0)],
-                                 density=k.density, **{"Initial velocity": velocity(f, (0, 0, v))})},
+        "Bodies": {
+            "block": body(
+                k,
+                f,
+                (
+                    box((2 * n, 2 * n, 2), (-1, -1, -0.5 - gap), (1, 1, 0.5 - gap))
+                    if turns
+                    else box((n, n, 2), (0, 0, -0.5 - gap), (1, 1, 0.5 - gap))
+                ),
+                None if turns else [((1, 0, 0), 0), ((0, 1, 0), 0)],
+                density=k.density,
+                **{"Initial velocity": velocity(f, (0, 0, v))},
+            )
+        },
         "Tools": {"ram": {"Surfaces": surfaces, **motion}},
         "Contact pairs": {"top": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **dynamics(k, f, scheme, end),
     }
-    checks = [must.finite, must.yields, must.cone, must.drift, must.meets("ram"), must.jacobians,
-              *([must.quarter_turn, must.impulse("ram", v)] if turns else [must.energy_not_made])]
+    checks = [
+        must.finite,
+        must.yields,
+        must.cone,
+        must.drift,
+        must.meets("ram"),
+        must.jacobians,
+        *([must.quarter_turn, must.impulse("ram", v)] if turns else [must.energy_not_made]),
+    ]
     if not turns and (k.feature != "coplanar" or k.mu == 0):
         checks.append(must.diagonal_symmetry)
     return Setup(k, f, sections, checks, friction=friction(k), mass=(4 if turns else 1) * k.density, speed=v)
 
 
 def press(k, scheme):
-    """The bar of upset, pressed at a speed to a strain: a block on planes of symmetry under a tool that comes down."""
+    """The bar of upset, pressed at a speed to a strain: a block on planes of symmetry under a tool that comes
+    down."""
     f, n, h = frame_of(k), k.bricks or 2, k.aspect
     c = bar_speed(k.young, k.density)
     is_shaped = k.grading != 1 or k.distortion
@@ -602,16 +1123,46 @@ def press(k, scheme):
     v = min(k.speed * c, travel * c / (5 * h))  # waves go to and fro
     end = travel / v
     sections = {
-        "Bodies": {"block": body(k, f, mesh, [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)], density=k.density,
-                                 **{"Initial velocity": velocity(f, (0, 0, 0))})},
-        "Tools": {"ram": {"Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
-                          "Motion": {"Translation": f.expressions(("0", "0", f"{number(-v)}*{{t}}"), f.length)}}},
+        "Bodies": {
+            "block": body(
+                k,
+                f,
+                mesh,
+                [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
+                density=k.density,
+                **{"Initial velocity": velocity(f, (0, 0, 0))},
+            )
+        },
+        "Tools": {
+            "ram": {
+                "Surfaces": plane(f, (0, 0, h), (0, 0, -1)),
+                "Motion": {"Translation": f.expressions(("0", "0", f"{number(-v)}*{{t}}"), f.length)},
+            }
+        },
         "Contact pairs": {"high": pair(k, f, Body="block", Tool="ram", **{"Boundary ids": 5})},
         **dynamics(k, f, scheme, end),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.diagonal_symmetry, must.drift, must.depth_bound("ram", travel),
-                                  must.meets("ram"), must.jacobians] + ([must.strained] if k.strained else []),
-                 friction=friction(k), mass=h * k.density, speed=v, height=h, strain=k.strain)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.diagonal_symmetry,
+            must.drift,
+            must.depth_bound("ram", travel),
+            must.meets("ram"),
+            must.jacobians,
+        ]
+        + ([must.strained] if k.strained else []),
+        friction=friction(k),
+        mass=h * k.density,
+        speed=v,
+        height=h,
+        strain=k.strain,
+    )
 
 
 def stretch(k, scheme):
@@ -621,14 +1172,44 @@ def stretch(k, scheme):
     moves = h * math.expm1(k.strain)
     v = min(0.2 * k.speed * c, abs(moves) * c / (50 * max(h, 1.0)))  # waves go to and fro, sideways, too
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, n), (0, 0, 0), (1, 1, h)), [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)], density=k.density,
-                                 Supports={"grip": {"Boundary ids": 5, "Components": "z", "Displacement": f.expressions(
-                                     ("0", "0", f"{number(math.copysign(v, moves))}*{{t}}"), f.length)}},
-                                 **{"Initial velocity": velocity(f, (0, 0, 0))})},
+        "Bodies": {
+            "block": body(
+                k,
+                f,
+                box((n, n, n), (0, 0, 0), (1, 1, h)),
+                [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
+                density=k.density,
+                Supports={
+                    "grip": {
+                        "Boundary ids": 5,
+                        "Components": "z",
+                        "Displacement": f.expressions(
+                            ("0", "0", f"{number(math.copysign(v, moves))}*{{t}}"), f.length
+                        ),
+                    }
+                },
+                **{"Initial velocity": velocity(f, (0, 0, 0))},
+            )
+        },
         **dynamics(k, f, scheme, abs(moves) / v),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.drift, must.strained, must.bar_in_motion, must.jacobians],
-                 speed=v, height=h, strain=k.strain)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.diagonal_symmetry,
+            must.drift,
+            must.strained,
+            must.bar_in_motion,
+            must.jacobians,
+        ],
+        speed=v,
+        height=h,
+        strain=k.strain,
+    )
 
 
 def bar(k, scheme):
@@ -640,19 +1221,42 @@ def bar(k, scheme):
     width = 1.0 / n
     end = 1.6 / c
     sections = {
-        "Bodies": {"bar": body(k, f, box((1, 1, n), (0, 0, 0), (width, width, 1)), density=k.density,
-                               **{"Initial velocity": velocity(f, (0, 0, -v))})},
+        "Bodies": {
+            "bar": body(
+                k,
+                f,
+                box((1, 1, n), (0, 0, 0), (width, width, 1)),
+                density=k.density,
+                **{"Initial velocity": velocity(f, (0, 0, -v))},
+            )
+        },
         "Tools": {"wall": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
         "Contact pairs": {"end": pair(k, f, Body="bar", Tool="wall", **{"Boundary ids": 4})},
         **dynamics(k, f, scheme, end),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.drift, must.energy_not_made,
-                                  must.impact_force("wall", k.density * c * v * width**2, 0.5 / c, 1.5 / c), must.impulse("wall", v),
-                                  must.jacobians], mass=k.density * width**2, speed=v, friction=friction(k))
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.diagonal_symmetry,
+            must.drift,
+            must.energy_not_made,
+            must.impact_force("wall", k.density * c * v * width**2, 0.5 / c, 1.5 / c),
+            must.impulse("wall", v),
+            must.jacobians,
+        ],
+        mass=k.density * width**2,
+        speed=v,
+        friction=friction(k),
+    )
 
 
 def bars(k, scheme):
-    """A bar hits another one at rest, both free: momentum stays, and the force is that of the two impedances."""
+    """A bar hits another one at rest, both free: momentum stays, and the force is that of the two
+    impedances."""
     f, n = frame_of(k), k.bricks or 8
     k = k.but({"nu": 0.0}) if k.nu == KNOBS["nu"] else k
     young, density = (k.young, k.young * k.modulus_ratio), (k.density, k.density * k.density_ratio)
@@ -660,35 +1264,80 @@ def bars(k, scheme):
     v = k.speed * min(speeds)
     width = 1.0 / n
     end = 1.6 / max(speeds)
+
     def made(low, high, i, initial):
-        return body(k, f, box((1, 1, n), (0, 0, low), (width, width, high)), young=young[i], density=density[i],
-                    **({"Initial velocity": velocity(f, (0, 0, initial))} if initial else {}))
+        return body(
+            k,
+            f,
+            box((1, 1, n), (0, 0, low), (width, width, high)),
+            young=young[i],
+            density=density[i],
+            **({"Initial velocity": velocity(f, (0, 0, initial))} if initial else {}),
+        )
+
     sections = {
         "Bodies": {"low": made(-1, 0, 0, 0), "high": made(0, 1, 1, -v)},
-        "Contact pairs": {"joint": pair(k, f, Body="high", **{"Boundary ids": 4, "Second body": "low", "Second boundary ids": 5},
-                                        **contact_of_bodies(k))},
+        "Contact pairs": {
+            "joint": pair(
+                k,
+                f,
+                Body="high",
+                **{"Boundary ids": 4, "Second body": "low", "Second boundary ids": 5},
+                **contact_of_bodies(k),
+            )
+        },
         **dynamics(k, f, scheme, end),
     }
     z = [math.sqrt(e * r) for e, r in zip(young, density)]
     force = z[0] * z[1] / (z[0] + z[1]) * v * width**2
     mass = density[1] * width**2
-    return Setup(k, f, sections, [must.finite, must.yields, must.diagonal_symmetry, must.drift, must.energy_not_made,
-                                  must.momentum((0, 0, -mass * v), mass * v),
-                                  *([must.impact_force("joint", force, 0.5 / max(speeds), 1.4 / max(speeds))]
-                                    if 0.3 <= speeds[1] / speeds[0] <= 3 else []), must.jacobians],
-                 mass=mass, speed=v, friction=friction(k))
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.diagonal_symmetry,
+            must.drift,
+            must.energy_not_made,
+            must.momentum((0, 0, -mass * v), mass * v),
+            *(
+                [must.impact_force("joint", force, 0.5 / max(speeds), 1.4 / max(speeds))]
+                if 0.3 <= speeds[1] / speeds[0] <= 3
+                else []
+            ),
+            must.jacobians,
+        ],
+        mass=mass,
+        speed=v,
+        friction=friction(k),
+    )
 
 
 def flung(k, f, speed, gravity):
     """A block with a speed along x, that weighs."""
     n = k.bricks or 2
-    return body(k, f, box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)), density=k.density,
-                **{"Initial velocity": velocity(f, (speed, 0, 0)),
-                   "Loads": {"gravity": {"Type": "acceleration", "Acceleration": f.expressions(("0", "0", number(-gravity)), f.acceleration)}}})
+    return body(
+        k,
+        f,
+        box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)),
+        density=k.density,
+        **{
+            "Initial velocity": velocity(f, (speed, 0, 0)),
+            "Loads": {
+                "gravity": {
+                    "Type": "acceleration",
+                    "Acceleration": f.expressions(("0", "0", number(-gravity)), f.acceleration),
+                }
+            },
+        },
+    )
 
 
 def skid(k, scheme):
-    """A block with a speed along a plane, under gravity: friction takes no more momentum than its limit allows."""
+    """A block with a speed along a plane, under gravity: friction takes no more momentum than its limit
+    allows."""
     f = frame_of(k)
     c = bar_speed(k.young, k.density)
     v, g = k.speed * c, 0.002 * c * c
@@ -699,9 +1348,24 @@ def skid(k, scheme):
         "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
         **dynamics(k, f, scheme, end),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.drift,
-                                  must.skidding(k.density * 0.5, v, g), must.jacobians], friction=friction(k), mass=0.5 * k.density, speed=v,
-                 slip_rate=v)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.mirror((0, 1, 0), 0.0),
+            must.drift,
+            must.skidding(k.density * 0.5, v, g),
+            must.jacobians,
+        ],
+        friction=friction(k),
+        mass=0.5 * k.density,
+        speed=v,
+        slip_rate=v,
+    )
 
 
 def glide(k, scheme):
@@ -710,15 +1374,46 @@ def glide(k, scheme):
     c = bar_speed(k.young, k.density)
     v, g = k.speed * c, 0.002 * c * c
     sections = {
-        "Bodies": {"block": flung(k, f, v, g),
-                   "bed": body(k, f, box((3, 3, 1), (-1.5, -0.9, -0.5), (1.5, 0.9, 0)), young=k.young * k.modulus_ratio, density=k.density,
-                               Supports={"foot": {"Boundary ids": 4}})},
-        "Contact pairs": {"foot": pair(k, f, Body="block", **{"Boundary ids": 4, "Second body": "bed", "Second boundary ids": 5},
-                                       **contact_of_bodies(k))},
+        "Bodies": {
+            "block": flung(k, f, v, g),
+            "bed": body(
+                k,
+                f,
+                box((3, 3, 1), (-1.5, -0.9, -0.5), (1.5, 0.9, 0)),
+                young=k.young * k.modulus_ratio,
+                density=k.density,
+                Supports={"foot": {"Boundary ids": 4}},
+            ),
+        },
+        "Contact pairs": {
+            "foot": pair(
+                k,
+                f,
+                Body="block",
+                **{"Boundary ids": 4, "Second body": "bed", "Second boundary ids": 5},
+                **contact_of_bodies(k),
+            )
+        },
         **dynamics(k, f, scheme, 40.0 / c * k.duration),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.force_cone("foot"), must.mirror((0, 1, 0), 0.0), must.drift,
-                                  must.jacobians], friction=friction(k), mass=0.5 * k.density, speed=v, slip_rate=v)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.force_cone("foot"),
+            must.mirror((0, 1, 0), 0.0),
+            must.drift,
+            must.jacobians,
+        ],
+        friction=friction(k),
+        mass=0.5 * k.density,
+        speed=v,
+        slip_rate=v,
+    )
 
 
 def fold(k, scheme):
@@ -733,10 +1428,27 @@ def fold(k, scheme):
     y = "y" if f.length == 1.0 else f"(y/{number(f.length)})"
     x = "x" if f.length == 1.0 else f"(x/{number(f.length)})"
     ring["Initial velocity"] = f"0 ; {number(-v * f.speed)}*{y}*({x} > 0)*{x} ; 0"
-    sections = {**{n: s for n, s in setup.sections.items() if n in ("Bodies", "Contact pairs")},
-                **dynamics(k, f, scheme, k.duration * 0.25 / v)}
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((0, 1, 0), 0.0), must.drift, must.energy_not_made,
-                                  must.momentum((0, 0, 0), k.density * 0.5 * v, held=(2,)), must.jacobians], friction=friction(k), speed=v)
+    sections = {
+        **{n: s for n, s in setup.sections.items() if n in ("Bodies", "Contact pairs")},
+        **dynamics(k, f, scheme, k.duration * 0.25 / v),
+    }
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.mirror((0, 1, 0), 0.0),
+            must.drift,
+            must.energy_not_made,
+            must.momentum((0, 0, 0), k.density * 0.5 * v, held=(2,)),
+            must.jacobians,
+        ],
+        friction=friction(k),
+        speed=v,
+    )
 
 
 def lying(k, scheme):
@@ -744,53 +1456,121 @@ def lying(k, scheme):
     f, n = frame_of(k), k.bricks or 2
     c = bar_speed(k.young, k.density)
     sections = {
-        "Bodies": {"lower": body(k, f, box((n, n, 1), (0, 0, 0), (1, 1, 0.5)), density=k.density),
-                   "upper": body(k, f, box((n, n, 1), (0, 0, 0.5), (1, 1, 1)), density=k.density)},
+        "Bodies": {
+            "lower": body(k, f, box((n, n, 1), (0, 0, 0), (1, 1, 0.5)), density=k.density),
+            "upper": body(k, f, box((n, n, 1), (0, 0, 0.5), (1, 1, 1)), density=k.density),
+        },
         "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
-        "Contact pairs": {"foot": pair(k, f, Body="lower", Tool="floor", **{"Boundary ids": 4}),
-                          "joint": pair(k, f, Body="upper", **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
-                                        **contact_of_bodies(k))},
+        "Contact pairs": {
+            "foot": pair(k, f, Body="lower", Tool="floor", **{"Boundary ids": 4}),
+            "joint": pair(
+                k,
+                f,
+                Body="upper",
+                **{"Boundary ids": 4, "Second body": "lower", "Second boundary ids": 5},
+                **contact_of_bodies(k),
+            ),
+        },
         **dynamics(k, f, scheme, 5.0 / c),
     }
     return Setup(k, f, sections, [must.finite, must.nothing_happens])
 
 
 def laden(k, scheme):
-    """A block on a plane under a pressure that grows slowly, and springs, where there are some, on its top."""
+    """A block on a plane under a pressure that grows slowly, and springs, where there are some, on its
+    top."""
     f, n = frame_of(k), k.bricks or 2
     c = bar_speed(k.young, k.density)
     end = 40.0 / c * k.duration
     p = k.load * k.young
-    is_beyond = k.law == "elastoplastic" and k.hardening_modulus == 0 and k.load >= getattr(k, "yield")  # the limit load
-    loads = {"pressure": {"Type": "pressure", "Boundary ids": 5, "Pressure": f.expression(f"{number(p / end)}*{{t}}", number(f.stress) + "*")}}
+    # the limit load
+    is_beyond = k.law == "elastoplastic" and k.hardening_modulus == 0 and k.load >= getattr(k, "yield")
+    loads = {
+        "pressure": {
+            "Type": "pressure",
+            "Boundary ids": 5,
+            "Pressure": f.expression(f"{number(p / end)}*{{t}}", number(f.stress) + "*"),
+        }
+    }
     if k.spring:
-        loads["springs"] = {"Type": "spring", "Boundary ids": 5, "Stiffness": number(k.spring * k.young * f.stress / f.length)}
+        loads["springs"] = {
+            "Type": "spring",
+            "Boundary ids": 5,
+            "Stiffness": number(k.spring * k.young * f.stress / f.length),
+        }
     sections = {
-        "Bodies": {"block": body(k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 1)), density=k.density, Loads=loads)},
+        "Bodies": {
+            "block": body(
+                k, f, box((n, n, n), (-0.5, -0.5, 0), (0.5, 0.5, 1)), density=k.density, Loads=loads
+            )
+        },
         "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
         "Contact pairs": {"foot": pair(k, f, Body="block", Tool="floor", **{"Boundary ids": 4})},
         **dynamics(k, f, scheme, end),
     }
-    return Setup(k, f, sections, [must.finite, must.yields, must.cone, must.mirror((1, 0, 0), 0.0), must.diagonal_symmetry, must.drift,
-                                  *([] if is_beyond else [must.bears("floor", p, end)]), must.jacobians], friction=friction(k), mass=k.density, speed=1e-9)
+    return Setup(
+        k,
+        f,
+        sections,
+        [
+            must.finite,
+            must.yields,
+            must.cone,
+            must.mirror((1, 0, 0), 0.0),
+            must.diagonal_symmetry,
+            must.drift,
+            *([] if is_beyond else [must.bears("floor", p, end)]),
+            must.jacobians,
+        ],
+        friction=friction(k),
+        mass=k.density,
+        speed=1e-9,
+    )
 
 
 def pile(k, scheme):
-    """Three blocks on a plane under gravity, pressed by no more than their weight; `cycles` stands for steps, in thousands."""
+    """Three blocks on a plane under gravity, pressed by no more than their weight; `cycles` stands for steps,
+    in thousands."""
     f = frame_of(k)
     c = bar_speed(k.young, k.density)
     g = 1e-4 * c * c
     bodies, pairs = {}, {"foot": pair(k, f, Body="block0", Tool="floor", **{"Boundary ids": 4})}
     for i in range(3):
-        bodies[f"block{i}"] = body(k, f, box((1, 1, 1), (0, 0, i), (1, 1, i + 1)), density=k.density,
-                                   Loads={"gravity": {"Type": "acceleration", "Acceleration": f.expressions(("0", "0", number(-g)), f.acceleration)}})
+        bodies[f"block{i}"] = body(
+            k,
+            f,
+            box((1, 1, 1), (0, 0, i), (1, 1, i + 1)),
+            density=k.density,
+            Loads={
+                "gravity": {
+                    "Type": "acceleration",
+                    "Acceleration": f.expressions(("0", "0", number(-g)), f.acceleration),
+                }
+            },
+        )
         if i:
-            pairs[f"joint{i}"] = pair(k, f, Body=f"block{i}", **{"Boundary ids": 4, "Second body": f"block{i - 1}", "Second boundary ids": 5},
-                                      **contact_of_bodies(k))
-    sections = {"Bodies": bodies, "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}}, "Contact pairs": pairs,
-                **dynamics(k, f, scheme, max(k.cycles, 1) * 1000 * 0.2 / c)}
-    return Setup(k, f, sections, [must.finite, must.drift, must.stays_put(3 * k.density * g), must.jacobians], friction=friction(k),
-                 mass=3 * k.density, speed=1e-9)
+            pairs[f"joint{i}"] = pair(
+                k,
+                f,
+                Body=f"block{i}",
+                **{"Boundary ids": 4, "Second body": f"block{i - 1}", "Second boundary ids": 5},
+                **contact_of_bodies(k),
+            )
+    sections = {
+        "Bodies": bodies,
+        "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
+        "Contact pairs": pairs,
+        **dynamics(k, f, scheme, max(k.cycles, 1) * 1000 * 0.2 / c),
+    }
+    return Setup(
+        k,
+        f,
+        sections,
+        [must.finite, must.drift, must.stays_put(3 * k.density * g), must.jacobians],
+        friction=friction(k),
+        mass=3 * k.density,
+        speed=1e-9,
+    )
 
 
 def with_scheme(scene, scheme):
@@ -800,33 +1580,98 @@ def with_scheme(scene, scheme):
 
 
 BASES = {
-    "upset": upset, "pull": pull, "slide": slide, "ball": ball, "twist": twist, "place": place, "rest": rest,
-    "stack": stack, "touching": touching, "drag": drag, "clip": clip,
-    **{f"{name}.explicit": with_scheme(scene, "explicit")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("pile", pile), ("laden", laden), ("strike", strike), ("press", press),
-                           ("stretch", stretch))},
-    **{f"{name}.implicit": with_scheme(scene, "implicit dynamics")
-       for name, scene in (("drop", drop), ("bar", bar), ("bars", bars), ("skid", skid), ("glide", glide), ("fold", fold), ("lying", lying), ("laden", laden),
-                           ("strike", strike), ("press", press), ("stretch", stretch))},
+    "upset": upset,
+    "pull": pull,
+    "slide": slide,
+    "ball": ball,
+    "twist": twist,
+    "place": place,
+    "rest": rest,
+    "stack": stack,
+    "touching": touching,
+    "drag": drag,
+    "clip": clip,
+    **{
+        f"{name}.explicit": with_scheme(scene, "explicit")
+        for name, scene in (
+            ("drop", drop),
+            ("bar", bar),
+            ("bars", bars),
+            ("skid", skid),
+            ("glide", glide),
+            ("fold", fold),
+            ("lying", lying),
+            ("pile", pile),
+            ("laden", laden),
+            ("strike", strike),
+            ("press", press),
+            ("stretch", stretch),
+        )
+    },
+    **{
+        f"{name}.implicit": with_scheme(scene, "implicit dynamics")
+        for name, scene in (
+            ("drop", drop),
+            ("bar", bar),
+            ("bars", bars),
+            ("skid", skid),
+            ("glide", glide),
+            ("fold", fold),
+            ("lying", lying),
+            ("laden", laden),
+            ("strike", strike),
+            ("press", press),
+            ("stretch", stretch),
+        )
+    },
 }
 
 KINDS = {  # what kind of run a base scene is
-    "statics, tools": ("upset", "slide", "ball", "twist", "place", "rest"), "statics, no contact": ("pull",),
-    "statics, bodies": ("stack", "touching", "drag"), "statics, self-contact": ("clip",),
-    "explicit, tools": ("drop.explicit", "bar.explicit", "skid.explicit", "laden.explicit", "strike.explicit", "press.explicit"),
-    "explicit, bodies": ("bars.explicit", "glide.explicit", "lying.explicit", "pile.explicit"), "explicit, self-contact": ("fold.explicit",),
-    "implicit dynamics, tools": ("drop.implicit", "bar.implicit", "skid.implicit", "laden.implicit", "strike.implicit", "press.implicit"),
-    "explicit, no contact": ("stretch.explicit",), "implicit dynamics, no contact": ("stretch.implicit",),
-    "implicit dynamics, bodies": ("bars.implicit", "glide.implicit", "lying.implicit"), "implicit dynamics, self-contact": ("fold.implicit",),
+    "statics, tools": ("upset", "slide", "ball", "twist", "place", "rest"),
+    "statics, no contact": ("pull",),
+    "statics, bodies": ("stack", "touching", "drag"),
+    "statics, self-contact": ("clip",),
+    "explicit, tools": (
+        "drop.explicit",
+        "bar.explicit",
+        "skid.explicit",
+        "laden.explicit",
+        "strike.explicit",
+        "press.explicit",
+    ),
+    "explicit, bodies": ("bars.explicit", "glide.explicit", "lying.explicit", "pile.explicit"),
+    "explicit, self-contact": ("fold.explicit",),
+    "implicit dynamics, tools": (
+        "drop.implicit",
+        "bar.implicit",
+        "skid.implicit",
+        "laden.implicit",
+        "strike.implicit",
+        "press.implicit",
+    ),
+    "explicit, no contact": ("stretch.explicit",),
+    "implicit dynamics, no contact": ("stretch.implicit",),
+    "implicit dynamics, bodies": ("bars.implicit", "glide.implicit", "lying.implicit"),
+    "implicit dynamics, self-contact": ("fold.implicit",),
 }
 
 
 # Edge of the largest facet of each pair or tool whose contacts may be augmented.
-FACETS = {"upset": (("die", "ram"), 0.5), "slide": (("die",), 0.5), "ball": (("ball",), 1 / 3), "stack": (("joint",), 0.5), "drag": (("joint",), 0.625)}
+FACETS = {
+    "upset": (("die", "ram"), 0.5),
+    "slide": (("die",), 0.5),
+    "ball": (("ball",), 1 / 3),
+    "stack": (("joint",), 0.5),
+    "drag": (("joint",), 0.625),
+}
 
 
 # Yield stress [E], if it is not turned, where the usual one is not reached.
-YIELD = {"stack": 1e-3, "clip": 1e-3, **{f"{name}.{kind}": 1e-3 for name in ("bars", "skid", "fold") for kind in ("explicit", "implicit")}}
+YIELD = {
+    "stack": 1e-3,
+    "clip": 1e-3,
+    **{f"{name}.{kind}": 1e-3 for name in ("bars", "skid", "fold") for kind in ("explicit", "implicit")},
+}
 
 
 def make(base, changes):
