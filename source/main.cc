@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/simulation.h"
+#include "billet/run/check.h"
+#include "billet/run/simulation.h"
 #include "billet/version.h"
 
 #include <deal.II/base/mpi.h>

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 FLOORS = (
-    "geometry material friction mechanics parameters scene discretization forces contact solve output"
+    "geometry material friction mechanics parameters scene discretization forces contact solve output run"
 ).split()
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every floor
@@ -22,7 +22,7 @@ FOR_ALL = set(
     "compatibility diagnostic_kinds diagnostics errors registered_type state usage version"
     " without_traps".split()
 )
-ABOVE_ALL = {"simulation", "main"}  # files that may include everything
+ABOVE_ALL = {"main"}  # files that may include everything
 LEVELS = {floor: level for level, floor in enumerate(FLOORS)}
 
 PLACE = re.compile(r"(?:include/billet|source)/(?:(\w+)/)?(?:.*/)?(\w+)[^/]*")

@@ -540,8 +540,9 @@ std::string name_of(const int signal) {
 
 } // namespace
 
-Signals::Signals(MPI_Comm communicator)
-    : communicator_(communicator), last_look_(std::chrono::steady_clock::now()) {
+Signals::Signals(MPI_Comm communicator, const double seconds_between_looks)
+    : communicator_(communicator), seconds_between_looks_(seconds_between_looks),
+      last_look_(std::chrono::steady_clock::now()) {
   end_signal = checkpoint_signal = 0;
   for (const int signal : heeded) {
     struct sigaction action {};
@@ -560,6 +561,8 @@ Signals::~Signals() {
 }
 
 Signals::Wish Signals::look() {
+  if (seconds_between_looks_ > 0. && !is_time_to_look())
+    return Wish::none;
   std::array<int, 2> wishes{end_signal, checkpoint_signal};
   checkpoint_signal = 0;
   MPI_Allreduce(MPI_IN_PLACE, wishes.data(), 2, MPI_INT, MPI_MAX, communicator_);
@@ -569,18 +572,17 @@ Signals::Wish Signals::look() {
   return Wish::end;
 }
 
-Signals::Wish Signals::look_now_and_then() {
+bool Signals::is_time_to_look() {
   if (++n_calls_ < next_look_)
-    return Wish::none;
-  constexpr double between_looks = 0.1; // seconds
+    return false;
   const auto now = std::chrono::steady_clock::now();
   const double seconds = std::chrono::duration<double>(now - last_look_).count();
   last_look_ = now;
-  const double wanted = n_calls_ * between_looks / std::max(seconds, 1e-9);
+  const double wanted = n_calls_ * seconds_between_looks_ / std::max(seconds, 1e-9);
   next_look_ = static_cast<unsigned int>(std::clamp(wanted, 1., std::min(1e6, 10. * n_calls_)));
   next_look_ = dealii::Utilities::MPI::broadcast(communicator_, next_look_, 0);
   n_calls_ = 0;
-  return look();
+  return true;
 }
 
 } // namespace billet

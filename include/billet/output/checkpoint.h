@@ -116,21 +116,24 @@ private:
 /// checkpoint (SIGUSR2). The second one of a kind does what it always does.
 class Signals {
 public:
-  explicit Signals(MPI_Comm communicator);
+  /// Looks only so often [s]; 0: at each call.
+  explicit Signals(MPI_Comm communicator, double seconds_between_looks = 0.);
   ~Signals();
   Signals(const Signals &) = delete;
   Signals &operator=(const Signals &) = delete;
 
   enum class Wish { none, checkpoint, end };
-  /// The strongest wish of any rank. Collective.
+  /// The strongest wish of any rank, after a step. Collective.
   Wish look();
-  /// The same for short steps: looks some ten times a second only.
-  Wish look_now_and_then();
   /// Name of the signal that wishes the end, for messages.
   const std::string &name() const { return name_; }
 
 private:
+  /// Whether enough time has gone by, on the first rank's clock. Collective.
+  bool is_time_to_look();
+
   MPI_Comm communicator_;
+  double seconds_between_looks_;
   std::string name_;
   unsigned int n_calls_ = 0, next_look_ = 1;
   std::chrono::steady_clock::time_point last_look_;

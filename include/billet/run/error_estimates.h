@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_ERROR_ESTIMATES_H
+#define BILLET_RUN_ERROR_ESTIMATES_H
+
+#include "billet/output/error_report.h"
+#include "billet/output/history_file.h"
+#include "billet/run/run_output.h"
+#include "billet/solve/energy_errors.h"
+#include "billet/solve/error_watch.h"
+#include "billet/solve/run_review.h"
+
+namespace billet {
+
+/// Returns the estimate of a static run, with its costs.
+ErrorReport make_report(const ErrorWatch &watch, const StepReport &report);
+
+/// Returns the estimate of a dynamic run. Its costs are left to the caller. `shorter_steps`: the advice that
+/// lowers the errors of steps.
+ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_steps);
+
+/// Adds what the mesh and soft contact make, reports the estimate, and writes error_estimate.csv. Collective.
+void report_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
+                   const parameters::Scene &parameters, const RunReview &review, RunOutput &output);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_EXPLICIT_RUN_H
+#define BILLET_RUN_EXPLICIT_RUN_H
+
+#include "billet/output/energy_watch.h"
+#include "billet/run/run.h"
+#include "billet/run/stops.h"
+#include "billet/run/stopwatch.h"
+#include "billet/solve/energy_errors.h"
+#include "billet/solve/explicit_dynamics.h"
+
+#include <memory>
+#include <string>
+
+namespace billet {
+
+/// Explicit dynamics: steps that are always taken. step() completes the state at the current time;
+/// after_step() looks at it now and then, and moves on to the next time.
+class ExplicitRun final : public Run {
+public:
+  ExplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption);
+
+  void begin(RunOutput &output, const Resumption *resumption) override;
+  bool is_finished() const override { return is_finished_; }
+  bool step(RunOutput &output) override;
+  void after_step(RunOutput &output) override;
+  void end(RunOutput &output) override;
+  unsigned int n_steps() const override { return problem_.n_steps(); }
+  double time() const override { return problem_.time(); }
+  bool is_resumable() const override { return is_between_steps_; }
+  void save(StateWriter &writer) const override;
+
+private:
+  void load(Resumption &resumption);
+  /// Runs a part of a step by the stopwatch. Where it fails, the state is written and the failure explained.
+  template <class Part> void attempt(RunOutput &output, const Part &part);
+  void show_number_of_steps(RunOutput &output) const;
+  void write_row(RunOutput &output);
+  void write_fields(RunOutput &output);
+  void check_stability(RunOutput &output);
+  /// Advice on the law, if that may be why energies fail to balance; else empty.
+  std::string advise_on_law(RunOutput &output);
+  /// Throws SolutionFailure where the energies fail to balance for too long, or are not finite.
+  void check_drift(RunOutput &output);
+  /// Shortens steps whose errors of energy are too large.
+  void control_errors();
+
+  ExplicitDynamics problem_;
+  const Stops stops_;
+  HistoryTimes history_times_;
+  std::unique_ptr<EnergyErrors> errors_;                ///< of scenes that control their errors
+  EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
+  Stopwatch stopwatch_;                                 ///< of the steps, without output
+  unsigned int balanced_step_ = 0; ///< the last at which the energies were seen to balance
+  double next_look_ = 0.;          ///< of check_stability() [time]
+  bool is_finished_ = false, is_between_steps_ = true;
+};
+
+} // namespace billet
+
+#endif

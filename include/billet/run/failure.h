@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_FAILURE_H
+#define BILLET_RUN_FAILURE_H
+
+#include "billet/output/history_file.h"
+#include "billet/solve/explicit_dynamics.h"
+
+namespace billet {
+
+/// Returns a hint that a given force or moment may exceed what a body without hardening can bear; else an
+/// empty text.
+std::string describe_limit_load(const parameters::Scene &parameters);
+
+/// Whether a body that yields, of another law than Hencky's, has elastic strains of the order of the allowed
+/// error of energy. Collective.
+bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
+                             const Solution &solution);
+
+/// Returns why an implicit run ends with the step between these times, and what to change. `is_unstable`: a
+/// body is strained beyond the stability of its law.
+std::string explain_failed_step(const parameters::Scene &parameters, const StepReport &report, double from,
+                                double to, bool is_unstable);
+
+/// Returns why an implicit run ends with this imbalance of energies.
+std::string explain_imbalance(const parameters::Scene &parameters, const StepReport &report, double time,
+                              const std::string &imbalance);
+
+/// Returns why an explicit run ends with energies that fail to balance or are not finite. `advice` replaces
+/// the usual one where it is not empty.
+std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, const std::string &advice);
+
+/// Returns why an explicit run ends with a step that failed for this reason.
+std::string explain_failed_step(const parameters::Scene &parameters, const std::string &reason,
+                                bool is_unstable);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_IMPLICIT_RUN_H
+#define BILLET_RUN_IMPLICIT_RUN_H
+
+#include "billet/output/energy_watch.h"
+#include "billet/run/run.h"
+#include "billet/solve/energy_errors.h"
+#include "billet/solve/error_watch.h"
+#include "billet/solve/quasi_static.h"
+#include "billet/solve/step_control.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace billet {
+
+/// Statics and implicit dynamics: steps that Newton's method solves, and that are cut where it fails.
+class ImplicitRun final : public Run {
+public:
+  ImplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption);
+
+  void begin(RunOutput &output, const Resumption *resumption) override;
+  bool is_finished() const override { return control_.is_finished(); }
+  bool step(RunOutput &output) override;
+  void after_step(RunOutput &output) override;
+  void end(RunOutput &output) override;
+  unsigned int n_steps() const override { return control_.n_steps(); }
+  double time() const override { return control_.time(); }
+  void save(StateWriter &writer) const override;
+
+private:
+  /// Sets the problem to the checkpoint, if there is one. Returns the times at which steps have to end.
+  std::vector<double> load_problem(Resumption *resumption);
+  /// What else the checkpoint has.
+  void load_control(Resumption &resumption);
+  /// Lets the controls of errors know the accepted step.
+  void control_errors(RunOutput &output);
+  EnergyWatch::Cause find_cause_of_imbalance() const;
+  /// Throws SolutionFailure where the energies fail to balance by more than is allowed.
+  void check_energies(RunOutput &output);
+  /// Cuts the step that failed. Throws SolutionFailure if that is not allowed.
+  void reject_step(double from, double to, RunOutput &output);
+
+  QuasiStatic problem_;
+  StepControl control_;
+  std::unique_ptr<ErrorWatch> watch_;    ///< of static scenes that control their errors
+  std::unique_ptr<EnergyErrors> errors_; ///< of dynamic ones; their steps follow an estimate of their own
+  EnergyWatch energies_;
+  StepReport report_;
+  double continued_ = 0.; ///< length of the last step, if its increment may be continued
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_RESUMPTION_H
+#define BILLET_RUN_RESUMPTION_H
+
+#include "billet/discretization/discretization.h"
+#include "billet/output/checkpoint.h"
+#include "billet/scene/scene.h"
+#include "billet/solve/restart.h"
+
+#include <functional>
+#include <memory>
+
+namespace billet {
+
+/// Start of a run from a checkpoint, in place of time 0.
+struct Resumption {
+  CheckpointReader reader;
+  RestartReport report;
+
+  /// Opens the checkpoint that the scene names; null if it names none. Throws InputError where the file is no
+  /// sound checkpoint. Collective.
+  static std::unique_ptr<Resumption> open(const parameters::Scene &parameters, MPI_Comm communicator);
+
+  /// Whether the checkpoint stands in this folder; then the run continues the files there.
+  bool is_from(const std::string &folder) const;
+  /// Checks the scene against the checkpoint, and calls `load`, which reads the solution's own part and
+  /// returns the report. Throws InputError where the scene does not fit.
+  void load(const Scene &scene, const Discretization &discretization,
+            const std::function<RestartReport()> &load);
+  /// Reports time and changes of the scene. Forces out of balance are named above this part of the forces.
+  Diagnostic describe(double force_tolerance) const;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_SIMULATION_H
+#define BILLET_RUN_SIMULATION_H
+
+#include "billet/errors.h"
+#include "billet/parameters/scene.h"
+
+#include <mpi.h>
+
+namespace billet {
+
+/// Runs a scene from start to end, or from a checkpoint. Collective. Throws InputError before anything is
+/// written, SolutionFailure after everything that was computed is on disk. Returns success or, where a signal
+/// has ended the run, stopped.
+ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_SNAPSHOTS_H
+#define BILLET_RUN_SNAPSHOTS_H
+
+#include "billet/output/field_writer.h"
+#include "billet/state.h"
+
+namespace billet {
+
+/// Times at which fields are written: the start, as often as the scene asks for, and the end.
+class Snapshots {
+public:
+  Snapshots(const parameters::Scene &parameters, FieldWriter &writer)
+      : output_(parameters.output), end_(parameters.time_stepping.end_time), writer_(writer) {}
+
+  /// After so many steps, at this time.
+  bool is_due(unsigned int step, double time) const;
+  /// Writes the fields if they are due. Collective.
+  void after_step(unsigned int step, const Solution &solution);
+  /// Writes the fields, once for each time. Collective.
+  void write(const Solution &solution);
+
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
+private:
+  unsigned int count_intervals(double time) const;
+
+  const parameters::Output &output_;
+  double end_;
+  FieldWriter &writer_;
+  unsigned int n_intervals_ = 0;
+  double last_ = -1.; ///< time of the last fields
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/check.h"
+
+#include "billet/contact/faceted_curvature.h"
+#include "billet/diagnostic_kinds.h"
+#include "billet/discretization/inverted_corners.h"
+#include "billet/errors.h"
+#include "billet/output/checkpoint.h"
+#include "billet/run/output_folder.h"
+#include "billet/scene/plausibility.h"
+#include "billet/solve/explicit_dynamics.h"
+#include "billet/solve/quasi_static.h"
+
+#include <ostream>
+
+namespace billet {
+
+DiagnosticList check_meshes(const Scene &scene, const Discretization &discretization) {
+  DiagnosticList messages = find_inverted_corners(scene, discretization);
+  append(messages, find_faceted_curvature(scene, discretization));
+  return messages;
+}
+
+namespace {
+
+/// Sets up what a run would set up. Returns what it would warn of before its first step. Collective.
+DiagnosticList check_start(const Scene &scene, MPI_Comm communicator) {
+  const Discretization discretization(scene, communicator);
+  DiagnosticList messages =
+      check_plausibility(scene, discretization.dof_handler().get_triangulation(), communicator);
+  if (scene.parameters().restart.is_wanted())
+    return messages;
+  if (scene.parameters().is_explicit())
+    append(messages, ExplicitDynamics(scene, discretization).initial_diagnostics());
+  else
+    append(messages, QuasiStatic(scene, discretization).initial_diagnostics());
+  append(messages, check_meshes(scene, discretization));
+  return messages;
+}
+
+/// Checks the outline of the meshes only, which fits anywhere. Collective.
+DiagnosticList check_outline(const Scene &scene, MPI_Comm communicator) {
+  DiagnosticList messages;
+  fail_together(communicator, [&] {
+    dealii::Triangulation<3> outline;
+    scene.build_mesh(MeshDetail::outline, outline);
+    messages = check_plausibility(scene, outline, MPI_COMM_SELF);
+  });
+  messages.emplace_back(diagnostic::outline_checked,
+                        "The mesh is too large to be built for a check: overlaps of bodies and the shapes of "
+                        "elements were not checked");
+  return messages;
+}
+
+} // namespace
+
+void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream,
+                      const bool as_json) {
+  fail_together(communicator, [&] { check_output_folder(parameters); });
+  if (parameters.restart.is_wanted())
+    const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
+  const Scene scene(parameters);
+  constexpr std::size_t max_elements = 500000; // a minute and some GB on one rank
+  DiagnosticList messages = scene.count_elements() <= max_elements ? check_start(scene, communicator)
+                                                                   : check_outline(scene, communicator);
+  append(messages, check_bricks(scene));
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+    return;
+  if (as_json) {
+    stream << scene.describe_as_json(messages) << "\n";
+    return;
+  }
+  scene.describe(stream);
+  for (const auto &message : messages)
+    stream << message.text() << "\n";
+}
+
+} // namespace billet

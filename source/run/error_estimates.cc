@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/error_estimates.h"
+
+#include "billet/errors.h"
+#include "billet/output/element_means.h"
+#include "billet/run/stopwatch.h"
+
+#include <algorithm>
+
+namespace billet {
+
+ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
+  const ErrorWatch::Belief belief = watch.belief();
+  const ErrorControl::Estimate &estimate = belief.estimate;
+  ErrorReport result;
+  result.of_what = belief.of_what;
+  result.since = belief.since;
+  result.is_known = belief.has_results;
+  result.sources = {
+      {"steps", estimate.steps,
+       "Reduce 'Largest step' or 'Initial step': no step is rejected for its error, and where contacts open "
+       "and "
+       "close the estimate is on the safe side",
+       !watch.measures_steps() || watch.n_measurements() > 0},
+      {"penetrations", estimate.penetration,
+       watch.controls_penetration()
+           ? "Reduce 'Initial step', or set a 'Penetration tolerance' in every pair: penetration at first "
+             "contact is measured after the step"
+           : "Increase 'Normal penalty', or leave 'Penetration tolerance' to the target error in all pairs",
+       !watch.measures_penetration() || belief.knows_penetration},
+      {"iterations", estimate.iterations, "Reduce 'Force tolerance'"}};
+  result.costs = {{"steps taken", report.step},
+                  {"Newton iterations", report.total_iterations},
+                  {"of them for estimates", watch.n_iterations()}};
+  return result;
+}
+
+ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_steps) {
+  ErrorReport result;
+  result.of_what = "energies";
+  result.since = errors.start();
+  result.is_known = errors.has_energies();
+  result.sources = {{"steps", errors.steps(), shorter_steps},
+                    {"penetrations", errors.penetration(), "Increase 'Normal penalty'"}};
+  return result;
+}
+
+void report_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
+                   const parameters::Scene &parameters, const RunReview &review, RunOutput &output) {
+  report.target = parameters.target_error;
+  if (review.element_error() > 0.)
+    report.sources.push_back(
+        {"elements", review.element_error(), "Choose the element that the warnings about them name"});
+  if (review.penalty_error() > 0.)
+    report.sources.push_back(
+        {"soft contact", review.penalty_error(), "Increase the penalties that the warnings name"});
+  report.stress_jumps = stress_jumps(solution, discretization);
+  report.costs.emplace_back("CPU seconds",
+                            dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
+  output.report(report.diagnostics());
+  output.write_estimate(report);
+}
+
+} // namespace billet

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/explicit_run.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/output/element_means.h"
+#include "billet/run/error_estimates.h"
+#include "billet/run/failure.h"
+#include "billet/scene/plausibility.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+constexpr unsigned int steps_between_looks = ExplicitDynamics::steps_between_looks;
+
+Diagnostic describe_mass_scaling(const ExplicitDynamics &problem) {
+  std::ostringstream text;
+  text << "Mass scaling adds " << problem.added_mass() << " to the bodies' " << problem.mass() << " ("
+       << std::setprecision(3) << 100. * problem.added_mass() / problem.mass() << " %)";
+  return Diagnostic(diagnostic::mass_scaling, text.str())
+      .value("mass", problem.mass())
+      .value("added mass", problem.added_mass());
+}
+
+/// At the end: added mass that changes the motion.
+DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunReview &review) {
+  constexpr double much = 0.1, slow = 0.05;
+  const double added = problem.added_mass() / problem.mass(), kinetic = review.kinetic_part();
+  if (!(added > much && kinetic > slow))
+    return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "Mass scaling adds " << 100. * added << " % to the mass, and the kinetic energy reaches "
+       << 100. * kinetic << " % of the internal energy";
+  return {Diagnostic(diagnostic::mass_scaling_too_strong, text.str())
+              .measure("added mass / mass", added)
+              .value("kinetic / internal energy", kinetic)};
+}
+
+} // namespace
+
+ExplicitRun::ExplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption)
+    : Run(scene, discretization), problem_(scene, discretization), stops_(scene),
+      history_times_(parameters_) {
+  if (parameters_.target_error > 0.)
+    errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
+  if (resumption != nullptr)
+    load(*resumption);
+}
+
+void ExplicitRun::load(Resumption &resumption) {
+  CheckpointReader &reader = resumption.reader;
+  resumption.load(scene_, discretization_, [&] { return problem_.load(reader); });
+  problem_.plan_to(stops_.next(problem_.time()));
+  if (errors_)
+    errors_->begin(problem_.time());
+  if (!resumption.report.is_exact || !reader.has("rows"))
+    return;
+  reader.in("rows", [&] {
+    // Of another interval the next row is due at once.
+    if (reader.number("interval") == history_times_.interval())
+      history_times_.begin_after(reader.number("last"));
+    balanced_step_ = static_cast<unsigned int>(reader.number("balanced step"));
+    review_.load(reader);
+    if (errors_ && reader.has("errors")) {
+      errors_->load(reader);
+      problem_.shorten_steps(errors_->step_factor());
+    }
+  });
+}
+
+void ExplicitRun::save(StateWriter &writer) const {
+  writer.in("solution", [&] { problem_.save(writer); });
+  writer.in("rows", [&] {
+    writer.write("interval", {history_times_.interval()});
+    writer.write("last", {history_times_.last()});
+    writer.write("balanced step", {static_cast<double>(balanced_step_)});
+    review_.save(writer);
+    if (errors_)
+      errors_->save(writer);
+  });
+}
+
+void ExplicitRun::begin(RunOutput &output, const Resumption *resumption) {
+  announce(problem_, output, resumption, 0.);
+  if (parameters_.explicit_dynamics.scaled_step > 0.)
+    output.report(describe_mass_scaling(problem_));
+}
+
+template <class Part> void ExplicitRun::attempt(RunOutput &output, const Part &part) {
+  try {
+    stopwatch_.measure(part);
+  } catch (const SolutionFailure &failure) { // nothing already computed is lost
+    problem_.update_state();
+    output.snapshots().write(problem_);
+    if (std::isfinite(problem_.relative_drift()))
+      output.report(stability_.check(problem_.time(), problem_.state().displacements));
+    throw SolutionFailure(
+        Diagnostic(failure.diagnostic().kind(),
+                   explain_failed_step(parameters_, failure.what(), stability_.has_unstable_bodies()))
+            .value("steps", problem_.n_steps()));
+  }
+}
+
+bool ExplicitRun::step(RunOutput &output) {
+  is_finished_ = problem_.time() >= stops_.end();
+  is_between_steps_ = false;
+  attempt(output, [&] {
+    problem_.prepare_step(is_finished_ ? stops_.end() + problem_.step_length()
+                                       : stops_.next(problem_.time()));
+  });
+  return true;
+}
+
+void ExplicitRun::after_step(RunOutput &output) {
+  if (problem_.n_steps() == 0)
+    show_number_of_steps(output);
+  const bool is_row_due = history_times_.is_due(problem_.time()) || problem_.n_steps() == 0;
+  const bool is_look_due = problem_.n_steps() % steps_between_looks == 0;
+  if (is_row_due)
+    write_row(output);
+  else if (is_look_due)
+    problem_.update_ledger();
+  if (is_row_due || is_look_due) {
+    output.report(problem_.check_steps());
+    check_stability(output);
+    check_drift(output);
+    control_errors();
+  }
+  write_fields(output);
+  // A checkpoint is of the next step's beginning.
+  if (!is_finished_ || output.checkpoints().is_regular()) {
+    attempt(output, [&] { problem_.finish_step(); });
+    is_between_steps_ = true;
+  }
+}
+
+void ExplicitRun::show_number_of_steps(RunOutput &output) const {
+  const double n_steps = stops_.end() / problem_.usual_step();
+  output.progress().show_number_of_steps(n_steps, problem_.usual_step());
+  if (n_steps > too_many_steps && !output.has(diagnostic::many_steps))
+    output.report(Diagnostic(diagnostic::many_steps, "The run takes " + std::to_string(n_steps) + " steps")
+                      .value("steps", n_steps));
+}
+
+void ExplicitRun::write_row(RunOutput &output) {
+  problem_.update_ledger();
+  output.write_row([&](HistoryFile &history) {
+    history.write(problem_.n_steps(), problem_.step_length(), problem_.state());
+  });
+  output.progress().show(problem_.n_steps(), problem_.step_length(), problem_.state());
+  output.report(problem_.check_penalties());
+  problem_.update_state();
+  output.report(review_.after_step(problem_, problem_.time() >= stops_.end()));
+  output.report(energies_.check(problem_.time(), problem_.state().energies));
+}
+
+void ExplicitRun::write_fields(RunOutput &output) {
+  const bool is_start = problem_.n_steps() == 0;
+  if (!is_start && !output.snapshots().is_due(problem_.n_steps(), problem_.time()))
+    return;
+  problem_.update_state();
+  if (is_start)
+    output.snapshots().write(problem_);
+  else
+    output.snapshots().after_step(problem_.n_steps(), problem_);
+}
+
+void ExplicitRun::check_stability(RunOutput &output) {
+  constexpr double n_looks = 100.; // in a run: each takes as long as a step or a few
+  if (problem_.time() < next_look_ || !std::isfinite(problem_.relative_drift()))
+    return;
+  problem_.update_state();
+  output.report(stability_.check(problem_.time(), problem_.state().displacements));
+  next_look_ = problem_.time() + stops_.end() / n_looks;
+}
+
+std::string ExplicitRun::advise_on_law(RunOutput &output) {
+  output.report(stability_.check(problem_.time(), problem_.state().displacements));
+  if (stability_.has_unstable_bodies())
+    return EnergyWatch::advise(EnergyWatch::Cause::unstable_law);
+  if (!problem_.has_soft_penalties() && has_inexact_dissipation(scene_, discretization_, problem_))
+    return EnergyWatch::advise(EnergyWatch::Cause::inexact_dissipation);
+  return "";
+}
+
+// The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
+// which a node enters; it is a small part soon. Energy without limit grows on.
+void ExplicitRun::check_drift(RunOutput &output) {
+  const bool is_finite = std::isfinite(problem_.relative_drift());
+  if (std::abs(problem_.relative_drift()) <= parameters_.explicit_dynamics.largest_drift)
+    balanced_step_ = problem_.n_steps();
+  if (is_finite && problem_.n_steps() < balanced_step_ + (is_finished_ ? 1 : steps_between_looks))
+    return;
+  problem_.update_state();
+  output.snapshots().write(problem_);
+  const std::string advice = is_finite ? advise_on_law(output) : "";
+  throw SolutionFailure(Diagnostic(is_finite ? diagnostic::energy_drift : diagnostic::solution_failed,
+                                   explain_drift(scene_, problem_, advice))
+                            .value("steps", problem_.n_steps()));
+}
+
+void ExplicitRun::control_errors() {
+  if (!errors_)
+    return;
+  errors_->add(problem_.time(), problem_.state().energies,
+               carried_energy(scene_.free_directions(), problem_.state().momentum,
+                              problem_.mass() + problem_.added_mass()));
+  problem_.shorten_steps(errors_->step_factor());
+}
+
+void ExplicitRun::end(RunOutput &output) {
+  output.report(review_.finish());
+  output.report(check_mass_scaling(problem_, review_));
+  if (errors_) {
+    ErrorReport report = make_report(*errors_, "Reduce 'Safety factor'");
+    report.costs = {{"steps taken", problem_.n_steps()},
+                    {"element updates", static_cast<double>(problem_.n_steps()) *
+                                            static_cast<double>(discretization_.n_global_elements())}};
+    problem_.update_state();
+    report_errors(report, problem_, discretization_, parameters_, review_, output);
+  }
+  output.progress().show_pace(problem_.n_steps(), discretization_.n_global_elements(), stopwatch_.seconds(),
+                              stopwatch_.processor_seconds());
+  problem_.update_state();
+  output.report(find_checkerboard(problem_, discretization_).check());
+}
+
+} // namespace billet

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/failure.h"
+
+#include "billet/output/energy_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+/// Whether its yield stress does not grow without end.
+bool has_limit(const parameters::Material &material) {
+  if (material.law == parameters::Material::Law::elastic)
+    return false;
+  switch (material.hardening) {
+  case parameters::Material::Hardening::table:
+    return true;
+  case parameters::Material::Hardening::power_law:
+    return material.exponent == 0.;
+  default:
+    return material.hardening_modulus == 0.;
+  }
+}
+
+/// Shear and bulk modulus as far apart as here leave Newton's method few digits.
+std::string describe_incompressibility(const parameters::Scene &parameters) {
+  const double nearly = 0.49995;
+  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
+                                 [&](const auto &b) { return b.material.poisson_ratio > nearly; });
+  if (body == parameters.bodies.end())
+    return "";
+  std::ostringstream text;
+  text << ". Body '" << body->name
+       << "' is all but incompressible ('Poisson ratio' = " << body->material.poisson_ratio
+       << "): 0.4999 differs from that by a ten-thousandth of the bulk modulus, and is easier to solve";
+  return text.str();
+}
+
+/// Returns the reminder that nothing already computed is lost.
+std::string describe_saved_results(const parameters::Scene &parameters) {
+  return "What was computed until then is in '" + parameters.output.folder.value + "'.";
+}
+
+} // namespace
+
+std::string describe_limit_load(const parameters::Scene &parameters) {
+  using Control = parameters::Motion::Control;
+  const auto is_given = [](const parameters::Tool &tool) {
+    return tool.motion.control == Control::force || tool.motion.control == Control::moment;
+  };
+  const auto tool = std::find_if(parameters.tools.begin(), parameters.tools.end(), is_given);
+  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
+                                 [](const parameters::Body &b) { return has_limit(b.material); });
+  const bool has_tool = tool != parameters.tools.end();
+  const bool has_loads = std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
+                                     [](const parameters::Body &b) { return !b.loads.empty(); });
+  if (body == parameters.bodies.end() || !(has_tool || has_loads))
+    return "";
+  const bool turns = has_tool && tool->motion.control == Control::moment;
+  return "Body '" + body->name + "' yields without hardening, and " +
+         (has_tool ? "tool '" + tool->name +
+                         (turns ? "' turns it with a given moment" : "' presses with a given force")
+                   : "loads are given") +
+         (parameters.is_dynamic() ? ": above the limit load it flows on and on"
+                                  : ": above the limit load nothing is in balance") +
+         ". If that is what ends the run, " +
+         (!has_tool
+              ? std::string()
+              : std::string("move the tool by its '") + (turns ? "Rotation" : "Translation") + "', or ") +
+         "let the material harden. ";
+}
+
+bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
+                             const Solution &solution) {
+  constexpr double large = 0.02;
+  double largest = 0.;
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    if (std::holds_alternative<std::monostate>(body.material.hardening) ||
+        scene.parameters().bodies[b].material.kinematics.value == parameters::Material::Kinematics::hencky)
+      continue;
+    for (const ElementSummary &summary : solution.summarize(b))
+      if (summary.equivalent_plastic_strain > 0.)
+        largest = std::max(largest, dealii::deviator(summary.cauchy_stress).norm() /
+                                        (2. * body.material.elastic.shear));
+  }
+  return dealii::Utilities::MPI::max(largest, discretization.communicator()) > large;
+}
+
+std::string explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
+                                const double from, const double to, const bool is_unstable) {
+  std::ostringstream message;
+  message << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
+          << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure;
+  std::ostringstream computed;
+  computed << ". What was computed until time " << from << " is in '" << parameters.output.folder.value
+           << "'.";
+  if (report.newton.is_lost_in_round_off || report.newton.is_explained)
+    return message.str() + computed.str();
+  message << (report.newton.criteria.empty() ? "" : "; ") << report.newton.criteria << ". "
+          << describe_limit_load(parameters);
+  const bool goes_round = report.newton.goes_round && !parameters.pairs.empty();
+  if (goes_round)
+    message << "Nodes that touch and let go by turns, or stick and slip, do that: where a body snaps, or "
+               "friction "
+               "is strong. Try a penalty that is a half or twice as stiff, normal or tangential, or a "
+               "'Penetration "
+               "tolerance'. ";
+  if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
+    message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
+  else
+    message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step
+            << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
+                                        : ":")
+            << (report.newton.goes_round   ? ""
+                : parameters.pairs.empty() ? " try more 'Most iterations', or"
+                                           : " try a softer penalty, more 'Most iterations', or")
+            << " look at the last picture for an unstable or torn mesh";
+  return message.str() + describe_incompressibility(parameters) +
+         (is_unstable ? ". Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +
+         computed.str();
+}
+
+std::string explain_imbalance(const parameters::Scene &parameters, const StepReport &report,
+                              const double time, const std::string &imbalance) {
+  std::ostringstream message;
+  message << parameters.file_name << ": at time " << time << " after " << report.step << " steps "
+          << imbalance << ". " << describe_limit_load(parameters) << describe_saved_results(parameters);
+  return message.str();
+}
+
+std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, const std::string &advice) {
+  const parameters::Scene &parameters = scene.parameters();
+  std::ostringstream message;
+  message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
+          << " steps the energies ";
+  if (std::isfinite(problem.relative_drift()))
+    message << "fail to balance by " << 100. * problem.relative_drift()
+            << " % of the largest energy so far, allowed are "
+            << 100. * parameters.explicit_dynamics.largest_drift << " % ('Largest drift'): "
+            << (!advice.empty() ? advice
+                : problem.has_soft_penalties()
+                    ? "contact pairs are soft, and nodes that are deep make energy: try a larger 'Normal "
+                      "penalty'"
+                : scene.capabilities().friction && !scene.body_pairs().empty()
+                    ? "bodies with friction that stick and hop make energy: try a larger 'Normal penalty', "
+                      "such as 1000 E/h; else a smaller 'Safety factor' or more bulk viscosity"
+                    : "try a smaller 'Safety factor', a softer penalty or more bulk viscosity");
+  else
+    message << "are not finite; a velocity, a load or a penalty may be too large for its units";
+  message << ". " << describe_limit_load(parameters) << describe_saved_results(parameters);
+  return message.str();
+}
+
+std::string explain_failed_step(const parameters::Scene &parameters, const std::string &reason,
+                                const bool is_unstable) {
+  return reason + ". " +
+         (is_unstable ? "Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) + ". " : "") +
+         describe_limit_load(parameters) + describe_saved_results(parameters);
+}
+
+} // namespace billet

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/implicit_run.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/output/element_means.h"
+#include "billet/run/error_estimates.h"
+#include "billet/run/failure.h"
+
+#include <algorithm>
+
+namespace billet {
+
+namespace {
+
+EnergyWatch make_energy_watch(const parameters::Scene &parameters) {
+  const double largest_drift = parameters.is_dynamic() ? parameters.implicit_dynamics.largest_drift : 0.;
+  return largest_drift > 0.        ? EnergyWatch(EnergyWatch::Balance::is_kept, largest_drift)
+         : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_told)
+                                   : EnergyWatch(EnergyWatch::Balance::is_left);
+}
+
+bool has_sticking_overlaps(const Scene &scene) {
+  return std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(), [](const BodyPair &pair) {
+    return pair.has_friction() && pair.facets == parameters::ContactPair::Facets::overlap;
+  });
+}
+
+} // namespace
+
+ImplicitRun::ImplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption)
+    : Run(scene, discretization), problem_(scene, discretization),
+      control_(parameters_.time_stepping, parameters_.output.interval, load_problem(resumption)),
+      energies_(make_energy_watch(parameters_)) {
+  if (parameters_.is_dynamic() && parameters_.target_error > 0.)
+    errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
+  else if (ErrorWatch::is_wanted(parameters_))
+    watch_ = std::make_unique<ErrorWatch>(scene, discretization, problem_);
+  if (resumption != nullptr)
+    load_control(*resumption);
+}
+
+std::vector<double> ImplicitRun::load_problem(Resumption *resumption) {
+  std::vector<double> stops = scene_.stops();
+  if (resumption != nullptr) {
+    resumption->load(scene_, discretization_,
+                     [&] { return problem_.load(resumption->reader, parameters_.restart.release_time); });
+    stops.push_back(resumption->report.release_end);
+  }
+  return stops;
+}
+
+void ImplicitRun::load_control(Resumption &resumption) {
+  const RestartReport &start = resumption.report;
+  CheckpointReader &reader = resumption.reader;
+  control_.begin(start.time, 0);
+  if (watch_)
+    watch_->begin(start.time);
+  if (errors_)
+    errors_->begin(start.time);
+  if (reader.has("steps"))
+    reader.in("steps", [&] {
+      control_.load(reader);
+      const std::vector<double> totals = reader.read("totals");
+      continued_ = start.is_exact ? totals.at(0) : 0.;
+      report_.total_iterations = static_cast<unsigned int>(totals.at(1));
+      report_.total_cuts = control_.n_cuts();
+      if (watch_)
+        watch_->load(reader);
+      review_.load(reader);
+      if (errors_ && reader.has("errors"))
+        errors_->load(reader);
+    });
+}
+
+void ImplicitRun::save(StateWriter &writer) const {
+  writer.in("solution", [&] { problem_.save(writer); });
+  writer.in("steps", [&] {
+    control_.save(writer);
+    writer.write("totals", {continued_, static_cast<double>(report_.total_iterations)});
+    if (watch_)
+      watch_->save(writer);
+    if (errors_)
+      errors_->save(writer);
+    review_.save(writer);
+  });
+}
+
+void ImplicitRun::begin(RunOutput &output, const Resumption *resumption) {
+  announce(problem_, output, resumption, parameters_.solver.force_tolerance);
+  if (resumption == nullptr || !resumption->report.is_exact)
+    output.snapshots().write(problem_);
+}
+
+bool ImplicitRun::step(RunOutput &output) {
+  if (watch_)
+    report_.total_iterations += watch_->before_step(control_, continued_);
+  const double from = control_.time(), to = control_.next_time();
+  report_.length = to - from;
+  try {
+    report_.newton = problem_.step(to, continued_);
+  } catch (const SolutionFailure &) { // nothing already computed is lost
+    output.snapshots().write(problem_);
+    throw;
+  }
+  report_.total_iterations += static_cast<unsigned int>(report_.newton.iterations.size());
+  output.report(report_.newton.diagnostics);
+  if (!report_.newton.converged) {
+    reject_step(from, to, output);
+    return false;
+  }
+  control_.accept(static_cast<unsigned int>(report_.newton.hardest), problem_.time_error());
+  return true;
+}
+
+void ImplicitRun::reject_step(const double from, const double to, RunOutput &output) {
+  const NewtonReport &newton = report_.newton;
+  output.progress().reject(report_, from, to);
+  if (watch_)
+    watch_->after_failure();
+  // Smaller loads would make a loss in round-off worse.
+  bool may_go_on = control_.reject() && !newton.is_lost_in_round_off;
+  report_.total_cuts = control_.n_cuts();
+  if (!may_go_on && !newton.is_lost_in_round_off && !newton.is_explained) {
+    may_go_on = problem_.take_exact_tangent();
+    if (may_go_on)
+      output.report(Diagnostic(diagnostic::exact_tangent,
+                               "Newton's method failed with this 'Contact tangent'; from here on it is "
+                               "the exact one, with an unsymmetric matrix")
+                        .time(from));
+  }
+  if (may_go_on)
+    return;
+  output.snapshots().write(problem_);
+  throw SolutionFailure(
+      Diagnostic(diagnostic::solution_failed,
+                 explain_failed_step(parameters_, report_, from, to, stability_.has_unstable_bodies()))
+          .value("steps", report_.step)
+          .value("Newton iterations", report_.total_iterations));
+}
+
+void ImplicitRun::after_step(RunOutput &output) {
+  control_errors(output);
+  continued_ = report_.length;
+  report_.step = control_.n_steps();
+  output.write_row([&](HistoryFile &history) { history.write(report_, problem_.state()); });
+  output.progress().accept(report_, problem_.state());
+  output.report(review_.after_step(problem_, control_.is_finished()));
+  output.report(stability_.check(control_.time(), problem_.state().displacements));
+  check_energies(output);
+  output.snapshots().after_step(control_.n_steps(), problem_);
+}
+
+void ImplicitRun::control_errors(RunOutput &output) {
+  if (watch_) {
+    watch_->after_step(control_, report_.length, report_.newton);
+    output.report(watch_->check(control_));
+  }
+  if (errors_) {
+    const double factor = errors_->step_factor();
+    errors_->add(control_.time(), problem_.state().energies,
+                 carried_energy(scene_.free_directions(), problem_.state().momentum, problem_.mass()));
+    if (errors_->step_factor() < factor)
+      control_.limit(errors_->step_factor() * report_.length);
+  }
+}
+
+EnergyWatch::Cause ImplicitRun::find_cause_of_imbalance() const {
+  return stability_.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
+         : problem_.has_soft_penalties()  ? EnergyWatch::Cause::soft_penalties
+         : has_inexact_dissipation(scene_, discretization_, problem_)
+             ? EnergyWatch::Cause::inexact_dissipation
+         : has_sticking_overlaps(scene_)   ? EnergyWatch::Cause::sticking_overlaps
+         : problem_.contact_makes_energy() ? EnergyWatch::Cause::contact_edges
+                                           : EnergyWatch::Cause::steps;
+}
+
+void ImplicitRun::check_energies(RunOutput &output) {
+  output.report(energies_.check(control_.time(), problem_.state().energies,
+                                [this] { return find_cause_of_imbalance(); }));
+  if (energies_.imbalance().empty())
+    return;
+  output.snapshots().write(problem_);
+  throw SolutionFailure(
+      Diagnostic(diagnostic::energy_drift,
+                 explain_imbalance(parameters_, report_, control_.time(), energies_.imbalance()))
+          .value("steps", control_.n_steps())
+          .value("Newton iterations", report_.total_iterations));
+}
+
+void ImplicitRun::end(RunOutput &output) {
+  output.report(review_.finish());
+  output.report(problem_.check_stabilisation());
+  output.report(problem_.check_balance());
+  output.report(problem_.check_contact_round_off());
+  output.report(problem_.check_augmentation());
+  if (watch_)
+    report_errors(make_report(*watch_, report_), problem_, discretization_, parameters_, review_, output);
+  if (errors_) {
+    ErrorReport estimate = make_report(*errors_, "Reduce 'Largest step'");
+    estimate.costs = {{"steps taken", report_.step}, {"Newton iterations", report_.total_iterations}};
+    report_errors(std::move(estimate), problem_, discretization_, parameters_, review_, output);
+  }
+  output.report(find_checkerboard(problem_, discretization_).check());
+}
+
+} // namespace billet

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/resumption.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/errors.h"
+
+#include <filesystem>
+#include <sstream>
+
+namespace billet {
+
+std::unique_ptr<Resumption> Resumption::open(const parameters::Scene &parameters,
+                                             const MPI_Comm communicator) {
+  if (!parameters.restart.is_wanted())
+    return nullptr;
+  const auto &[file, origin] = parameters.restart.file;
+  return std::unique_ptr<Resumption>(new Resumption{CheckpointReader(communicator, file, origin), {}});
+}
+
+bool Resumption::is_from(const std::string &folder) const {
+  const auto from = std::filesystem::path(reader.file_name()).parent_path();
+  std::error_code error;
+  return std::filesystem::equivalent(from.empty() ? "." : from, folder, error);
+}
+
+void Resumption::load(const Scene &scene, const Discretization &discretization,
+                      const std::function<RestartReport()> &load) {
+  reader.load("scene", [&] { check_scene(reader, scene, discretization); });
+  reader.load("solution", [&] { report = load(); });
+  const parameters::Scene &parameters = scene.parameters();
+  if (report.time < parameters.time_stepping.end_time)
+    return;
+  std::ostringstream message;
+  message << parameters.file_name << ": found 'End time' = " << parameters.time_stepping.end_time
+          << ", allowed is a time after that of the checkpoint, " << report.time;
+  throw InputError(message.str());
+}
+
+Diagnostic Resumption::describe(const double force_tolerance) const {
+  std::ostringstream text;
+  text << "Resumed from " << reader.file_name() << " at time " << report.time;
+  for (const auto &part : report.gone)
+    text << ", without " << part;
+  if (report.kinetic_energy > 0.)
+    text << ". The kinetic energy there, " << report.kinetic_energy << ", is dropped";
+  if (report.imbalance > force_tolerance * report.force_scale)
+    text << ". Forces out of balance, " << 100. * report.imbalance / report.force_scale
+         << " % of those in the scene, fade until time " << report.release_end;
+  return Diagnostic(diagnostic::resumed, text.str());
+}
+
+} // namespace billet

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/run.h"
+
+#include "billet/run/check.h"
+#include "billet/run/explicit_run.h"
+#include "billet/run/implicit_run.h"
+
+namespace billet {
+
+void Run::announce(const Solution &solution, RunOutput &output, const Resumption *resumption,
+                   const double force_tolerance) const {
+  output.progress().start(discretization_, solution);
+  output.report(solution.initial_diagnostics());
+  output.report(review_.start());
+  if (resumption == nullptr)
+    output.report(check_meshes(scene_, discretization_));
+  else
+    output.report(resumption->describe(force_tolerance));
+}
+
+std::unique_ptr<Run> make_run(const Scene &scene, const Discretization &discretization,
+                              Resumption *resumption) {
+  if (scene.parameters().is_explicit())
+    return std::make_unique<ExplicitRun>(scene, discretization, resumption);
+  return std::make_unique<ImplicitRun>(scene, discretization, resumption);
+}
+
+namespace {
+
+/// Writes a checkpoint after a step where one is due, or a signal asks for it. Returns whether a signal
+/// demands the end before the end time; then `has_checkpoint` says whether there is one of now.
+bool heed_signals(Run &run, RunOutput &output, bool &has_checkpoint) {
+  const Checkpoints &checkpoints = output.checkpoints();
+  const bool is_finished = run.is_finished();
+  const Signals::Wish wish = output.signals().look();
+  const bool is_last = is_finished && checkpoints.is_regular();
+  const bool is_demanded = wish != Signals::Wish::none && run.is_resumable();
+  const bool is_due = run.time() < run.end_time() && checkpoints.is_due(run.n_steps(), run.time());
+  has_checkpoint = (is_last || is_demanded || is_due) &&
+                   output.write_checkpoint(run.time(), [&](StateWriter &writer) { run.save(writer); });
+  return wish == Signals::Wish::end && !is_finished;
+}
+
+} // namespace
+
+ExitCode run_to_end(Run &run, RunOutput &output, const Resumption *resumption) {
+  run.begin(output, resumption);
+  while (!run.is_finished()) {
+    if (!run.step(output))
+      continue;
+    run.after_step(output);
+    bool has_checkpoint = false;
+    if (heed_signals(run, output, has_checkpoint))
+      return output.stop(run.n_steps(), run.time(), has_checkpoint);
+  }
+  run.end(output);
+  return output.finish();
+}
+
+} // namespace billet

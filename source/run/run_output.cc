@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/run_output.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/run/output_folder.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <unistd.h>
+
+namespace billet {
+
+namespace {
+
+/// Whether somebody may be watching. Open MPI's mpirun hands its ranks a terminal of its own, whatever its
+/// output goes to.
+bool console_is_terminal() {
+  if (isatty(STDOUT_FILENO) == 0)
+    return false;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
+    return true;
+  std::error_code error;
+  const auto target =
+      std::filesystem::read_symlink("/proc/" + std::to_string(getppid()) + "/fd/1", error).string();
+  return target.rfind("/dev/pts/", 0) == 0 || target.rfind("/dev/tty", 0) == 0;
+}
+
+/// How often a run looks for signals [s]; steps of implicit runs are long beside that.
+double seconds_between_looks(const parameters::Scene &parameters) {
+  return parameters.is_explicit() ? 0.1 : 0.;
+}
+
+} // namespace
+
+RunOutput::RunOutput(const Scene &scene, const Discretization &discretization, Diagnostics &diagnostics,
+                     Resumption *resumption)
+    : scene_(scene), discretization_(discretization),
+      is_first_(dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0),
+      writer_(scene, discretization, scene.parameters().output.folder.value),
+      snapshots_(scene.parameters(), writer_),
+      progress_(scene, is_first_ ? std::cout : silence_, is_first_ && console_is_terminal()),
+      diagnostics_(diagnostics), checkpoints_(scene.parameters().output, discretization.communicator()),
+      signals_(discretization.communicator(), seconds_between_looks(scene.parameters())) {
+  const std::string &folder = scene.parameters().output.folder.value;
+  const bool goes_on = resumption != nullptr && resumption->is_from(folder);
+  HistoryFile::Mark mark;
+  if (resumption != nullptr)
+    resumption->reader.in("output", [&] {
+      mark = {resumption->reader.read_text("columns"), resumption->reader.number("bytes")};
+      checkpoints_.load(resumption->reader, resumption->report.time, goes_on);
+      snapshots_.load(resumption->reader);
+      if (goes_on && resumption->reader.read_text("format") == format())
+        writer_.load(resumption->reader);
+      if (goes_on && resumption->reader.has("diagnostics"))
+        diagnostics_.load(resumption->reader.read_text("diagnostics"));
+    });
+  diagnostics_.set_print([this](const Severity severity, const std::string &text) {
+    progress_.show_diagnostic(severity, text);
+  });
+  fail_together(discretization.communicator(), [&] {
+    if (is_first_) {
+      prepare_output_folder(scene.parameters());
+      diagnostics_.open(folder + "/diagnostics.jsonl", goes_on);
+      history_ = goes_on ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report.time)
+                         : std::make_unique<HistoryFile>(scene, folder);
+    }
+  });
+}
+
+void RunOutput::write_row(const std::function<void(HistoryFile &)> &write) {
+  fail_together(discretization_.communicator(), [&] {
+    if (is_first_)
+      write(*history_);
+  });
+}
+
+void RunOutput::write_estimate(const ErrorReport &report) {
+  fail_together(discretization_.communicator(), [&] {
+    if (is_first_)
+      report.write(scene_.parameters().output.folder.value);
+  });
+}
+
+ExitCode RunOutput::finish() {
+  ExitCode code = ExitCode::success;
+  if (scene_.parameters().warnings_are_errors && diagnostics_.count(Severity::warning) > 0)
+    code = ExitCode::warnings;
+  else if (diagnostics_.has(diagnostic::target_error_missed))
+    code = ExitCode::target_missed;
+  progress_.finish(diagnostics_.repetitions(), diagnostics_.count_in_words(), writer_.file_to_open());
+  return code;
+}
+
+bool RunOutput::write_checkpoint(const double time, const std::function<void(StateWriter &)> &save) {
+  const HistoryFile::Mark mark = is_first_ ? history_->mark() : HistoryFile::Mark();
+  const std::string failure = checkpoints_.write(time, [&](StateWriter &state) {
+    state.in("scene", [&] { save_scene(state, scene_, discretization_); });
+    save(state);
+    state.in("output", [&] {
+      state.write_text("columns", mark.columns);
+      state.write("bytes", {mark.n_bytes});
+      state.write_text("format", format());
+      state.write_text("diagnostics", diagnostics_.save());
+      checkpoints_.save(state);
+      snapshots_.save(state);
+      writer_.save(state);
+    });
+  });
+  if (!failure.empty())
+    diagnostics_.report(
+        Diagnostic(
+            diagnostic::checkpoint_failed,
+            "No checkpoint was written: " + failure +
+                (checkpoints_.last().empty() ? "" : " The last one, " + checkpoints_.last() + ", stays"))
+            .time(time));
+  return failure.empty();
+}
+
+ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bool has_checkpoint) const {
+  std::ostringstream message;
+  message << scene_.parameters().file_name << ": stopped by " << signals_.name() << " at time " << time
+          << " after " << n_steps << " steps";
+  const std::string what = message.str();
+  if (!has_checkpoint)
+    throw SolutionFailure(what + ", and no checkpoint could be written" +
+                          (checkpoints_.last().empty() ? "" : "; the last one is " + checkpoints_.last()));
+  if (is_first_)
+    std::cerr << "billet: " << what << ". To resume: billet --restart " << checkpoints_.last() << " "
+              << scene_.parameters().file_name << std::endl;
+  return ExitCode::stopped;
+}
+
+std::string RunOutput::format() const {
+  switch (scene_.parameters().output.format) {
+  case parameters::Output::Format::vtu:
+    return "vtu";
+  case parameters::Output::Format::hdf5:
+    return "hdf5";
+  case parameters::Output::Format::none:
+    break;
+  }
+  return "none";
+}
+
+} // namespace billet

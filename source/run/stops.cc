@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/stops.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+Stops::Stops(const Scene &scene) : end_(scene.parameters().time_stepping.end_time), stops_(scene.stops()) {
+  const auto &more = scene.parameters().time_stepping.stops;
+  stops_.insert(stops_.end(), more.begin(), more.end());
+  // One that is at the end but for round-off is the end.
+  constexpr double rounding = 1e-9;
+  stops_.erase(std::remove_if(stops_.begin(), stops_.end(),
+                              [this](const double stop) { return stop > end_ * (1. - rounding); }),
+               stops_.end());
+  stops_.push_back(end_);
+  std::sort(stops_.begin(), stops_.end());
+}
+
+double Stops::next(const double time) const {
+  return *std::upper_bound(stops_.begin(), stops_.end() - 1, time);
+}
+
+HistoryTimes::HistoryTimes(const parameters::Scene &parameters)
+    : end_(parameters.time_stepping.end_time),
+      interval_(parameters.output.history_interval > 0. ? parameters.output.history_interval : end_ / 200.) {}
+
+bool HistoryTimes::is_due(const double time) {
+  constexpr double rounding = 1e-9; // of an interval
+  const double n = std::floor(time / interval_ + rounding);
+  const bool is_due = n > last_ || time >= end_;
+  last_ = std::max(n, last_);
+  return is_due;
+}
+
+} // namespace billet
