@@ -16,27 +16,10 @@ namespace billet {
 
 using dealii::Tensor;
 
-namespace {
-
-TimeIntegrator make_integrator(const parameters::ImplicitDynamics &parameters) {
-  using Method = parameters::ImplicitDynamics::Method;
-  switch (parameters.method) {
-  case Method::newmark:
-    return TimeIntegrator::newmark(parameters.beta, parameters.gamma);
-  case Method::hilber_hughes_taylor:
-    return TimeIntegrator::hilber_hughes_taylor(parameters.alpha);
-  case Method::generalised_alpha:
-    break;
-  }
-  return TimeIntegrator::generalised_alpha(parameters.spectral_radius);
-}
-
-} // namespace
-
 ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discretization,
                                const Supports &supports)
     : scene_(scene), discretization_(discretization), supports_(supports),
-      parameters_(scene.parameters().implicit_dynamics), integrator_(make_integrator(parameters_)),
+      parameters_(scene.parameters().implicit_dynamics), integrator_(parameters_.integrator),
       nodes_(discretization),
       inertia_(scene, discretization, parameters_.mass == parameters::ImplicitDynamics::Mass::lumped) {
   if (std::any_of(scene.bodies().begin(), scene.bodies().end(),

@@ -2,6 +2,8 @@
 #ifndef BILLET_TESTS_IMPLICIT_RUN_H
 #define BILLET_TESTS_IMPLICIT_RUN_H
 
+#include "billet/integration/time_integrator_type.h"
+
 #include "scene_run.h"
 
 #include <map>
@@ -12,20 +14,12 @@ inline parameters::Scene read_test_scene(const std::string &name) {
   return parameters::Scene::read(std::string(SOURCE_DIR) + "/" + name);
 }
 
-using Method = parameters::ImplicitDynamics::Method;
-
-inline void set_newmark(parameters::Scene &scene) {
-  scene.implicit_dynamics.method = Method::newmark;
-  scene.implicit_dynamics.beta = 0.25;
-  scene.implicit_dynamics.gamma = 0.5;
-}
+inline void set_newmark(parameters::Scene &scene) { scene.implicit_dynamics.integrator = newmark(0.25, 0.5); }
 inline void set_hht(parameters::Scene &scene, const double alpha) {
-  scene.implicit_dynamics.method = Method::hilber_hughes_taylor;
-  scene.implicit_dynamics.alpha = alpha;
+  scene.implicit_dynamics.integrator = hilber_hughes_taylor(alpha);
 }
 inline void set_generalised(parameters::Scene &scene, const double spectral_radius) {
-  scene.implicit_dynamics.method = Method::generalised_alpha;
-  scene.implicit_dynamics.spectral_radius = spectral_radius;
+  scene.implicit_dynamics.integrator = generalised_alpha(spectral_radius);
 }
 
 /// Component i of a nodal field over the first coordinate of the nodes of a body; where nodes share it, of

@@ -2,6 +2,8 @@
 // The tangent of implicit dynamics against central differences of the residual: inertia, a pressure that
 // follows its faces, springs, dashpots, contact with friction on a heavy tool whose travel is unknown,
 // supports that move.
+#include "billet/integration/time_integrator_type.h"
+
 #include "tangent_check.h"
 
 #include <deal.II/base/mpi.h>
@@ -60,8 +62,7 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parameters::Scene scene = make_scene();
   check_scene("generalised-alpha", scene);
-  scene.implicit_dynamics.method = parameters::ImplicitDynamics::Method::hilber_hughes_taylor;
-  scene.implicit_dynamics.alpha = -0.2;
+  scene.implicit_dynamics.integrator = hilber_hughes_taylor(-0.2);
   scene.implicit_dynamics.mass = parameters::ImplicitDynamics::Mass::lumped;
   check_scene("HHT, lumped mass", scene);
 

@@ -4,7 +4,7 @@
 // one.
 #include "implicit_run.h"
 
-#include "billet/solve/time_integrator.h"
+#include "billet/integration/time_integrator_type.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -133,8 +133,7 @@ int main(int argc, char *argv[]) {
         testing::set_hht(scene, -1. / 3.);
       else
         testing::set_generalised(scene, 0.6);
-      const TimeIntegrator integrator =
-          is_hht ? TimeIntegrator::hilber_hughes_taylor(-1. / 3.) : TimeIntegrator::generalised_alpha(0.6);
+      const TimeIntegrator integrator = is_hht ? hilber_hughes_taylor(-1. / 3.) : generalised_alpha(0.6);
       Oscillator lowest(integrator, frequency(1), dt), highest(integrator, frequency(n_elements), dt);
       SceneRun run(scene);
       WorstError low, high, drift;

@@ -2,19 +2,16 @@
 #ifndef BILLET_PARAMETERS_IMPLICIT_DYNAMICS_H
 #define BILLET_PARAMETERS_IMPLICIT_DYNAMICS_H
 
+#include "billet/integration/time_integrator.h"
 #include "billet/parameters/reader.h"
 
 namespace billet::parameters {
 
 /// Subsection Implicit dynamics.
 struct ImplicitDynamics {
-  enum class Method { newmark, hilber_hughes_taylor, generalised_alpha };
   enum class Mass { consistent, lumped };
 
-  Method method;
-  double beta, gamma;     ///< of Newmark's method
-  double alpha;           ///< of Hilber, Hughes and Taylor's
-  double spectral_radius; ///< of the generalised-alpha method
+  TimeIntegrator integrator;
   Mass mass;
   double error_tolerance;        ///< of a step, part of the displacement; 0: none
   double reference_displacement; ///< 0: the largest so far

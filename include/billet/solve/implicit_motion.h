@@ -4,9 +4,9 @@
 
 #include "billet/forces/external_loads.h"
 #include "billet/forces/inertia.h"
+#include "billet/integration/time_integrator.h"
 #include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
-#include "billet/solve/time_integrator.h"
 #include "billet/usage.h"
 
 #include <memory>

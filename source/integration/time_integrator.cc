@@ -1,25 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/solve/time_integrator.h"
+#include "billet/integration/time_integrator.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace billet {
-
-TimeIntegrator TimeIntegrator::newmark(const double beta, const double gamma) {
-  return {0., 0., beta, gamma};
-}
-
-TimeIntegrator TimeIntegrator::hilber_hughes_taylor(const double alpha) {
-  return {0., -alpha, 0.25 * (1. - alpha) * (1. - alpha), 0.5 - alpha};
-}
-
-TimeIntegrator TimeIntegrator::generalised_alpha(const double spectral_radius) {
-  const double alpha_m = (2. * spectral_radius - 1.) / (spectral_radius + 1.);
-  const double alpha_f = spectral_radius / (spectral_radius + 1.);
-  const double shift = 1. - alpha_m + alpha_f;
-  return {alpha_m, alpha_f, 0.25 * shift * shift, 0.5 - alpha_m + alpha_f};
-}
 
 TimeIntegrator::Rate TimeIntegrator::acceleration(const double step) const {
   const double increment = 1. / (beta_ * step * step);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_SOLVE_TIME_INTEGRATOR_H
-#define BILLET_SOLVE_TIME_INTEGRATOR_H
+#ifndef BILLET_INTEGRATION_TIME_INTEGRATOR_H
+#define BILLET_INTEGRATION_TIME_INTEGRATOR_H
 
 namespace billet {
 
@@ -21,12 +21,10 @@ namespace billet {
 /// their derivatives, stand in it as they stand in statics.
 class TimeIntegrator {
 public:
-  /// Newmark (1959). β > 0; second order for γ = ½, unconditionally stable for 2β ≥ γ ≥ ½.
-  static TimeIntegrator newmark(double beta, double gamma);
-  /// Hilber, Hughes & Taylor (1977): −⅓ ≤ α ≤ 0, β = (1 − α)²/4, γ = ½ − α; α_f = −α here.
-  static TimeIntegrator hilber_hughes_taylor(double alpha);
-  /// Chung & Hulbert (1993): 0 ≤ ρ ≤ 1, the spectral radius at infinite frequency.
-  static TimeIntegrator generalised_alpha(double spectral_radius);
+  /// The trapezoidal rule: of second order, without numerical dissipation.
+  TimeIntegrator() : TimeIntegrator(0., 0., 0.25, 0.5) {}
+  TimeIntegrator(const double alpha_m, const double alpha_f, const double beta, const double gamma)
+      : alpha_m_(alpha_m), alpha_f_(alpha_f), beta_(beta), gamma_(gamma) {}
 
   double alpha_m() const { return alpha_m_; }
   double alpha_f() const { return alpha_f_; }
@@ -56,9 +54,6 @@ public:
   double error_factor() const;
 
 private:
-  TimeIntegrator(double alpha_m, double alpha_f, double beta, double gamma)
-      : alpha_m_(alpha_m), alpha_f_(alpha_f), beta_(beta), gamma_(gamma) {}
-
   double alpha_m_, alpha_f_, beta_, gamma_;
 };
 
