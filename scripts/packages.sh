@@ -4,6 +4,7 @@
 #   build       compile, run and test billet
 #   trade       run billet-trade, and its tests
 #   benchmarks  compare with CalculiX, billet-trade included
+#   python      format and check the Python of the repository
 #   pictures    draw the manual's pictures with ParaView, without a display
 #
 # BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an own deal.II, which
@@ -26,9 +27,10 @@ for group in "$@"; do
       ;;
     trade) packages+=(python3 python3-matplotlib python3-paraview) ;;
     benchmarks) packages+=(calculix-ccx valgrind python3 python3-matplotlib python3-paraview) ;;
+    python) packages+=(black flake8 mypy python3-numpy) ;;
     pictures) packages+=(paraview python3-paraview xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     *)
-      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, pictures)" >&2
+      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, python, pictures)" >&2
       exit 2
       ;;
   esac

@@ -9,9 +9,9 @@ from billet_runs import (
     PAIR,
     PENALTY,
     PROGRAM,
+    Measured,
     Run,
     arguments,
-    children_seconds,
     fixed_steps,
     frictionless_force,
     interpolate,
@@ -84,9 +84,7 @@ for name in ("ccx C3D8R, node to surface", "ccx C3D8R, surface to surface"):
 exact = " / ".join(f"{frictionless_force(time, PENALTY):.2f}" for time in (0.9375, 1.0))
 frictionless += [["closed form"] + [exact] * len(STEPS)]
 
-before = children_seconds()
-subprocess.run([PROGRAM, "--version"], stdout=subprocess.DEVNULL, check=True)
-start = children_seconds() - before
+start = Measured([PROGRAM, "--version"], ".").seconds
 version = re.search(r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout)
 
 publish(

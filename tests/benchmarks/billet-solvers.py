@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The billet on finer meshes: a direct and an iterative linear solver."""
 
-import csv
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -11,6 +8,7 @@ from pathlib import Path
 from billet_runs import (
     PROGRAM,
     SCENE,
+    Measured,
     arguments,
     mesh,
     n_elements,
@@ -20,6 +18,7 @@ from billet_runs import (
     table,
     variant,
 )
+from billet_tools.output import read_rows
 
 options = arguments("billet-solvers")
 # Mesh, and part of the travel: a direct solver takes hours for all of it on the finest.
@@ -42,19 +41,16 @@ def run(level, end, solver):
     )
     with tempfile.TemporaryDirectory() as place:
         (Path(place) / "scene.prm").write_text(text)
-        process = subprocess.Popen([PROGRAM, "scene.prm"], cwd=place)
-        _, status, usage = os.wait4(process.pid, 0)
-        if status != 0:
-            sys.exit(f"billet ended with status {status}")
-        with open(Path(place) / "results/history.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
-    seconds = usage.ru_utime + usage.ru_stime
+        done = Measured([PROGRAM, "scene.prm"], place)
+        if done.code != 0:
+            sys.exit(f"billet ended with {done.code}: {done.stderr}")
+        rows = read_rows(Path(place) / "results/history.csv")
     print(
-        f"[{n_elements(level)}, {solver}] {rows[-1]['total_iterations']} iterations, {seconds:.3g} s",
+        f"[{n_elements(level)}, {solver}] {rows[-1]['total_iterations']} iterations, {done.seconds:.3g} s",
         file=sys.stderr,
         flush=True,
     )
-    return rows, seconds, usage.ru_maxrss / 1024
+    return rows, done.seconds, done.megabytes
 
 
 rows = []

@@ -2,20 +2,21 @@
 """What the benchmarks share: runs of billet, errors of force curves, tables."""
 
 import argparse
-import csv
 import math
 import os
 import re
-import resource
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "trade"))
-from billet_trade.records import read_records  # noqa: E402
-from billet_trade.scene import read_scene, variant  # noqa: E402  what the program billet-trade has
+sys.path.insert(0, str(ROOT / "tools"))
+from billet_tools.output import read_rows  # noqa: E402
+from billet_tools.program import Measured, command_of  # noqa: E402
+from billet_tools.records import read_records  # noqa: E402
+from billet_tools.scene import read_scene, variant  # noqa: E402
+from billet_tools.text import number, percent, table  # noqa: E402, F401  for the benchmarks
 
 PROGRAM = os.environ.get("BILLET", str(ROOT / "build/release/bin/billet"))
 SCENE = ROOT / "prm/billet_upsetting.prm"
@@ -42,33 +43,6 @@ def fixed_steps(n):
     return {"Time stepping/Step control": "fixed", "Time stepping/Initial step": repr(1.0 / n)}
 
 
-def children_seconds():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
-
-
-class Measured:
-    """A program that has run in `folder`: `code`, `stdout`, `stderr`, `seconds` (user and system, of all its
-    processes) and `megabytes` (at most at a time, of the largest one). After `limit` seconds of a processor
-    the system ends it."""
-
-    def __init__(self, command, folder, limit=None, **options):
-        def restrict():
-            if limit:
-                resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
-
-        with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
-            process = subprocess.Popen(
-                command, cwd=folder, stdout=out, stderr=err, preexec_fn=restrict, **options
-            )
-            _, status, usage = os.wait4(process.pid, 0)
-            self.code = process.returncode = os.waitstatus_to_exitcode(status)
-            out.seek(0), err.seek(0)
-            self.stdout, self.stderr = out.read(), err.read()
-        self.seconds = usage.ru_utime + usage.ru_stime
-        self.megabytes = usage.ru_maxrss / 1024
-
-
 class Run:
     """A finished run: `converged`, `failure` (why not, in short), `times` and `forces` (on the whole body, in
     kN, from time 0 on), `steps`, `iterations` (with those of cut steps), `cuts`, `seconds` (user and system,
@@ -85,17 +59,14 @@ class Run:
                 **(changes or {}),
             },
         )
-        command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
         with tempfile.TemporaryDirectory() as temporary:
             place = Path(folder or temporary)
             place.mkdir(parents=True, exist_ok=True)
             (place / "scene.prm").write_text(text)
-            done = Measured(command, place)
+            done = Measured(command_of(PROGRAM, ranks, "scene.prm"), place)
+            done.require_end()
             self.seconds, self.megabytes = done.seconds, done.megabytes
-            if done.code not in (0, 3, 6, 7):
-                sys.exit(f"billet ended with {done.code}: {done.stderr}")
-            with open(place / "results/history.csv", newline="") as file:
-                rows = list(csv.DictReader(file))
+            rows = read_rows(place / "results/history.csv")
             self.records = read_records(place / "results/diagnostics.jsonl")
         self.converged = done.code != 3
         self.failure = (
@@ -190,24 +161,6 @@ def curve_error(run, reference):
         return sum(0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], times, times[1:]))
 
     return integral([abs(f - g) for f, g in zip(forces, exact)]) / integral([abs(g) for g in exact])
-
-
-def number(value, digits=3):
-    """In plain or scientific form, to so many significant digits; a dash for what is not there."""
-    if value is None or (isinstance(value, float) and math.isnan(value)):
-        return "–"
-    if isinstance(value, float):
-        return f"{value:.{digits}g}" if value == 0 or abs(value) < 10**digits else f"{value:.0f}"
-    return str(value)
-
-
-def percent(value, digits=2):
-    return "–" if value is None or math.isnan(value) else number(100.0 * value, digits) + " %"
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head)] + rows
-    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 
 
 def arguments(name):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the benchmarks of elements share: meshes of bricks, runs of one body, parts of its scene."""
 
-import csv
 import math
 import signal
 import sys
@@ -9,11 +8,10 @@ import tempfile
 from pathlib import Path
 
 import numpy
-from vtk import vtkXMLUnstructuredGridReader
-from vtk.util.numpy_support import vtk_to_numpy
 
 from billet_runs import PROGRAM, Measured, variant
-from billet_trade.records import read_records
+from billet_tools.output import read_grid, read_numbers
+from billet_tools.records import read_records, warnings_of
 
 ELEMENTS = ("assumed strain", "mean dilatation", "one point")
 AS, MD, OP = ELEMENTS
@@ -145,10 +143,7 @@ class Solution:
             done = Measured([PROGRAM, "scene.prm"], folder, limit)
             if done.code not in (0, 3, *((-signal.SIGXCPU, -signal.SIGKILL) if limit else ())):
                 sys.exit(f"billet ended with {done.code}: {done.stderr}")
-            with open(folder / "results/history.csv", newline="") as file:
-                self.rows = [
-                    {key: float(value) for key, value in row.items()} for row in csv.DictReader(file)
-                ]
+            self.rows = read_numbers(folder / "results/history.csv")
             records = read_records(folder / "results/diagnostics.jsonl")
             self.pictures = (
                 [self.read(file) for file in sorted((folder / "results").glob("fields_*.0.vtu"))]
@@ -156,7 +151,7 @@ class Solution:
                 else []
             )
         self.failure = "it takes too long" if done.code < 0 else done.stderr.strip() if done.code else ""
-        self.keys = sorted({record["key"] for record in records if record.get("severity") == "warning"})
+        self.keys = warnings_of(records)
         self.warnings = sorted(set(self.keys) & ABOUT_ELEMENTS)
         self.seconds = done.seconds
         self.work = self.rows[-1]["external_work"] if self.rows else math.nan
@@ -168,16 +163,8 @@ class Solution:
 
     @staticmethod
     def read(file):
-        reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(file))
-        reader.Update()
-        data = reader.GetOutput().GetPointData()
-        fields = {
-            data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float)
-            for i in range(data.GetNumberOfArrays())
-        }
-        moved = vtk_to_numpy(reader.GetOutput().GetPoints().GetData()).astype(float)
-        return moved, moved - fields["displacement"], fields
+        fields = read_grid(file)
+        return fields["points"], fields["points"] - fields["displacement"], fields
 
     def where(self, point, picture=-1):
         """Where a node is that was at this point."""

@@ -2,12 +2,12 @@
 """What a scene pays for each capability that it asks for: instructions and memory, from one elastic body
 on."""
 
-import csv
 import sys
 import tempfile
 from pathlib import Path
 
 from billet_runs import PROGRAM, Measured, arguments, count_instructions, number, publish, table
+from billet_tools.output import read_rows
 
 options = arguments("capabilities")
 EDGE = 6
@@ -128,13 +128,11 @@ class Run:
                 sys.exit(f"billet ended with {plain.code}: {plain.stderr}\n{text}")
             self.megabytes = plain.megabytes
             self.instructions = count_instructions(place)
-            with open(place / "results/capabilities.csv", newline="") as file:
-                self.rows = {
-                    row["capability"]: {key: int(row[key]) for key in ("calls", "items", "bytes")}
-                    for row in csv.DictReader(file)
-                }
-            with open(place / "results/history.csv", newline="") as file:
-                self.last = list(csv.DictReader(file))[-1]
+            self.rows = {
+                row["capability"]: {key: int(row[key]) for key in ("calls", "items", "bytes")}
+                for row in read_rows(place / "results/capabilities.csv")
+            }
+            self.last = read_rows(place / "results/history.csv")[-1]
         print(
             f"{self.instructions / 1e6:.5g} million instructions, {self.megabytes:.4g} MB",
             file=sys.stderr,

@@ -75,7 +75,7 @@ class CcxJob:
             lines = [line.split() for line in path.read_text().splitlines()] if path.exists() else []
             return [words for words in lines if words and words[0].isdigit()]
 
-        done = Measured(["ccx", "deck"], folder, limit, env=CCX_ENVIRONMENT)
+        done = Measured(["ccx", "deck"], folder, limit, environment=CCX_ENVIRONMENT)
         self.seconds, self.megabytes = done.seconds, done.megabytes
         increments = records("deck.sta")
         self.iterations = len(records("deck.cvg"))

@@ -5,9 +5,6 @@ errors share."""
 import copy
 import csv
 import functools
-import hashlib
-import os
-import subprocess
 import sys
 import tempfile
 from bisect import bisect_right
@@ -15,8 +12,11 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from billet_runs import PROGRAM, ROOT, read_scene, variant  # finds billet_trade, too
-from billet_trade.runs import read_json, write_json
+from billet_runs import PROGRAM, ROOT, read_scene, variant  # finds billet_tools, too
+from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
+from billet_tools.output import read_estimates, read_rows
+from billet_tools.program import COMPLETED, FAILED, Measured, command_of
+from billet_tools.scene import with_absolute_files
 
 KEPT = ROOT / "results/runs"
 _asked = Counter()  # what this process runs several times, to time it, runs as often
@@ -24,7 +24,7 @@ _asked = Counter()  # what this process runs several times, to time it, runs as 
 
 @functools.lru_cache(maxsize=1)
 def program_hash():
-    return hashlib.sha256(Path(PROGRAM).read_bytes()).hexdigest()
+    return hash_of_file(Path(PROGRAM))
 
 
 class CurveRun:
@@ -35,13 +35,11 @@ class CurveRun:
     in results/runs, where the same run of the same program is found again."""
 
     def __init__(self, scene, changes, ranks=1):
-        left_out = {key for key, value in changes.items() if value is None}
-        changes = {key: value for key, value in changes.items() if value is not None}
         text = variant(
-            without(absolute_files(read_scene(scene), scene.parent), left_out),
+            with_absolute_files(read_scene(scene), scene.parent),
             {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes},
         )
-        key = hashlib.sha256(f"{program_hash()} {ranks} {text}".encode()).hexdigest()[:24]
+        key = hash_of(program_hash(), str(ranks), text)[:24]
         _asked[key] += 1
         file = KEPT / f"{key}-{_asked[key]}.json"
         kept = read_json(file)
@@ -61,26 +59,16 @@ class CurveRun:
         )
 
     def _run(self, text, ranks):
-        with tempfile.TemporaryDirectory() as place:
-            (Path(place) / "scene.prm").write_text(text)
-            command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
-            # Of this process and its own, since others may run beside it.
-            with open(Path(place) / "out", "w+") as out, open(Path(place) / "errors", "w+") as errors:
-                process = subprocess.Popen(command, cwd=place, stdout=out, stderr=errors)
-                _, status, usage = os.wait4(process.pid, 0)
-                code = process.returncode = os.waitstatus_to_exitcode(status)
-                self.seconds = usage.ru_utime + usage.ru_stime
-            self.said, self.failure = ((Path(place) / name).read_text() for name in ("out", "errors"))
-            if code not in (0, 3, 6, 7):
-                raise RuntimeError(f"billet ended with {code}: {self.failure}")
-            with open(Path(place) / "results/history.csv", newline="") as file:
-                rows = list(csv.DictReader(file))
-            believed = Path(place) / "results/error_estimate.csv"
-            self.believed = {}
-            if believed.exists():
-                with open(believed, newline="") as file:
-                    self.believed = {row["quantity"]: float(row["value"]) for row in csv.DictReader(file)}
-        self.finished, self.failure = code != 3, self.failure.strip()
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder)
+            (place / "scene.prm").write_text(text)
+            done = Measured(command_of(PROGRAM, ranks, "scene.prm"), place)
+            if done.code not in (*COMPLETED, FAILED):
+                raise RuntimeError(f"billet ended with {done.code}: {done.stderr}")
+            rows = read_rows(place / "results/history.csv")
+            self.believed = read_estimates(place / "results")
+        self.seconds, self.said = done.seconds, done.stdout
+        self.finished, self.failure = done.code != FAILED, done.stderr.strip()
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]
         self.times = [float(row["time"]) for row in rows]
         names = [key[: -len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
@@ -127,47 +115,6 @@ def run_all(scene, variants, ranks=1, at_once=3):
     """A CurveRun of each of these changes, in their order."""
     with ThreadPoolExecutor(at_once) as pool:
         return list(pool.map(lambda changes: CurveRun(scene, changes, ranks), variants))
-
-
-def without(text, keys):
-    """The scene without the entries 'Subsection/.../key'."""
-    path, lines = [], []
-    for line in text.splitlines():
-        statement = line.split("#")[0].strip()
-        if statement.startswith("subsection "):
-            path.append(statement.split(None, 1)[1].strip())
-        elif statement == "end":
-            path.pop()
-        elif statement.startswith("set ") and "/".join(path + [statement[4:].split("=")[0].strip()]) in keys:
-            continue
-        lines.append(line)
-    return "\n".join(lines) + "\n"
-
-
-def read_entries(scene):
-    """What a scene sets: {'Subsection/.../key': value}."""
-    path, entries = [], {}
-    for line in read_scene(scene).splitlines():
-        statement = line.split("#")[0].strip()
-        if statement.startswith("subsection "):
-            path.append(statement.split(None, 1)[1].strip())
-        elif statement == "end":
-            path.pop()
-        elif statement.startswith("set "):
-            key, value = statement[4:].split("=", 1)
-            entries["/".join(path + [key.strip()])] = value.strip()
-    return entries
-
-
-def absolute_files(text, folder):
-    """The scene with the files that it names found from anywhere."""
-    lines = []
-    for line in text.splitlines():
-        words = line.split("#")[0].split()
-        if words[:2] == ["set", "File"] and words[3:] and not words[3].startswith("/"):
-            line = line.replace(words[3], str((folder / words[3]).resolve()), 1)
-        lines.append(line)
-    return "\n".join(lines) + "\n"
 
 
 def error(run, reference):

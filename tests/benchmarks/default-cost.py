@@ -2,13 +2,14 @@
 """What the default element and the default contact cost: every shipped scene, beside the same with mean
 dilatation and penalties alone, the defaults of before."""
 
-import os
 import re
 import tempfile
 from pathlib import Path
 
 from billet_runs import PROGRAM, ROOT, Measured, arguments, number, publish, read_scene, table, variant
-from curve_runs import absolute_files, read_entries, without
+from billet_tools.output import read_rows
+from billet_tools.program import ALONE
+from billet_tools.scene import read_entries, with_absolute_files
 
 options = arguments("default-cost")
 LIMIT = 1.15  # of the iterations
@@ -17,28 +18,21 @@ ENDS = {"cartridge": 1e-4, "tube_crush": 2e-4, "tube_impact": 2e-4, "taylor_bar"
 
 
 def run(path, changes):
-    text = without(
-        absolute_files(read_scene(path), path.parent),
-        {key for key, value in changes.items() if value is None},
-    )
     text = variant(
-        text,
+        with_absolute_files(read_scene(path), path.parent),
         {
             "Output/Format": "none",
             "Output/Verbosity": "steps",
             "Output/Folder": "results",
-            **{key: value for key, value in changes.items() if value is not None},
+            **changes,
         },
     )
     with tempfile.TemporaryDirectory() as place:
         (Path(place) / "scene.prm").write_text(text)
-        done = Measured(
-            [PROGRAM, "scene.prm"], place, env={**os.environ, "OMPI_MCA_ess_singleton_isolated": "1"}
-        )
+        done = Measured([PROGRAM, "scene.prm"], place, environment=ALONE)
         if done.code not in (0, 6):
             raise SystemExit(f"{path.stem}: {done.stderr}")
-        head, *rows = (Path(place) / "results/history.csv").read_text().splitlines()
-    last = dict(zip(head.split(","), rows[-1].split(",")))
+        last = read_rows(Path(place) / "results/history.csv")[-1]
     print(
         f"[{path.stem}] {last.get('total_iterations', '')} {done.seconds:.3g} s {done.megabytes:.0f} MB",
         flush=True,

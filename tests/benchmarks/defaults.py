@@ -6,12 +6,13 @@ import math
 import re
 import subprocess
 
-# finds billet_trade, too
+# finds billet_tools, too
 from billet_runs import PROGRAM, ROOT, arguments, number, percent, publish, read_scene, table
-from billet_trade.knobs import make_mesh
-from billet_trade.report import short as first_sentence
-from billet_trade.scene import Scene
-from curve_runs import CurveRun, error, impulses, read_entries, with_curves, write_csv
+from billet_tools.scene import read_entries
+from billet_tools.trade.knobs import make_mesh
+from billet_tools.text import first_sentence
+from billet_tools.scene import Scene
+from curve_runs import CurveRun, error, impulses, with_curves, write_csv
 
 options = arguments("defaults")
 LIMIT = 0.03  # of the force

@@ -2,7 +2,6 @@
 """Elements and plasticity kinematics of implicit scenes on the billet: force, iterations, and what they
 cost."""
 
-import csv
 import os
 import re
 import subprocess
@@ -28,6 +27,7 @@ from billet_runs import (
     table,
     variant,
 )
+from billet_tools.output import read_rows
 
 options = arguments("elements")
 COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/element_cost")
@@ -88,8 +88,7 @@ def instructions_of_run(text, column):
         place = Path(folder)
         (place / "scene.prm").write_text(text)
         instructions = count_instructions(place)
-        with open(place / "results/history.csv", newline="") as file:
-            return instructions, int(list(csv.DictReader(file))[-1][column])
+        return instructions, int(read_rows(place / "results/history.csv")[-1][column])
 
 
 def instructions_of_each(text_of, column):

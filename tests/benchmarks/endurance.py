@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A million explicit steps of a stack at rest, and the memory of long runs."""
 
-import csv
 import subprocess
 import tempfile
 import time
 from pathlib import Path
 
 import numpy
-from vtk import vtkXMLPUnstructuredGridReader
-from vtk.util.numpy_support import vtk_to_numpy
 
 from billet_runs import PROGRAM, ROOT, arguments, number, publish, read_scene, table, variant
+from billet_tools.output import pictures_of, read_grid, read_numbers
 
 options = arguments("endurance")
 STEP = 3.026e-5  # of the stack, about
@@ -37,8 +35,7 @@ class WatchedRun:
             except (OSError, IndexError, ValueError):  # not begun, or over
                 continue
         self.ended = process.returncode == 0
-        with open(history, newline="") as file:
-            self.rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        self.rows = read_numbers(history)
 
     def at(self, part):
         """Megabytes when this part of the steps was done."""
@@ -46,10 +43,7 @@ class WatchedRun:
         return next(megabytes for step, megabytes in self.memory if step >= part * last)
 
     def displacements(self, index):
-        reader = vtkXMLPUnstructuredGridReader()
-        reader.SetFileName(str(sorted((self.folder / "results").glob("fields_*.pvtu"))[index]))
-        reader.Update()
-        return vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("displacement")).astype(float)
+        return read_grid(pictures_of(self.folder / "results")[index])["displacement"]
 
 
 def window(rows, key, low, high):

@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What benchmarks of explicit scenes share: runs, their histories and their last pictures."""
 
-import csv
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy
-from vtk import vtkXMLPUnstructuredGridReader
-from vtk.util.numpy_support import vtk_to_numpy
 
-from billet_runs import PROGRAM, children_seconds, read_scene, variant
+from billet_runs import PROGRAM, read_scene, variant
+from billet_tools.output import largest_drift, pictures_of, read_grid, read_history, read_numbers
+from billet_tools.program import FAILED, Measured, command_of
 
 
 class ExplicitRun:
@@ -23,15 +21,11 @@ class ExplicitRun:
         (self.folder / "scene.prm").write_text(
             variant(read_scene(scene), {"Output/Folder": "results", "Output/Verbosity": "quiet", **changes})
         )
-        command = ([] if ranks == 1 else ["mpirun", "-n", str(ranks)]) + [PROGRAM, "scene.prm"]
-        before = children_seconds()
-        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
-        self.seconds = children_seconds() - before
-        if done.returncode not in (0, 3, 6, 7):
-            sys.exit(f"billet ended with {done.returncode}: {done.stderr}")
-        self.finished, self.said, self.failure = done.returncode != 3, done.stdout, done.stderr.strip()
-        with open(self.folder / "results/history.csv", newline="") as file:
-            self.rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        done = Measured(command_of(PROGRAM, ranks, "scene.prm"), self.folder)
+        done.require_end()
+        self.seconds, self.finished = done.seconds, done.code != FAILED
+        self.said, self.failure = done.stdout, done.stderr.strip()
+        self.rows = read_numbers(self.folder / "results/history.csv")
         said = ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in changes.items())
         print(f"[{scene.stem}: {said}] {self.steps} steps, {self.seconds:.3g} s", file=sys.stderr, flush=True)
 
@@ -41,27 +35,12 @@ class ExplicitRun:
 
     def largest_drift(self):
         """Of the energy ledger, relative to the largest sum of energies."""
-        kinds = [
-            key
-            for key in self.rows[0]
-            if key.endswith(("_energy", "_work", "_dissipation")) and key not in ("external_work",)
-        ]
-        largest = max(sum(row[kind] for kind in kinds) for row in self.rows)
-        return max(abs(row["energy_drift"]) for row in self.rows) / largest
+        return largest_drift(read_history(self.folder / "results/history.csv"))
 
     def picture(self, number=-1):
         """Points of a written picture, and its fields by name."""
-        file = sorted((self.folder / "results").glob("fields_*.pvtu"))[number]
-        reader = vtkXMLPUnstructuredGridReader()
-        reader.SetFileName(str(file))
-        reader.Update()
-        grid = reader.GetOutput()
-        data = grid.GetPointData()
-        fields = {
-            data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float)
-            for i in range(data.GetNumberOfArrays())
-        }
-        return vtk_to_numpy(grid.GetPoints().GetData()).astype(float), fields
+        fields = read_grid(pictures_of(self.folder / "results")[number])
+        return fields["points"], fields
 
 
 def norm(vectors, axes):

@@ -7,10 +7,9 @@ import tempfile
 from pathlib import Path
 
 import numpy
-from vtk import vtkXMLUnstructuredGridReader
-from vtk.util.numpy_support import vtk_to_numpy
 
 from billet_runs import ROOT, Run, arguments, number, publish, table
+from billet_tools.output import pictures_of, read_grid
 
 options = arguments("hertz-contact")
 E, NU, RADIUS, A = 1000.0, 0.3, 10.0, 0.1
@@ -69,14 +68,8 @@ def write_mesh(path, x):
 
 def contact(folder):
     """Radius and largest pressure, from p² = p_0² (1 − r²/a²) over the nodes well inside."""
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(sorted(Path(folder, "results").glob("fields_*.0.vtu"))[-1]))
-    reader.Update()
-    data = reader.GetOutput()
-    start = vtk_to_numpy(data.GetPoints().GetData()) - vtk_to_numpy(
-        data.GetPointData().GetArray("displacement")
-    )
-    pressure = vtk_to_numpy(data.GetPointData().GetArray("contact_pressure"))
+    fields = read_grid(pictures_of(Path(folder, "results"))[-1])
+    start, pressure = fields["points"] - fields["displacement"], fields["contact_pressure"]
     square = start[:, 0] ** 2 + start[:, 1] ** 2
     inside = (pressure > 0) & (square < 0.7 * A**2)
     places = dict(

@@ -6,7 +6,8 @@ import math
 import re
 
 from billet_runs import ROOT, arguments, number, percent, publish, table
-from curve_runs import CurveRun, impulses, read_entries
+from billet_tools.scene import read_entries
+from curve_runs import CurveRun, impulses
 from curve_runs import error as curve_error
 
 options = arguments("penetration")

@@ -3,9 +3,10 @@
 
 import math
 
-from billet_runs import ROOT, arguments, number, percent, publish, table  # finds billet_trade, too
-from billet_trade.report import short as first_sentence
-from curve_runs import CurveRun, error, read_entries, run_all, write_csv
+from billet_runs import ROOT, arguments, number, percent, publish, table  # finds billet_tools, too
+from billet_tools.scene import read_entries
+from billet_tools.text import first_sentence
+from curve_runs import CurveRun, error, run_all, write_csv
 from profile_words import no_better, without_errors
 
 options = arguments("profiles")

@@ -10,8 +10,9 @@ import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 
-from billet_runs import ROOT, publish, table  # finds billet_trade, too
-from silent_errors_runs import OUTCOMES, SECONDS, Runner, prm
+from billet_runs import ROOT, publish, table  # finds billet_tools, too
+from silent_errors_runs import OUTCOMES, SECONDS, Runner
+from billet_tools.scene import scene_text
 from silent_errors_scenes import ABOUT, FAMILIES
 
 parser = argparse.ArgumentParser(prog="scripts/benchmarks silent-errors")
@@ -63,7 +64,7 @@ def judged(case):
     file_of(case).unlink(missing_ok=True)
     if outcome not in ("right", "warned"):
         said = " ".join(why.split())[:300]
-        file_of(case).write_text(f"# {outcome}: {said}\n" + prm.text(case.scene))
+        file_of(case).write_text(f"# {outcome}: {said}\n" + scene_text(case.scene))
         print(
             f"{outcome:8} {case.family}: {case.name}: {said} [{time.monotonic() - begin:.0f} s]",
             file=sys.stderr,

@@ -2,25 +2,19 @@
 """Runs of the benchmark silent-errors: kept in a folder, so that it can be interrupted, and judged against
 references."""
 
-import csv
-import hashlib
 import math
-import os
-import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy
 
-from billet_runs import PROGRAM, ROOT, Measured
-
-sys.path.append(str(ROOT / "tests/extremes"))
-from billet_trade.records import read_records  # noqa: E402
-from billet_trade.results import read_grid  # noqa: E402
-from billet_trade.runs import read_json, write_json  # noqa: E402
-from extremes import prm  # noqa: E402
-from extremes.runner import ALONE  # noqa: E402
+from billet_runs import PROGRAM, Measured  # finds billet_tools, too
+from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
+from billet_tools.output import pictures_of, read_grid, read_history
+from billet_tools.program import ALONE
+from billet_tools.records import read_records, warnings_of
+from billet_tools.scene import scene_text
 
 # Warnings about the mesh hold for a reference on the same mesh, too: they do not explain a difference from
 # it.
@@ -73,7 +67,7 @@ class Kept:
 
     @property
     def warnings(self):
-        return sorted({r["key"] for r in self.records if r["severity"] == "warning"})
+        return warnings_of(self.records)
 
     @property
     def finished(self):
@@ -88,16 +82,16 @@ class Runner:
         self.folder = Path(folder)
         (self.folder / "wrong").mkdir(parents=True, exist_ok=True)
         self.program = Path(PROGRAM).resolve()
-        self.fingerprint = hashlib.sha256(self.program.read_bytes()).hexdigest()
+        self.fingerprint = hash_of_file(self.program)
 
     def _file(self, text):
-        return self.folder / f"{hashlib.sha256((self.fingerprint + text).encode()).hexdigest()[:24]}.json"
+        return self.folder / f"{hash_of(self.fingerprint, text)[:24]}.json"
 
     def has(self, scene):
-        return self._file(prm.text(scene)).exists()
+        return self._file(scene_text(scene)).exists()
 
     def run(self, scene, seconds=SECONDS):
-        text = prm.text(scene)
+        text = scene_text(scene)
         file = self._file(text)
         record = read_json(file)
         if record is None or (record["code"] is None and record["limit"] < seconds):
@@ -114,42 +108,37 @@ class Runner:
                 [str(self.program), "scene.prm"],
                 place,
                 seconds,
-                env={**os.environ, **ALONE, "TMPDIR": folder},
+                environment={**ALONE, "TMPDIR": folder},
             )
             out_of_time = done.code < 0 and done.seconds > 0.9 * seconds
             results = place / "results"
-            history = {}
-            if (results / "history.csv").exists():
-                with open(results / "history.csv", newline="") as stream:
-                    rows = [row for row in csv.DictReader(stream) if None not in row.values()]
-                wanted = [
-                    name
-                    for name in (rows[0] if rows else {})
-                    if name in ("time", "total_iterations", "total_cuts")
-                    or name.endswith(
-                        (
-                            "force_x",
-                            "force_y",
-                            "force_z",
-                            "moment_x",
-                            "moment_y",
-                            "moment_z",
-                            "_energy",
-                            "_work",
-                            "_dissipation",
-                            "energy_drift",
-                            "travel_x",
-                            "travel_y",
-                            "travel_z",
-                            "turn",
-                            "momentum_x",
-                            "momentum_y",
-                            "momentum_z",
-                        )
+            history = {
+                name: values.tolist()
+                for name, values in read_history(results / "history.csv").items()
+                if name in ("time", "total_iterations", "total_cuts")
+                or name.endswith(
+                    (
+                        "force_x",
+                        "force_y",
+                        "force_z",
+                        "moment_x",
+                        "moment_y",
+                        "moment_z",
+                        "_energy",
+                        "_work",
+                        "_dissipation",
+                        "energy_drift",
+                        "travel_x",
+                        "travel_y",
+                        "travel_z",
+                        "turn",
+                        "momentum_x",
+                        "momentum_y",
+                        "momentum_z",
                     )
-                ]
-                history = {name: [float(row[name]) for row in rows] for name in wanted}
-            pictures = sorted(results.glob("fields_*.pvtu"))
+                )
+            }
+            pictures = pictures_of(results)
             return {
                 "code": None if out_of_time else done.code,
                 "limit": seconds,

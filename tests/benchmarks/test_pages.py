@@ -6,7 +6,8 @@ import unittest
 
 from hand_set import beside_hand_set
 from profile_words import no_better, without_errors
-from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, force_curve, prm
+from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, force_curve
+from billet_tools.scene import scene_text
 
 
 class Counting(unittest.TestCase):
@@ -40,10 +41,10 @@ class Told(Runner):
     """Runs by the text of their scenes: end forces at times 0.5 and 1, exit code, warnings."""
 
     def __init__(self, runs):
-        self.runs = {prm.text(scene): what for scene, what in runs}
+        self.runs = {scene_text(scene): what for scene, what in runs}
 
     def run(self, scene, seconds=0):
-        force, code, keys = self.runs[prm.text(scene)]
+        force, code, keys = self.runs[scene_text(scene)]
         history = {
             "time": [0.5, 1.0],
             "c.force_x": [0.0, 0.0],

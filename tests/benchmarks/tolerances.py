@@ -4,8 +4,9 @@ to many digits, on the shipped scenes of statics and implicit dynamics."""
 
 import math
 
-from billet_runs import ROOT, arguments, number, percent, publish, table  # finds billet_trade, too
-from curve_runs import CurveRun, error, read_entries
+from billet_runs import ROOT, arguments, number, percent, publish, table  # finds billet_tools, too
+from billet_tools.scene import read_entries
+from curve_runs import CurveRun, error
 
 options = arguments("tolerances")
 

@@ -14,7 +14,7 @@ from billet_runs import (
     PROGRAM,
     ROOT,
     arguments,
-    children_seconds,
+    Measured,
     number,
     publish,
     read_scene,
@@ -112,13 +112,10 @@ def run_ccx(nodes, bricks, n_steps, contact):
     """Its processor seconds; None if it gave up before the end."""
     with tempfile.TemporaryDirectory() as folder:
         write_deck(Path(folder, "deck.inp"), nodes, bricks, n_steps, contact)
-        before = children_seconds()
-        done = subprocess.run(
-            ["ccx", "deck"], cwd=folder, env=CCX_ENVIRONMENT, capture_output=True, text=True
-        )
-        seconds = children_seconds() - before
+        done = Measured(["ccx", "deck"], folder, environment=CCX_ENVIRONMENT)
+        seconds = done.seconds
         printed = Path(folder, "deck.dat").read_text().count("total force")  # every SHORT steps
-    is_done = done.returncode == 0 and printed == n_steps // SHORT
+    is_done = done.code == 0 and printed == n_steps // SHORT
     print(
         (
             f"[ccx, {n_steps} steps{', contact' if contact else ''}] {printed} prints, {seconds:.3g} s, "

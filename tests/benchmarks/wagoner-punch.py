@@ -8,10 +8,9 @@ from pathlib import Path
 
 from matplotlib import pyplot
 import numpy
-from vtk import vtkXMLUnstructuredGridReader
-from vtk.util.numpy_support import vtk_to_numpy
 
 from billet_runs import ROOT, TANGENT, Run, arguments, number, publish, table
+from billet_tools.output import pictures_of, read_grid
 
 options = arguments("wagoner-punch")
 TRAVEL = 40.0
@@ -99,12 +98,8 @@ class Shape:
     strains `meridional`; plastic strain of the elements, the radius of its peak."""
 
     def __init__(self, folder):
-        reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(sorted(Path(folder, "results").glob("fields_*.0.vtu"))[-1]))
-        reader.Update()
-        grid = reader.GetOutput()
-        now = vtk_to_numpy(grid.GetPoints().GetData())
-        start = now - vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+        fields = read_grid(pictures_of(Path(folder, "results"))[-1])
+        now, start = fields["points"], fields["points"] - fields["displacement"]
         chains = []
         for surface in (0.0, 1.0):
             on_it = (abs(start[:, 1]) < 1e-3) & (abs(start[:, 2] - surface) < 1e-3)
@@ -115,7 +110,7 @@ class Shape:
         lengths = numpy.linalg.norm(numpy.diff(middle, axis=0), axis=1)
         self.radii = 0.5 * (radii[1:] + radii[:-1])
         self.meridional = numpy.log(lengths / numpy.diff(radii))
-        strain = vtk_to_numpy(grid.GetPointData().GetArray("equivalent_plastic_strain"))
+        strain = fields["equivalent_plastic_strain"]
         ring = numpy.hypot(start[:, 0], start[:, 1])
         self.centre = float(strain[ring < 1e-3].mean())
         peak = int(strain.argmax())

@@ -12,7 +12,9 @@ from pathlib import Path
 import numpy
 
 import modules  # noqa: F401
-from extremes import closed_forms, invariants as must, messages, plan, prm, report, scenes
+from billet_tools.scene import scene_text
+from extremes import closed_forms, invariants as must, messages, plan, report, scenes
+from extremes.frame import Frame
 from extremes.results import Result, in_base_units, upright
 from extremes.runner import Runner
 
@@ -620,7 +622,7 @@ class ClosedForms(unittest.TestCase):
 
 class Frames(unittest.TestCase):
     def test_there_and_back(self):
-        frame = prm.Frame(1e3, 1e-6, 2.0, (1, 2, 3), 40)
+        frame = Frame(1e3, 1e-6, 2.0, (1, 2, 3), 40)
         v = numpy.array([[1.0, 2.0, 3.0]])
         written = {f"a.force_{i}": numpy.array([x]) for i, x in zip("xyz", frame.turned(v[0]) * frame.force)}
         back = in_base_units({**written, "time": numpy.array([2.0])}, frame)
@@ -638,9 +640,9 @@ class Frames(unittest.TestCase):
         )
 
     def test_text(self):
-        self.assertEqual(prm.text({"a": {"b": 1, "c": None}}), "subsection a\n  set b = 1\nend\n")
-        self.assertEqual(prm.Frame(2.0).expressions(("0", "{t}", "1"), 2.0), "0 ; 2*(t) ; 2*(1)")
-        self.assertEqual(prm.Frame(time=10.0).expression("{t}"), "(t/10)")
+        self.assertEqual(scene_text({"a": {"b": 1, "c": None}}), "subsection a\n  set b = 1\nend\n")
+        self.assertEqual(Frame(2.0).expressions(("0", "{t}", "1"), 2.0), "0 ; 2*(t) ; 2*(1)")
+        self.assertEqual(Frame(time=10.0).expression("{t}"), "(t/10)")
 
 
 class Words(unittest.TestCase):

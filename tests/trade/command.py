@@ -17,9 +17,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from modules import HERE, ROOT, TRADE
-from billet_trade import knobs
-from billet_trade.command import pilot, read_presets, run
-from billet_trade.scene import Scene, read_scene
+from billet_tools.trade import knobs
+from billet_tools.trade.command import run
+from billet_tools.trade.plan import pilot, read_presets
+from billet_tools.scene import Scene, read_scene
 
 SCENE = """set Title = A bar
 subsection Bodies

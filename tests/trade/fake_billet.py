@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 
 from modules import ROOT  # noqa: F401  finds the next one
-from billet_trade.scene import entries
+from billet_tools.scene import entries
 
 DEFAULTS = """subsection Bodies
   subsection (name of a body)

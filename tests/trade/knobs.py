@@ -4,9 +4,10 @@
 import unittest
 
 from modules import ROOT
-from billet_trade import TradeError, knobs
-from billet_trade.reference import GIVEN, Plan, mesh_factors
-from billet_trade.scene import Scene, read_scene
+from billet_tools import UserError
+from billet_tools.trade import knobs
+from billet_tools.trade.reference import GIVEN, Plan, mesh_factors
+from billet_tools.scene import Scene, read_scene
 
 DEFAULTS = """subsection Bodies
  subsection (name of a body)
@@ -69,7 +70,7 @@ class TestMesh(unittest.TestCase):
         for factor in ("0.25", "1.5"):
             with self.assertRaises(knobs.CannotTurn):
                 knobs.make_mesh(scene, factor)
-        with self.assertRaises(TradeError):
+        with self.assertRaises(UserError):
             knobs.make_mesh(scene, "-1")
 
     def test_counts(self):
@@ -148,11 +149,11 @@ class TestKnobs(unittest.TestCase):
             knobs.own_knob("Bodies/b/Mesh/Arguments=1, 2 : 3|2, 4 : 3").arguments, ["1, 2 : 3", "2, 4 : 3"]
         )
         for wrong in ("nothing", "a=1,2 & b=1"):
-            with self.assertRaises(TradeError):
+            with self.assertRaises(UserError):
                 knobs.own_knob(wrong)
 
     def test_unknown_knob(self):
-        with self.assertRaisesRegex(TradeError, "no knob 'speed'; there are mesh, steps,"):
+        with self.assertRaisesRegex(UserError, "no knob 'speed'; there are mesh, steps,"):
             knobs.asked_knob("speed=1", knobs.KNOBS)
         self.assertEqual(
             knobs.asked_knob("tangent=exact, symmetrised mean", knobs.KNOBS).arguments,
@@ -167,7 +168,7 @@ class TestPlan(unittest.TestCase):
         self.assertEqual(mesh_factors(scene, None, lambda changes: 30720), [0.5, 1, 2])
         self.assertEqual(mesh_factors(scene, "1,1.5,2.25", None), [1, 1.5, 2.25])
         for wrong in ("2,4", "1", "1,2,3", "0,1"):
-            with self.assertRaises(TradeError):
+            with self.assertRaises(UserError):
                 mesh_factors(scene, wrong, None)
 
     def test_runs(self):

@@ -7,7 +7,7 @@ import unittest
 import numpy
 
 import modules  # noqa: F401  finds the next one
-from billet_trade import measure
+from billet_tools.trade import measure
 
 UNEVEN = numpy.array([0.0, 0.1, 0.25, 0.3, 0.6, 0.65, 1.0])
 

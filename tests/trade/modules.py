@@ -6,5 +6,5 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-TRADE = ROOT / "trade/billet-trade"
-sys.path.insert(0, str(ROOT / "trade"))
+TRADE = ROOT / "tools/billet-trade"
+sys.path.insert(0, str(ROOT / "tools"))

@@ -6,9 +6,10 @@ import math
 import unittest
 
 import modules  # noqa: F401  finds the next one
-from billet_trade import picture, report
-from billet_trade.reference import mesh_of
-from billet_trade.scene import Scene
+from billet_tools.trade import picture, report
+from billet_tools.trade.reference import mesh_of
+from billet_tools.scene import Scene
+from billet_tools.text import first_sentence
 
 DEFAULTS = "subsection Bodies\nsubsection (name of a body)\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n"
 SCENE = Scene("subsection Bodies\nsubsection bar\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n", DEFAULTS)
@@ -76,7 +77,9 @@ class Reference:
 
 def point(curve, value, changes=None, **result):
     changes = changes or {}
-    return report.Point(curve, value, changes, SCENE.changed(changes), Result(**result), is_base=not curve)
+    made = report.Point(curve, value, changes, SCENE.changed(changes), is_base=not curve)
+    made.result = Result(**result)
+    return made
 
 
 def layers(n, **more):
@@ -173,10 +176,10 @@ class Judging(unittest.TestCase):
             " 'blank' at (38.4833, 46.7199, -2.4e-10). The step cannot be cut below 'Smallest step' = 1e-06:"
             " try a softer penalty"
         )
-        self.assertEqual(report.short(reason), reason[: reason.index(". The step")])
-        self.assertEqual(report.short(""), "")
-        self.assertEqual(report.short("inside out."), "inside out")
-        self.assertLessEqual(len(report.short("much " * 200)), 400)
+        self.assertEqual(first_sentence(reason), reason[: reason.index(". The step")])
+        self.assertEqual(first_sentence(""), "")
+        self.assertEqual(first_sentence("inside out."), "inside out")
+        self.assertLessEqual(len(first_sentence("much " * 200)), 400)
 
 
 class Cancellation(unittest.TestCase):
@@ -277,8 +280,8 @@ class Cancellation(unittest.TestCase):
         # A cheaper one counts with the larger error.
         points[4].result.elements = 59
         s = sweep(points, Reference(0.0101), 0.03)
-        self.assertIn("the cheapest is `mesh 0.5 × steps = 10`: error 1.3 %", s.choice())
-        self.assertNotIn("coarser", s.choice())
+        self.assertIn("the cheapest is `mesh 0.5 × steps = 10`: error 1.3 %", s.choice(s.target))
+        self.assertNotIn("coarser", s.choice(s.target))
         # Other scenes, steps that are hardly shorter, and errors that come and go tell nothing.
         for others in (
             [point("penalty", "0.1", steps(80, Penalty="0.1"), force=1.03, steps=80)],

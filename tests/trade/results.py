@@ -10,8 +10,9 @@ from tempfile import TemporaryDirectory
 import numpy
 
 import modules  # noqa: F401  finds the next ones
-from billet_trade import TradeError, results
-from billet_trade.scene import Scene
+from billet_tools import UserError, output
+from billet_tools.trade import outputs, results
+from billet_tools.scene import Scene
 
 trapezoid = getattr(numpy, "trapezoid", None) or numpy.trapz
 CORNERS = numpy.array(
@@ -72,12 +73,12 @@ class TestFields(unittest.TestCase):
 
     def test_profile(self):
         run = Run(block(4, linear))
-        profile = results.Profile("0.1, 0.5, 0.2 to 1, 0.5, 0.2", "stretch")
+        profile = outputs.Profile("0.1, 0.5, 0.2 to 1, 0.5, 0.2", "stretch")
         numpy.testing.assert_allclose(profile.values(run), math.log(1.1), atol=1e-6)
         self.assertAlmostEqual(profile.error(Run(block(4, lambda x: 0 * x)), profile.values(run)), 1.0)
         for wrong in ("1,2,3", "0,0,0 to 0,0,0", "0,0 to 1,1,1"):
-            with self.assertRaises(TradeError):
-                results.Profile(wrong, "stretch")
+            with self.assertRaises(UserError):
+                outputs.Profile(wrong, "stretch")
 
     def test_plastic_profile(self):
         """Element means, smoothed at the nodes: inside the body of second order for a field that is
@@ -87,11 +88,11 @@ class TestFields(unittest.TestCase):
             return numpy.repeat(places.reshape(-1, 8, 3).mean(axis=1)[:, 1], 8)
 
         run = Run(block(8, linear, equivalent_plastic_strain=strain))
-        profile = results.Profile("0.5, 0.25, 0.5 to 0.5, 0.75, 0.5", "plastic")
+        profile = outputs.Profile("0.5, 0.25, 0.5 to 0.5, 0.75, 0.5", "plastic")
         numpy.testing.assert_allclose(
             profile.values(run)[:, None].ravel(), numpy.linspace(0.25, 0.75, 41), atol=1e-6
         )
-        with self.assertRaisesRegex(TradeError, "nothing yields"):
+        with self.assertRaisesRegex(UserError, "nothing yields"):
             profile.values(Run(block(2, linear)))
 
     def test_shape(self):
@@ -104,7 +105,7 @@ class TestFields(unittest.TestCase):
             )
 
         right = both(0.1, 3.0)
-        shape = results.Shape(right)
+        shape = outputs.Shape(right)
         exact = shape.values(right)
         self.assertEqual(shape.error(right, exact), 0.0)
         centred = right.body_meshes[0].centres - right.body_meshes[0].centres.mean(axis=0)
@@ -124,7 +125,7 @@ class TestFields(unittest.TestCase):
             block(2, linear, velocity=lambda x: 0 * x + [0, 3, 0] + numpy.outer(x[:, 1] - 0.5, [7, 0, 0])),
             history,
         )
-        rebound = results.Rebound(run, scene)
+        rebound = outputs.Rebound(scene)
         numpy.testing.assert_allclose(rebound.values(run), [[0, 3, 0], [0, 0, -4]], atol=1e-12)
         self.assertAlmostEqual(rebound.norm(rebound.values(run)), math.sqrt(12.5))
 
@@ -151,7 +152,7 @@ class TestForce(unittest.TestCase):
 
     def test_error(self):
         centre = self.run_with(20)
-        force = results.Force(centre, self.scene, None, 0.05)
+        force = outputs.Force(centre, self.scene, None, 0.05)
         exact = force.values(centre)
         self.assertEqual(force.columns, ["die.force_x", "die.force_z"])
         self.assertAlmostEqual(force.error(centre, exact), 0.0)
@@ -177,7 +178,7 @@ class TestForce(unittest.TestCase):
             )
 
         centre, finest = run(10, 0.04), run(40, 0.01)
-        force = results.Force(centre, self.scene, None, 0.05, finest)
+        force = outputs.Force(centre, self.scene, None, 0.05, finest)
         exact = force.values(run(10, 0.0))
         for n in (10, 20, 40):
             self.assertLess(force.error(run(n, 0.0), exact), 1e-12)
@@ -189,12 +190,12 @@ class TestForce(unittest.TestCase):
             )
             self.assertAlmostEqual(off, expected, delta=1e-9)
         # At the ends of the centre's steps alone a finer run would be judged by an interpolated corner.
-        coarse = results.Force(centre, self.scene, None, 0.05)
+        coarse = outputs.Force(centre, self.scene, None, 0.05)
         self.assertGreater(coarse.error(run(40, 0.0), exact), 0.01)
 
     def test_columns(self):
-        with self.assertRaisesRegex(TradeError, "no column 'die.force_y'; it has die.force_x, die.force_z"):
-            results.Force(self.run_with(5), self.scene, ["die.force_y"], 0.05)
+        with self.assertRaisesRegex(UserError, "no column 'die.force_y'; it has die.force_x, die.force_z"):
+            outputs.Force(self.run_with(5), self.scene, ["die.force_y"], 0.05)
 
     def test_explicit_force_is_smoothed(self):
         scene = self.scene.changed({"Time stepping/Scheme": "explicit"})
@@ -205,7 +206,7 @@ class TestForce(unittest.TestCase):
                 history={"time": times, "die.force_z": 1 + amplitude * numpy.sin(2 * math.pi * 20 * times)}
             )
 
-        force = results.Force(ringing(0.0), scene, None, 0.05)
+        force = outputs.Force(ringing(0.0), scene, None, 0.05)
         exact = force.values(ringing(0.0))
         self.assertLess(force.error(ringing(1.0), exact), 0.01)  # whole periods; but for the ends
         self.assertAlmostEqual(
@@ -221,17 +222,17 @@ class TestHistory(unittest.TestCase):
             "external_work": numpy.array([9.0, 9.0]),
             "energy_drift": numpy.array([0.0, -0.2]),
         }
-        self.assertAlmostEqual(results.largest_drift(history), 0.05)
-        self.assertTrue(math.isnan(results.largest_drift({})))
+        self.assertAlmostEqual(output.largest_drift(history), 0.05)
+        self.assertTrue(math.isnan(output.largest_drift({})))
 
     def test_cut_off_line(self):
         with TemporaryDirectory() as folder:
             file = Path(folder, "history.csv")
             file.write_text("step,time\n1,0.5\n2,0.")
-            self.assertEqual(results.read_history(file)["time"].tolist(), [0.5, 0.0])
+            self.assertEqual(output.read_history(file)["time"].tolist(), [0.5, 0.0])
             file.write_text("step,time\n1,0.5\n2")
-            self.assertEqual(results.read_history(file)["time"].tolist(), [0.5])
-            self.assertEqual(results.read_history(Path(folder, "none.csv")), {})
+            self.assertEqual(output.read_history(file)["time"].tolist(), [0.5])
+            self.assertEqual(output.read_history(Path(folder, "none.csv")), {})
 
     def test_what_failed_has_worked(self):
         """Iterations of a step that failed for good stand in no history, but in the message that ended the

@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from modules import ROOT
-from billet_trade.scene import Scene, entries, read_scene, variant
+from billet_tools.scene import Scene, entries, read_scene, variant
 
 TEXT = """set Title = a # remark
 subsection Bodies

@@ -2,31 +2,21 @@
 """The command line."""
 
 import argparse
-import hashlib
 import fnmatch
-import os
-import shutil
 import sys
 import time
 from collections import Counter
 from pathlib import Path
 
-from . import ExtremesError, plan, report
+from billet_tools import UserError
+from billet_tools.kept import hash_of
+from billet_tools.program import find_program
+
+from . import plan, report
 from .runner import OUTCOMES, Runner, read_kept
 
 BAD = ("wrong", "crashed", "hung", "unhelpful")
 UNEXPECTED = (*BAD, "doubtful", "failed")  # of the fixed scenes, which run, or are refused
-
-
-def program_of(named):
-    wanted = named or os.environ.get("BILLET")
-    found = shutil.which(wanted) if wanted else None
-    if not found:
-        raise ExtremesError(
-            f"the program '{wanted or 'billet'}' was not found, or cannot be run: name it with --program or"
-            " in BILLET"
-        )
-    return Path(found).resolve()
 
 
 def parse(arguments):
@@ -83,7 +73,7 @@ def chosen(options, runner):
         by_name = {case.name: case for case in cases}
         missing = [name for name in plan.FIXED if name not in by_name]
         if missing:
-            raise ExtremesError(f"the plan has no scene {missing}")
+            raise UserError(f"the plan has no scene {missing}")
         cases = [by_name[name] for name in plan.FIXED]
     if options.only:
         cases = [
@@ -97,7 +87,7 @@ def chosen(options, runner):
         cases = [case for case in cases if (runner.kept(case) or {}).get("outcome") in options.outcome]
     # In an order of no meaning: what is stopped half-way has tried all parameters, and the time to go is
     # right.
-    cases.sort(key=lambda case: hashlib.sha256(case.name.encode()).hexdigest())
+    cases.sort(key=lambda case: hash_of(case.name))
     if options.part:
         i, n = (int(x) for x in options.part.split("/"))
         cases = cases[i - 1 :: n]
@@ -108,7 +98,7 @@ def run(arguments):
     options = parse(arguments)
     try:
         return perform(options)
-    except ExtremesError as error:
+    except UserError as error:
         print(f"extremes: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
@@ -117,7 +107,7 @@ def run(arguments):
 
 
 def perform(options):
-    runner = Runner(program_of(options.program), Path(options.folder).resolve(), options.keep)
+    runner = Runner(find_program(options.program), Path(options.folder).resolve(), options.keep)
     cases = chosen(options, runner)
     if options.list:
         for case in cases:

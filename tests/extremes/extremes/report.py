@@ -9,6 +9,8 @@ from matplotlib import pyplot
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
+from billet_tools.text import table
+
 from .invariants import NUDGE, SYMMETRIES
 from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE
 from .plan import FRICTION_LAWS
@@ -109,13 +111,6 @@ STRAINED = (*STRAINS, "aspect")  # a penalty that is soft would hide what they d
 
 def shown(value):
     return f"{value:.4g}" if isinstance(value, float) else str(value)
-
-
-def table(header, rows):
-    return "\n".join(
-        ["| " + " | ".join(header) + " |", "| " + " | ".join("---" for _ in header) + " |"]
-        + ["| " + " | ".join(str(c) for c in row) + " |" for row in rows]
-    )
 
 
 def alone(records, parameter):

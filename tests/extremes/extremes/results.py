@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run wrote, read back into base units and the upright frame."""
 
-import csv
 from functools import cached_property
 
 import numpy
-from billet_trade.results import read_grid, read_history
+from billet_tools.output import pictures_of, read_estimates, read_grid, read_history
 
 VECTORS = ("displacement", "contact_traction", "velocity")
 
@@ -86,13 +85,12 @@ class Result:
 
     @classmethod
     def read(cls, setup, folder):
-        pictures = sorted(folder.glob("fields_*.pvtu"))
-        file, believed = folder / "error_estimate.csv", {}
-        if file.exists():
-            with open(file, newline="") as stream:
-                believed = {row["quantity"]: float(row["value"]) for row in csv.DictReader(stream)}
+        pictures = pictures_of(folder)
         return cls(
-            setup, read_history(folder / "history.csv"), read_grid(pictures[-1]) if pictures else {}, believed
+            setup,
+            read_history(folder / "history.csv"),
+            read_grid(pictures[-1]) if pictures else {},
+            read_estimates(folder),
         )
 
     @cached_property

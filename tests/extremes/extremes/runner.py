@@ -3,7 +3,6 @@
 stopped goes on."""
 
 import dataclasses
-import hashlib
 import json
 import os
 import re
@@ -14,14 +13,15 @@ import time
 import traceback
 from pathlib import Path
 
-from billet_trade.records import read_records
+from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
+from billet_tools.program import ALONE
+from billet_tools.records import read_records, warnings_of
+from billet_tools.scene import scene_text
 
-from . import invariants, messages, prm
+from . import invariants, messages
 from .results import Result
 from .scenes import make, nudged
 
-# One rank, without Open MPI's daemon: half of the time of a tiny scene.
-ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Messages of a run that comes to its end, and what they make of it: doubtful, soft, ...
 DOUBT = (
@@ -90,7 +90,7 @@ def processor_seconds(pid):
 
 
 def slug(name):
-    return re.sub(r"[^\w.=+-]+", "_", name)[:100] + "-" + hashlib.sha256(name.encode()).hexdigest()[:8]
+    return re.sub(r"[^\w.=+-]+", "_", name)[:100] + "-" + hash_of(name)[:8]
 
 
 def rows(history):
@@ -99,10 +99,7 @@ def rows(history):
 
 def read_kept(folder, case):
     """Its outcome, as a Runner of this folder has kept it, or None."""
-    try:
-        return json.loads((folder / "kept" / (slug(case.name) + ".json")).read_text())
-    except (OSError, ValueError):
-        return None
+    return read_json(folder / "kept" / (slug(case.name) + ".json"))
 
 
 class Runner:
@@ -114,10 +111,10 @@ class Runner:
         self.patience, self.at_most = patience, at_most
         for name in ("kept", "scenes", "work"):
             (folder / name).mkdir(parents=True, exist_ok=True)
-        self.program_hash = hashlib.sha256(program.read_bytes()).hexdigest()[:12]
-        self.checks_hash = hashlib.sha256(
-            b"".join((Path(__file__).parent / f"{name}.py").read_bytes() for name in JUDGES)
-        ).hexdigest()[:12]
+        self.program_hash = hash_of_file(program)[:12]
+        self.checks_hash = hash_of(*((Path(__file__).parent / f"{name}.py").read_bytes() for name in JUDGES))[
+            :12
+        ]
         self._references = {}
 
     def kept(self, case):
@@ -145,14 +142,12 @@ class Runner:
             record.update(outcome="wrong", reason="the check itself failed: " + traceback.format_exc(limit=4))
         record["seconds"] = round(time.monotonic() - begin, 3)
         file = self.folder / "kept" / (slug(case.name) + ".json")
-        unfinished = file.with_suffix(f".{os.getpid()}")
-        unfinished.write_text(json.dumps(record, indent=1))
-        os.replace(unfinished, file)
+        write_json(file, record)
         return record
 
     def _judge(self, case):
         setup = make(case.base, case.changes)
-        text = prm.text(setup.sections)
+        text = scene_text(setup.sections)
         work = self.folder / "work" / slug(case.name)
         told = self._execute(text, work)
         scene = self.folder / "scenes" / (slug(case.name) + ".prm")
@@ -192,7 +187,6 @@ class Runner:
                 else invariants.same(result, other, case.loose, case.count)
             )
         records = read_records(work / "results/diagnostics.jsonl")
-        warnings = [r for r in records if r["severity"] == "warning"]
 
         def of(keys):
             return [r for r in records if r["key"] in keys]
@@ -240,7 +234,7 @@ class Runner:
             "checks": len(found),
             "depth": invariants.deepest(result),
             "soft": bool(of(SOFT)) or invariants.deepest(result) > DEEP,
-            "warnings": sorted({r["key"] for r in warnings}),
+            "warnings": warnings_of(records),
             "errors": {f.name: f.error for f in found},
         }
         outcome = "right" if not broken else "doubtful" if doubts and not beyond else "wrong"
@@ -253,7 +247,7 @@ class Runner:
         if sections is None:
             return 0.0
         beside = work.with_name(work.name + "-nudged")
-        code, _, _, _ = self._execute(prm.text(sections), beside)
+        code, _, _, _ = self._execute(scene_text(sections), beside)
         differs = (
             invariants.sensitivity(result, Result.read(setup, beside / "results")) if code in (0, 7) else 0.0
         )
@@ -265,7 +259,7 @@ class Runner:
         if key not in self._references:
             setup = make(case.base, case.like)
             work = self.folder / "work" / slug(f"{case.base} {key[1]} as reference")
-            code, _, _, _ = self._execute(prm.text(setup.sections), work)
+            code, _, _, _ = self._execute(scene_text(setup.sections), work)
             self._references[key] = Result.read(setup, work / "results") if code in (0, 7) else None
             shutil.rmtree(work, ignore_errors=True)
         return self._references[key]

@@ -7,7 +7,7 @@ import math
 
 from . import invariants as must
 from .closed_forms import bar_speed
-from .prm import Frame, number
+from .frame import Frame, number
 
 KNOBS = {
     # frame

@@ -3,11 +3,17 @@
 wants; one that the scene cannot use has none to make. Whether the program takes a change it says itself
 (`billet --check`)."""
 
+from __future__ import annotations
+
 import math
 import re
 from dataclasses import dataclass
+from typing import Callable, Mapping
 
-from . import TradeError
+from .. import UserError
+from ..scene import Changes, Scene
+
+Maker = Callable[[Scene, str], Changes]  # of an argument as text; raises CannotTurn
 
 
 class CannotTurn(Exception):
@@ -16,45 +22,47 @@ class CannotTurn(Exception):
 
 @dataclass
 class Knob:
+    """What is turned, and over which values."""
+
     name: str
     meaning: str
-    arguments: list
-    make: object  # (scene, argument as text) -> changes; raises CannotTurn
+    arguments: list[str]
+    make: Maker
 
-    def turned(self, scene, argument):
+    def turned(self, scene: Scene, argument: str) -> Changes:
         """make(), whose complaints about the argument name the knob."""
         try:
             return self.make(scene, argument)
-        except TradeError as error:
-            raise TradeError(f"the knob '{self.name}': {error}") from None
+        except UserError as error:
+            raise UserError(f"the knob '{self.name}': {error}") from None
 
 
-KNOBS = {}
+KNOBS: dict[str, Knob] = {}
 
 
-def knob(name, meaning, *arguments):
-    def keep(make):
+def knob(name: str, meaning: str, *arguments: object) -> Callable[[Maker], Maker]:
+    def keep(make: Maker) -> Maker:
         KNOBS[name] = Knob(name, meaning, [str(a) for a in arguments], make)
         return make
 
     return keep
 
 
-def number(text, allowed="a number > 0", option=""):
+def number(text: str, allowed: str = "a number > 0", option: str = "") -> float:
     try:
         value = float(text)
     except ValueError:
         value = math.nan
     if not (value > 0.0 and math.isfinite(value)):
-        raise TradeError(f"{option}{': ' if option else ''}found '{text}', allowed is {allowed}")
+        raise UserError(f"{option}{': ' if option else ''}found '{text}', allowed is {allowed}")
     return value
 
 
-def shown(value):
+def shown(value: float) -> str:
     return f"{value:.6g}"
 
 
-def need(condition, why):
+def need(condition: object, why: str) -> None:
     if not condition:
         raise CannotTurn(why)
 
@@ -74,18 +82,18 @@ COUNTS = {
 }
 
 
-def plane_axes(planes):
+def plane_axes(planes: str) -> set[int]:
     """Axes along which a body lies between two symmetry planes, so that one layer of elements may be all
     there is."""
     axes = re.findall(r"(?:^|;)\s*([xyz])\s*=", planes)
     return {"xyz".index(axis) for axis in axes if axes.count(axis) > 1}
 
 
-def scaled(count, factor):
+def scaled(count: int, factor: float) -> int:
     return max(1, round(count * factor))
 
 
-def scaled_mesh(scene, body, factor):
+def scaled_mesh(scene: Scene, body: str, factor: float) -> Changes:
     """Changes that make the elements of a body so many times smaller along each edge."""
     mesh = f"Bodies/{body}/Mesh/"
     changes = {}
@@ -120,32 +128,37 @@ def scaled_mesh(scene, body, factor):
     return {**changes, mesh + "Refinements": refinements}
 
 
-@knob("mesh", "elements along each edge, factor of the scene's", 0.5, 1, 2)
-def make_mesh(scene, argument):
-    changes = {}
+def scaled_meshes(scene: Scene, factor: float) -> Changes:
+    """Changes that make the elements of all bodies so many times smaller along each edge."""
+    changes: dict[str, object] = {}
     for body in scene.names("Bodies"):
-        changes.update(scaled_mesh(scene, body, number(argument)))
+        changes.update(scaled_mesh(scene, body, factor))
     return changes
+
+
+@knob("mesh", "elements along each edge, factor of the scene's", 0.5, 1, 2)
+def make_mesh(scene: Scene, argument: str) -> Changes:
+    return scaled_meshes(scene, number(argument))
 
 
 # --- steps ----------------------------------------------------------------------------------------
 
 
-def implicit(scene):
+def implicit(scene: Scene) -> None:
     need(not scene.is_explicit, "of implicit scenes")
 
 
-def explicit(scene):
+def explicit(scene: Scene) -> None:
     need(scene.is_explicit, "of explicit scenes")
 
 
-def longest_steps(scene):
+def longest_steps(scene: Scene) -> int:
     """How many steps of the largest length the scene has."""
     key = "Initial step" if scene.get("Time stepping/Step control") == "fixed" else "Largest step"
     return max(1, math.ceil(scene.end_time / scene.step(key) - 1e-9))
 
 
-def equal_steps(scene, n):
+def equal_steps(scene: Scene, n: float) -> Changes:
     """n equal steps. The step does not follow the iterations, but one that fails is cut and soon as long
     again."""
     step = shown(scene.end_time / n)
@@ -164,13 +177,13 @@ def equal_steps(scene, n):
 
 
 @knob("steps", "so many equal steps", 10, 20, 40, 80)
-def make_steps(scene, argument):
+def make_steps(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return equal_steps(scene, number(argument))
 
 
 @knob("largest step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
-def make_largest_step(scene, argument):
+def make_largest_step(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
     need(
@@ -187,7 +200,7 @@ def make_largest_step(scene, argument):
 
 
 @knob("error tolerance", "of a step, by which its length is chosen", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
-def make_error_tolerance(scene, argument):
+def make_error_tolerance(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     if scene.scheme == "implicit dynamics":
         return {"Implicit dynamics/Error tolerance": argument}
@@ -196,41 +209,41 @@ def make_error_tolerance(scene, argument):
 
 
 @knob("spectral radius", "what a step leaves of the highest frequencies", 0, 0.5, 0.8, 1)
-def make_spectral_radius(scene, argument):
+def make_spectral_radius(scene: Scene, argument: str) -> Changes:
     need(scene.scheme == "implicit dynamics", "of implicit dynamics")
     need(scene.get("Implicit dynamics/Method") == "generalised-alpha", "of the generalised-alpha method")
     return {"Implicit dynamics/Spectral radius": argument}
 
 
 @knob("mass", "matrix of implicit dynamics", "consistent", "lumped")
-def make_mass(scene, argument):
+def make_mass(scene: Scene, argument: str) -> Changes:
     need(scene.scheme == "implicit dynamics", "of implicit dynamics")
     return {"Implicit dynamics/Mass": argument}
 
 
 @knob("safety factor", "part of the stable step", 0.95, 0.75, 0.5, 0.25)
-def make_safety(scene, argument):
+def make_safety(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     return {"Explicit dynamics/Safety factor": argument}
 
 
 @knob("contact resolution", "how much finer than stability asks for steps resolve contact penalties", 1, 2, 4)
-def make_resolution(scene, argument):
+def make_resolution(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     need(scene.names("Contact pairs"), "there is no contact")
     return {"Explicit dynamics/Contact resolution": argument}
 
 
 @knob("mass scaling", "steps so many times longer by mass that is added", 1.5, 2, 4, 8)
-def make_mass_scaling(scene, argument):
+def make_mass_scaling(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     # Its own first step is known once the scene has run.
-    step = getattr(scene, "first_step", None) or scene.end_time / 1e4
+    step = scene.first_step or scene.end_time / 1e4
     return {"Explicit dynamics/Mass scaling step": shown(number(argument) * step)}
 
 
 @knob("bulk viscosity", "linear and quadratic, factor of the scene's", 0.25, 0.5, 1, 2)
-def make_viscosity(scene, argument):
+def make_viscosity(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     return {
         f"Explicit dynamics/{kind} bulk viscosity": shown(
@@ -248,7 +261,7 @@ def make_viscosity(scene, argument):
     "AVX2",
     "AVX-512",
 )
-def make_instructions(scene, argument):
+def make_instructions(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     return {"Explicit dynamics/Instructions": argument}
 
@@ -259,7 +272,7 @@ def make_instructions(scene, argument):
     "double",
     "float",
 )
-def make_number_type(scene, argument):
+def make_number_type(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     return {"Explicit dynamics/Number type": argument}
 
@@ -267,7 +280,7 @@ def make_number_type(scene, argument):
 # --- contact --------------------------------------------------------------------------------------
 
 
-def pairs(scene, of_bodies=False):
+def pairs(scene: Scene, of_bodies: bool = False) -> list[str]:
     names = scene.names("Contact pairs")
     need(names, "there is no contact")
     if of_bodies:
@@ -276,14 +289,14 @@ def pairs(scene, of_bodies=False):
     return [f"Contact pairs/{n}/" for n in names]
 
 
-def has_friction(scene):
+def has_friction(scene: Scene) -> bool:
     return any(
         scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Largest shear stress") > 0
         for pair in pairs(scene)
     )
 
 
-def scaled_penalties(scene, factor):
+def scaled_penalties(scene: Scene, factor: float) -> Changes:
     changes = {}
     for pair in pairs(scene):
         for key in ("Normal penalty", "Tangential penalty"):
@@ -293,7 +306,7 @@ def scaled_penalties(scene, factor):
 
 
 @knob("penalty", "factor of the scene's, normal and tangential", 0.1, 0.3, 1, 3, 10)
-def make_penalty(scene, argument):
+def make_penalty(scene: Scene, argument: str) -> Changes:
     return scaled_penalties(scene, number(argument))
 
 
@@ -306,7 +319,7 @@ def make_penalty(scene, argument):
     1e-3,
     1e-4,
 )
-def make_augmentation(scene, argument):
+def make_augmentation(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {pair + "Penetration tolerance": argument for pair in pairs(scene)}
 
@@ -321,19 +334,19 @@ def make_augmentation(scene, argument):
     "symmetrised mean",
     "symmetrised upper",
 )
-def make_tangent(scene, argument):
+def make_tangent(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(has_friction(scene) or not argument.startswith("symmetrised"), "there is no friction to symmetrise")
     return {"Solver/Contact tangent": argument}
 
 
 @knob("facets", "what nodes of bodies touch", "overlap", "planed", "bilinear", "mean gap")
-def make_facets(scene, argument):
+def make_facets(scene: Scene, argument: str) -> Changes:
     return {pair + "Facets": argument for pair in pairs(scene, True)}
 
 
 @knob("passes", "of nodes against facets: of one side, or of both", "one", "two")
-def make_passes(scene, argument):
+def make_passes(scene: Scene, argument: str) -> Changes:
     changes = {}
     for pair in pairs(scene, True):
         if not scene.is_explicit and scene.get(pair + "Facets") in ("automatic", "overlap"):
@@ -343,7 +356,7 @@ def make_passes(scene, argument):
 
 
 @knob("smoothing", "of nodes against facets, part of a facet", 0.05, 0.1, 0.25, 0.5)
-def make_smoothing(scene, argument):
+def make_smoothing(scene: Scene, argument: str) -> Changes:
     changes = {}
     for pair in pairs(scene, True):
         if not scene.is_explicit and scene.get(pair + "Facets") in ("automatic", "overlap"):
@@ -353,14 +366,14 @@ def make_smoothing(scene, argument):
 
 
 @knob("search margin", "in facet sizes: changes the cost, not the result", 0.1, 0.25, 0.5, 1, 2)
-def make_margin(scene, argument):
+def make_margin(scene: Scene, argument: str) -> Changes:
     return {pair + "Search margin": argument for pair in pairs(scene, True)}
 
 
 # --- solver ---------------------------------------------------------------------------------------
 
 
-def newton_tolerance(tolerance):
+def newton_tolerance(tolerance: float) -> Changes:
     """Of the force, and of the energy beside it: in the ratio of the defaults, 1e-6 and 1e-10."""
     return {
         "Solver/Force tolerance": shown(tolerance),
@@ -369,30 +382,30 @@ def newton_tolerance(tolerance):
 
 
 @knob("tolerance", "of Newton's method", 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
-def make_tolerance(scene, argument):
+def make_tolerance(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return newton_tolerance(number(argument))
 
 
 @knob("predictor", "where iterations start", "extrapolation", "tangent")
-def make_predictor(scene, argument):
+def make_predictor(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Predictor": argument}
 
 
 @knob("line search", "of Newton's method", "energy", "none")
-def make_line_search(scene, argument):
+def make_line_search(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Line search": argument}
 
 
 @knob("solver", "linear solver", "MUMPS", "MUMPS symmetric", "CG", "GMRES")
-def make_solver(scene, argument):
+def make_solver(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Linear solver": argument}
 
 
-def iterative(scene):
+def iterative(scene: Scene) -> Changes:
     """The one the scene has, or the one that every matrix allows."""
     solver = scene.get("Solver/Linear solver")
     return {} if solver in ("CG", "GMRES") else {"Solver/Linear solver": "GMRES"}
@@ -401,13 +414,13 @@ def iterative(scene):
 @knob(
     "linear tolerance", "of an iterative solver (GMRES, unless the scene names one)", 1e-2, 1e-4, 1e-6, 1e-10
 )
-def make_linear_tolerance(scene, argument):
+def make_linear_tolerance(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {**iterative(scene), "Solver/Linear tolerance": argument}
 
 
 @knob("forcing", "how exactly an iterative solver solves", "Eisenstat-Walker", "fixed")
-def make_forcing(scene, argument):
+def make_forcing(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {**iterative(scene), "Solver/Forcing": argument}
 
@@ -416,16 +429,16 @@ def make_forcing(scene, argument):
 
 
 @knob("element", "of all bodies", "assumed strain", "one point", "mean dilatation")
-def make_element(scene, argument):
+def make_element(scene: Scene, argument: str) -> Changes:
     return {f"Bodies/{body}/Element": argument for body in scene.names("Bodies")}
 
 
 @knob("kinematics", "of all bodies' laws", "Hencky", "neo-Hookean", "hypoelastic")
-def make_kinematics(scene, argument):
+def make_kinematics(scene: Scene, argument: str) -> Changes:
     return {f"Bodies/{body}/Material/Kinematics": argument for body in scene.names("Bodies")}
 
 
-def has_unsymmetric_tangent(scene, body):
+def has_unsymmetric_tangent(scene: Scene, body: str) -> bool:
     law = scene.get(f"{body}/Material/Kinematics")
     return law == "hypoelastic" or (
         scene.get(f"{body}/Material/Law") == "elastoplastic" and law == "neo-Hookean"
@@ -433,7 +446,7 @@ def has_unsymmetric_tangent(scene, body):
 
 
 @knob("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
-def make_material_tangent(scene, argument):
+def make_material_tangent(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.knows("Solver/Material tangent"), "this billet has no such parameter")
     need(
@@ -447,13 +460,13 @@ def make_material_tangent(scene, argument):
 
 
 @knob("profile", "one word for all knobs", "fast", "balanced", "accurate")
-def make_profile(scene, argument):
+def make_profile(scene: Scene, argument: str) -> Changes:
     need(scene.knows("Profile"), "this billet has no such parameter")
     return {"Profile": argument, "Target error": None}
 
 
 @knob("target error", "by which the program turns the knobs itself", 0.1, 0.03, 0.01, 0.003)
-def make_target_error(scene, argument):
+def make_target_error(scene: Scene, argument: str) -> Changes:
     need(scene.knows("Target error"), "this billet has no such parameter")
     return {"Target error": argument, "Profile": None}
 
@@ -461,39 +474,39 @@ def make_target_error(scene, argument):
 # --- what users name ------------------------------------------------------------------------------
 
 
-def own_knob(text):
+def own_knob(text: str) -> Knob:
     """A knob from '[NAME: ]path/to/parameter=v1,v2 [& other/path=w1,w2]', values separated by '|' where they
     hold commas."""
     name, marked, rest = text.partition(": ")
     if not marked or "=" in name or "/" in name:
-        name, rest = None, text
+        name, rest = "", text
     columns = {}
     for part in rest.split("&"):
         path, equals, values = part.partition("=")
         path = "/".join(" ".join(p.split()) for p in path.split("/"))
         if not equals or not path:
-            raise TradeError(
+            raise UserError(
                 f"--knob: found '{text}', allowed is 'path/to/parameter=value,value' or "
                 "'name: path/to/parameter=value,value & other/path=value,value'"
             )
         columns[path] = [v.strip() for v in values.split("|" if "|" in values else ",")]
     first = next(iter(columns.values()))
     if any(len(values) != len(first) for values in columns.values()):
-        raise TradeError(f"--knob: '{text}' names different numbers of values")
+        raise UserError(f"--knob: '{text}' names different numbers of values")
 
-    def make(_, argument):
+    def make(_: Scene, argument: str) -> Changes:
         place = first.index(argument)
         return {path: values[place] for path, values in columns.items()}
 
     return Knob(name or next(iter(columns)).split("/")[-1].lower(), ", ".join(columns), first, make)
 
 
-def asked_knob(text, known):
+def asked_knob(text: str, known: Mapping[str, Knob]) -> Knob:
     """A knob from 'name' or 'name=argument,argument'."""
     name, equals, arguments = text.partition("=")
     name = name.strip()
     if name not in known:
-        raise TradeError(
+        raise UserError(
             f"there is no knob '{name}'; there are {', '.join(known)}. "
             "--list says which ones the scene can use; --knob 'path/to/parameter=value,value' makes another"
         )
@@ -511,10 +524,10 @@ def asked_knob(text, known):
 # --- the reference --------------------------------------------------------------------------------
 
 
-def reference_settings(scene):
+def reference_settings(scene: Scene) -> Changes:
     """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is
     exact."""
-    changes = {path: None for path in ("Profile", "Target error") if path in scene.entries}
+    changes: dict[str, object] = {path: None for path in ("Profile", "Target error") if path in scene.entries}
     for body in scene.names("Bodies"):
         path = f"Bodies/{body}/Material/Kinematics"
         if scene.entries.get(path, "Hencky") != "Hencky":

@@ -7,10 +7,21 @@ others stay at the centre. One more run, off the centre along all axes at once, 
 which joins the uncertainty.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
+from typing import Callable, Mapping, NamedTuple, Sequence
 
-from . import TradeError, knobs, measure
+from .. import UserError
+from ..output import Array
+from ..scene import Changes, Scene
+from . import knobs, measure
+from .outputs import Output
+from .results import Result
+
+Level = tuple[str, Scene]  # its label and its scene
+Mesh = tuple[tuple[str, str], ...]  # what a scene says of its meshes
 
 
 @dataclass
@@ -20,9 +31,11 @@ class Axis:
 
     name: str
     ratio: float
-    levels: list
+    levels: list[Level]
     centre: int
 
+
+Ended = tuple[Axis, int, list[tuple[str, Result]]]  # an axis, the first of its levels that ended, and these
 
 # Elements up to which the finest of the reference's own meshes is four times as fine as the scene's: some
 # minutes' work.
@@ -31,7 +44,7 @@ AUGMENTED = 0.01  # facet sizes, the coarsest level where bodies touch in implic
 AFFORDABLE = {True: 150_000, False: 10_000}
 
 
-def mesh_factors(scene, wanted, count):
+def mesh_factors(scene: Scene, wanted: str | None, count: Callable[[Changes], int]) -> list[float]:
     """The wanted ones, which must have one ratio and hold 1; else 1, 2, 4 where count(changes) elements are
     affordable, or else those of 0.5, 1, 2 that the mesh allows."""
     if wanted:
@@ -40,20 +53,20 @@ def mesh_factors(scene, wanted, count):
         )
         ratios = [b / a for a, b in zip(factors, factors[1:])]
         if 1.0 not in factors or not ratios or max(ratios) > 1.001 * min(ratios) or min(ratios) <= 1:
-            raise TradeError(
+            raise UserError(
                 f"--reference-mesh: found '{wanted}', allowed are at least two factors in one ratio, 1 among"
                 " them"
             )
         return factors
     try:
-        if count(knobs.make_mesh(scene, 4.0)) <= AFFORDABLE[scene.is_explicit]:
+        if count(knobs.scaled_meshes(scene, 4.0)) <= AFFORDABLE[scene.is_explicit]:
             return [1.0, 2.0, 4.0]
     except knobs.CannotTurn:
         pass
     factors = []
     for factor in (0.5, 1.0, 2.0):
         try:
-            knobs.make_mesh(scene, factor)
+            knobs.scaled_meshes(scene, factor)
             factors.append(factor)
         except knobs.CannotTurn:
             pass
@@ -63,9 +76,17 @@ def mesh_factors(scene, wanted, count):
 class Plan:
     """The runs of a reference."""
 
-    def __init__(self, scene, count, mesh=None, steps=None, settings=None):
+    def __init__(
+        self,
+        scene: Scene,
+        count: Callable[[Scene], int],
+        mesh: str | None = None,
+        steps: int | None = None,
+        settings: Changes | None = None,
+    ) -> None:
         """`count(scene)`: its elements."""
         base = scene.changed({**knobs.reference_settings(scene), **(settings or {})})
+        levels: list[tuple[str, Changes]]
         if scene.is_explicit:
             safety = base.number("Explicit dynamics/Safety factor")
             levels = [
@@ -92,7 +113,7 @@ class Plan:
                 for pair in (f"Contact pairs/{name}/" for name in scene.names("Contact pairs"))
             }
         )
-        augmented = {
+        augmented: dict[str, object] = {
             pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0
         }
         if augmented:
@@ -105,25 +126,25 @@ class Plan:
         self._add_penalty(scene)
         self._add_cross()
 
-    def _add_mesh(self, scene, wanted, count):
+    def _add_mesh(self, scene: Scene, wanted: str | None, count: Callable[[Changes], int]) -> None:
         if wanted == GIVEN:
             return
         try:
             factors = mesh_factors(scene, wanted, count)
             levels = [
-                (f"mesh {f:g}", self.centre.changed({} if f == 1 else knobs.make_mesh(scene, f)))
+                (f"mesh {f:g}", self.centre.changed({} if f == 1 else knobs.scaled_meshes(scene, f)))
                 for f in factors
             ]
         except knobs.CannotTurn as why:
-            raise TradeError(f"--reference-mesh: {why}") from None
+            raise UserError(f"--reference-mesh: {why}") from None
         if len(factors) < 2:
-            raise TradeError(
+            raise UserError(
                 "the mesh can be made neither finer nor coarser, so that its error cannot be measured; "
                 "--reference-mesh given measures the others'"
             )
         self.axes.append(Axis("mesh", factors[1] / factors[0], levels, factors.index(1.0)))
 
-    def _add_penalty(self, scene):
+    def _add_penalty(self, scene: Scene) -> None:
         """By augmentation where the scene augments, or where bodies touch in an implicit scene, whose
         penalties and mesh errors do not add up well; else by the penalty."""
         pairs = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs")]
@@ -159,7 +180,7 @@ class Plan:
             ]
             self.axes.append(Axis("penalty", 4.0, levels, 0))
 
-    def _add_cross(self):
+    def _add_cross(self) -> None:
         """One step away from the centre along all axes: to the coarser mesh, where there is one, for its
         cost."""
         changes = {}
@@ -177,7 +198,7 @@ class Plan:
             )
         self.cross = self.centre.changed(changes)
 
-    def runs(self):
+    def runs(self) -> list[Level]:
         """[(label, scene)], the centre first."""
         found = [("centre", self.centre)]
         for axis in self.axes:
@@ -185,17 +206,29 @@ class Plan:
         return found + [("all of them", self.cross)]
 
 
+class Row(NamedTuple):
+    """How an output of the reference came about along an axis."""
+
+    output: str
+    axis: str
+    levels: str
+    differences: list[float]  # of neighbours, relative
+    observed: float | None  # order
+    order: float | None  # that was used
+    uncertainty: float
+
+
 class Reference:
     """`values`, and `uncertainty` relative to them, by output; `rows` tells how they came about; `remarks`
     what fell short."""
 
-    def __init__(self, plan, results, outputs):
+    def __init__(self, plan: Plan, results: Sequence[Result], outputs: Sequence[Output]) -> None:
         """`results`: of plan.runs(), in its order."""
         by_scene = {scene.text: result for (_, scene), result in zip(plan.runs(), results)}
         centre = by_scene[plan.centre.text]
         self.remarks = []
         if centre.status == "out of time":
-            raise TradeError(
+            raise UserError(
                 (
                     f"the reference could not be made: its centre was not done in the {centre.limit:g} s of"
                     f" --time-limit ({centre.reason})"
@@ -203,7 +236,7 @@ class Reference:
                 3,
             )
         if centre.status != "ok":
-            raise TradeError(
+            raise UserError(
                 (
                     f"the reference could not be made: its centre {centre.status} ({centre.reason}). "
                     "--reference-steps with a larger number, or --reference 'path=value', may help"
@@ -223,7 +256,7 @@ class Reference:
             while high + 1 < len(found) and found[high + 1][1].status == "ok":
                 high += 1
             if low == high:
-                raise TradeError(
+                raise UserError(
                     (
                         "the reference could not be made: nothing beside its centre came to an end along the"
                         f" axis '{axis.name}': {'; '.join(self.remarks)}"
@@ -231,15 +264,19 @@ class Reference:
                     3,
                 )
             sequences[axis.name] = (axis, low, found[low : high + 1])
-        self.values, self.uncertainty, self.rows = {}, {}, []
-        self._mesh_errors = {}  # {mesh: {output: error of this mesh alone}}
+        self.values: dict[str, Array] = {}
+        self.uncertainty: dict[str, float] = {}
+        self.rows: list[Row] = []
+        self._mesh_errors: dict[Mesh, dict[str, float]] = {}  # {mesh: {output: error of this mesh alone}}
         for output in outputs:
             self._extrapolate(output, plan, sequences, centre, by_scene[plan.cross.text])
 
-    def _extrapolate(self, output, plan, sequences, centre, cross):
+    def _extrapolate(
+        self, output: Output, plan: Plan, sequences: Mapping[str, Ended], centre: Result, cross: Result
+    ) -> None:
         known = {}
 
-        def values(result):
+        def values(result: Result) -> Array:
             key = str(result.folder)
             if key not in known:
                 known[key] = output.values(result)
@@ -256,14 +293,14 @@ class Reference:
                 predicted = predicted + (values(levels[place][1]) - middle)
         scale = output.scale(total)
         if not scale > 0.0:
-            raise TradeError(
+            raise UserError(
                 f"the output '{output.name}' is zero in this scene: choose others with --outputs", 2
             )
         uncertainty = 0.0
         for axis, levels, limit in limits:
             uncertainty += limit.uncertainty
             self.rows.append(
-                [
+                Row(
                     output.name,
                     axis.name,
                     " → ".join(label for label, _ in levels),
@@ -271,7 +308,7 @@ class Reference:
                     limit.observed,
                     limit.order,
                     limit.uncertainty / scale,
-                ]
+                )
             )
         off = math.nan
         if cross.status == "ok":
@@ -279,7 +316,7 @@ class Reference:
             uncertainty += off
         else:
             self.remarks.append(f"the run off all axes {cross.status}: whether they add up is not known")
-        self.rows.append([output.name, "off all axes", "", [], None, None, off / scale])
+        self.rows.append(Row(output.name, "off all axes", "", [], None, None, off / scale))
         self.values[output.name], self.uncertainty[output.name] = total, uncertainty / scale
         for axis, low, levels in sequences.values():
             limit = next(found for other, _, found in limits if other is axis)
@@ -288,20 +325,22 @@ class Reference:
                     output.norm(values(result) - limit.values) / scale
                 )
 
-    def mesh_alone(self, scene):
+    def mesh_alone(self, scene: Scene) -> dict[str, float] | None:
         """{output: error} that the scene's mesh, with its elements, makes where all else is converged; None
         where the reference has no such mesh."""
         return self._mesh_errors.get(mesh_of(scene))
 
-    def uncertainty_by_axis(self):
+    def uncertainty_by_axis(self) -> list[tuple[str, str, float]]:
         """[(output, axis, uncertainty)]."""
-        return [(row[0], row[1], row[6]) for row in self.rows if not math.isnan(row[6])]
+        return [
+            (row.output, row.axis, row.uncertainty) for row in self.rows if not math.isnan(row.uncertainty)
+        ]
 
 
 SPATIAL = ("Element", "Facets", "Passes", "Smoothing")
 
 
-def mesh_of(scene):
+def mesh_of(scene: Scene) -> Mesh:
     """What the scene says of its meshes and of what stands on them, however it writes it: other elements make
     other errors."""
     return tuple(

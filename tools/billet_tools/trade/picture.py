@@ -2,12 +2,23 @@
 """Error over cost, log-log: one curve a knob, what failed in a band of its own, the Pareto front, the
 choice."""
 
+from __future__ import annotations
+
 import math
 import textwrap
+from pathlib import Path
+from typing import Callable, Sequence
 
 from matplotlib import pyplot, ticker
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 
-from .report import WORK, percent
+from ..text import percent
+from .measure import pareto_front
+from .report import WORK, Point, Sweep
+
+Measure = Callable[[Point], float]  # cost or error of a point
 
 MARKERS = "osD^v<>pPhHX*d8"
 COLOURS = [
@@ -27,16 +38,16 @@ COLOURS = [
     "#666666",
     "#1b4f72",
 ]
-COSTS = (lambda p: p.seconds, lambda p: p.work)
+COSTS: tuple[Measure, Measure] = (lambda p: p.seconds, lambda p: p.work)
 
 
-def draw(sweep, file, title):
+def draw(sweep: Sweep, file: Path, title: str) -> None:
     figure = picture_of(sweep, title)
     figure.savefig(file, dpi=110)
     pyplot.close(figure)
 
 
-def picture_of(sweep, title):
+def picture_of(sweep: Sweep, title: str) -> Figure:
     """Points whose errors cancel stand at the error that they are ranked by, their values in brackets."""
     curves = sweep.curves()
     figure, panels = pyplot.subplots(1, 2, figsize=(12.0, 5.6), sharey=True)
@@ -171,18 +182,18 @@ def picture_of(sweep, title):
     return figure
 
 
-def cost_text(cost, _):
+def cost_text(cost: float, _: object) -> str:
     power = math.floor(math.log10(cost) + 1e-9)
     leading = round(cost / 10.0**power)
     return f"{cost:g}" if -3 < power < 4 else (f"{leading}·" if leading > 1 else "") + f"$10^{{{power}}}$"
 
 
-def limits(errors, u):
+def limits(errors: list[float], u: float) -> tuple[float, float]:
     low, high = min(errors + [u]), max(errors + [2 * u])
     return high * 1.35 * (high / low) ** 0.04, low / 1.6
 
 
-def wide(axes, costs):
+def wide(axes: Axes, costs: Sequence[float]) -> None:
     """Points off the frame, and no axis shorter than a factor of four."""
     low, high = min(costs), max(costs)
     middle = math.sqrt(low * high)
@@ -190,9 +201,9 @@ def wide(axes, costs):
     axes.set_xlim(middle / reach, middle * reach)
 
 
-def draw_front(axes, points, cost, error, u, ceiling):
-    from .measure import pareto_front
-
+def draw_front(
+    axes: Axes, points: Sequence[Point], cost: Measure, error: Measure, u: float, ceiling: float
+) -> None:
     front = [points[i] for i in pareto_front([cost(p) for p in points], [error(p) for p in points], u)]
     if not front:
         return
@@ -204,7 +215,16 @@ def draw_front(axes, points, cost, error, u, ceiling):
     axes.plot(x, y, color="0.72", lw=5, solid_joinstyle="miter", zorder=1, label="Pareto front")
 
 
-def draw_curve(axes, points, cost, error, u, colour, marker, name):
+def draw_curve(
+    axes: Axes,
+    points: Sequence[Point],
+    cost: Measure,
+    error: Measure,
+    u: float,
+    colour: str,
+    marker: str,
+    name: str,
+) -> None:
     good = [p for p in points if p.is_good]
     are_numbers = all(is_number(p.value) for p in points)
     if are_numbers:  # words have no order to follow
@@ -233,7 +253,7 @@ def draw_curve(axes, points, cost, error, u, colour, marker, name):
     axes.plot([], [], marker + ("-" if are_numbers else ""), color=colour, ms=6, label=name)
 
 
-def is_number(text):
+def is_number(text: str) -> bool:
     try:
         float(text)
         return True
@@ -241,7 +261,9 @@ def is_number(text):
         return False
 
 
-def name_points(axes, sweep, cost, u, band, notes):
+def name_points(
+    axes: Axes, sweep: Sweep, cost: Measure, u: float, band: float, notes: Sequence[Text]
+) -> None:
     """The values, those on the front first, where there is room beside points, notes and each other."""
     pixels = axes.transData.transform
     frame = axes.get_window_extent()

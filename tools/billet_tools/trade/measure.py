@@ -2,13 +2,19 @@
 """Pure: norms of differences, Richardson extrapolation, Pareto front, the choice. Nothing here knows of runs
 or files."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
+from typing import Any, Callable, Sequence
 
 import numpy
+from numpy.typing import NDArray
+
+Array = NDArray[numpy.float64]
 
 
-def trapezoids(times):
+def trapezoids(times: Array) -> Array:
     """Weights of the trapezoidal rule at these times."""
     gaps = numpy.diff(times)
     weights = numpy.zeros(len(times))
@@ -17,7 +23,7 @@ def trapezoids(times):
     return weights
 
 
-def interpolate(times, values, at):
+def interpolate(times: Array, values: Array, at: Array) -> Array:
     """Cubic Hermite interpolation with three-point slopes, of second order on unequal steps; constant beyond
     the ends. `values` has a row for each time."""
     times, values, at = (numpy.asarray(a, dtype=float) for a in (times, values, at))
@@ -35,15 +41,16 @@ def interpolate(times, values, at):
     i = numpy.clip(numpy.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
     h = gaps[i]
     s = ((at - times[i]) / numpy.diff(times)[i]).reshape(h.shape)
-    return (
+    found: Array = (
         (1 + 2 * s) * (1 - s) ** 2 * values[i]
         + s * (1 - s) ** 2 * h * slopes[i]
         + s**2 * (3 - 2 * s) * values[i + 1]
         + s**2 * (s - 1) * h * slopes[i + 1]
     )
+    return found
 
 
-def running_mean(times, values, window, at):
+def running_mean(times: Array, values: Array, window: float, at: Array) -> Array:
     """Means of the polygon through (times, values) over `window` about each time in `at`, over less at the
     ends."""
     times, values, at = numpy.asarray(times), numpy.asarray(values), numpy.asarray(at)
@@ -54,30 +61,32 @@ def running_mean(times, values, window, at):
         [numpy.zeros((1, columns.shape[1])), numpy.cumsum(0.5 * gaps * (columns[1:] + columns[:-1]), axis=0)]
     )
 
-    def integral(t):
+    def integral(t: Array) -> Array:
         i = numpy.clip(numpy.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
         s = (t - times[i])[:, None]
-        return integrals[i] + s * columns[i] + 0.5 * s**2 * (columns[i + 1] - columns[i]) / gaps[i]
+        until: Array = integrals[i] + s * columns[i] + 0.5 * s**2 * (columns[i + 1] - columns[i]) / gaps[i]
+        return until
 
     low = numpy.clip(at - 0.5 * window, times[0], times[-1])
     high = numpy.clip(at + 0.5 * window, times[0], times[-1])
-    return ((integral(high) - integral(low)) / (high - low)[:, None]).reshape(at.shape + values.shape[1:])
+    means: Array = (integral(high) - integral(low)) / (high - low)[:, None]
+    return means.reshape(at.shape + values.shape[1:])
 
 
-def mean_length(vectors, weights):
+def mean_length(vectors: Array, weights: Array) -> float:
     """Weighted mean of the lengths of vectors (a row each): the L1 norm of a curve."""
     return float(
         numpy.sum(weights * numpy.linalg.norm(vectors.reshape(len(vectors), -1), axis=1)) / numpy.sum(weights)
     )
 
 
-def root_mean_square(vectors, weights):
+def root_mean_square(vectors: Array, weights: Array) -> float:
     """Weighted root of the mean of squared lengths: the L2 norm."""
     squares = numpy.sum(vectors.reshape(len(vectors), -1) ** 2, axis=1)
     return math.sqrt(float(numpy.sum(weights * squares) / numpy.sum(weights)))
 
 
-def without_rigid_motion(places, displacements, weights):
+def without_rigid_motion(places: Array, displacements: Array, weights: Array) -> Array:
     """What is left of displacements when the rotation and translation that fit best (Kabsch 1976) are taken
     out."""
     w = weights[:, None] / numpy.sum(weights)
@@ -85,7 +94,8 @@ def without_rigid_motion(places, displacements, weights):
     start, end = places - numpy.sum(w * places, axis=0), moved - numpy.sum(w * moved, axis=0)
     u, _, v = numpy.linalg.svd((w * start).T @ end)
     turn = numpy.diag([1.0, 1.0, numpy.sign(numpy.linalg.det(u @ v))])
-    return end - start @ (u @ turn @ v)
+    left: Array = end - start @ (u @ turn @ v)
+    return left
 
 
 # --- the limit ------------------------------------------------------------------------------------
@@ -100,14 +110,14 @@ class Limit:
     that was used, None where the finest member was taken as it is; the one `observed`, None where there is
     none; `differences` of neighbours in the norm."""
 
-    values: numpy.ndarray
+    values: Array
     uncertainty: float
     order: float | None
     observed: float | None
-    differences: list
+    differences: list[float]
 
 
-def richardson(levels, ratio, norm):
+def richardson(levels: Sequence[Array], ratio: float, norm: Callable[[Array], float]) -> Limit:
     """The limit of a sequence of results from coarse to fine, each `ratio` times finer than the last
     (Richardson 1911).
 
@@ -123,18 +133,18 @@ def richardson(levels, ratio, norm):
     differences = [norm(b - a) for a, b in zip(levels, levels[1:])]
     if not differences:
         return Limit(finest, math.nan, None, None, differences)
-    last, observed = differences[-1], None
+    last, before = differences[-1], math.nan
+    observed: float | None = None
     if last == 0.0:
         return Limit(finest, 0.0, None, None, differences)
     if len(levels) > 2:
         before = differences[-2]
         observed = math.log(before / last) / math.log(ratio) if before > 0.0 else -math.inf
-    is_believed = observed is not None and observed >= LEAST_ORDER
-    order = min(observed, LARGEST_ORDER) if is_believed else LEAST_ORDER
-    left = max(last, differences[-2] / ratio**LARGEST_ORDER if is_believed else 0.0) / (
-        ratio**order - 1.0
-    )
-    if is_believed and norm(finest - levels[-3]) >= SAME_WAY * (before + last):
+    if observed is None or observed < LEAST_ORDER:
+        return Limit(finest, 1.25 * last / (ratio**LEAST_ORDER - 1.0), None, observed, differences)
+    order = min(observed, LARGEST_ORDER)
+    left = max(last, before / ratio**LARGEST_ORDER) / (ratio**order - 1.0)
+    if norm(finest - levels[-3]) >= SAME_WAY * (before + last):
         return Limit(
             finest + (finest - levels[-2]) / (ratio**order - 1.0), 1.25 * left, order, observed, differences
         )
@@ -144,7 +154,7 @@ def richardson(levels, ratio, norm):
 # --- points in the plane of cost and error --------------------------------------------------------
 
 
-def pareto_front(costs, errors, floor=0.0):
+def pareto_front(costs: Sequence[float], errors: Sequence[float], floor: float = 0.0) -> list[int]:
     """Indices, by cost, of the points that no other point beats in both. Errors below the floor, where they
     cannot be told apart, count as the floor."""
     front, least = [], math.inf
@@ -156,7 +166,14 @@ def pareto_front(costs, errors, floor=0.0):
     return front
 
 
-def cheapest_within(costs, errors, uncertainty, target, noise=0.0, preferences=None):
+def cheapest_within(
+    costs: Sequence[float],
+    errors: Sequence[float],
+    uncertainty: float,
+    target: float,
+    noise: float = 0.0,
+    preferences: Sequence[Any] | None = None,
+) -> int | None:
     """Index of the cheapest point whose error, the reference's uncertainty added, is within the target; None
     if there is none. Of those whose costs the noise, a part of them, does not tell apart, the one with the
     least of `preferences`, such as works, and then the first."""
@@ -170,5 +187,5 @@ def cheapest_within(costs, errors, uncertainty, target, noise=0.0, preferences=N
     )
 
 
-def weighted_mean(values, weights):
+def weighted_mean(values: Sequence[float], weights: Sequence[float]) -> float:
     return sum(w * v for v, w in zip(values, weights)) / sum(weights)

@@ -1,20 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Scenes as nested dictionaries, and the units and the frame in which they are written down."""
+"""The units and the frame in which scenes are written down."""
 
 import math
 
 import numpy
-
-
-def text(sections, depth=0):
-    """In the format of scene files: dictionaries are subsections, what is None is left out."""
-    lines, margin = [], "  " * depth
-    for name, value in sections.items():
-        if isinstance(value, dict):
-            lines += [f"{margin}subsection {name}", text(value, depth + 1).rstrip("\n"), f"{margin}end"]
-        elif value is not None:
-            lines.append(f"{margin}set {name} = {value}")
-    return "\n".join(line for line in lines if line) + "\n"
 
 
 def number(value):

@@ -1,13 +1,25 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Points of a sweep, what they are judged to be, and what is said of them: table, CSV and words."""
 
+from __future__ import annotations
+
 import csv
 import math
-import re
 import statistics
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Iterable, Mapping, Optional, Sequence
 
+from ..scene import Changes, Scene
+from ..text import big, first_sentence, number, percent, table
 from . import measure
+from .outputs import Force, Output
+from .reference import Reference
+from .results import Result
+
+# A knob, the point with the least error, and the cheapest that keeps it.
+Purchase = tuple[str, Optional["Point"], Optional["Point"]]
+Forces = Optional[tuple[Force, Reference]]  # a force, and the reference that knows it
 
 
 @dataclass
@@ -28,10 +40,10 @@ class Point:
 
     curve: str
     value: str
-    changes: dict
-    scene: object
-    result: object = None
-    errors: dict = field(default_factory=dict)
+    changes: Changes
+    scene: Scene
+    result: Result = field(init=False)  # once it has run
+    errors: dict[str, float] = field(default_factory=dict)
     error: float = math.nan
     status: str = ""
     reason: str = ""
@@ -39,19 +51,19 @@ class Point:
     is_base: bool = False
 
     @property
-    def seconds(self):
+    def seconds(self) -> float:
         return self.result.core_seconds
 
     @property
-    def is_good(self):
+    def is_good(self) -> bool:
         return self.status == "ok"
 
     @property
-    def label(self):
+    def label(self) -> str:
         return "as written" if self.is_base else f"{self.curve} = {self.value}"
 
 
-def work_of(result, elements, is_explicit):
+def work_of(result: Result, elements: int, is_explicit: bool) -> float:
     """Without regard to the machine: element updates, elements times steps, of explicit scenes; of others the
     elements times Newton's and the linear solver's iterations."""
     return elements * (result.steps if is_explicit else result.newton + result.linear)
@@ -80,13 +92,13 @@ WORK = {
 }
 
 
-def uncertainty_of(reference, outputs, weights):
+def uncertainty_of(reference: Reference, outputs: Sequence[Output], weights: Mapping[str, float]) -> float:
     return measure.weighted_mean(
         [reference.uncertainty[o.name] for o in outputs], [weights[o.name] for o in outputs]
     )
 
 
-def judge_forces(result, forces, limits):
+def judge_forces(result: Result, forces: tuple[Force, Reference], limits: Limits) -> list[tuple[str, str]]:
     """[(status, reason)] by the mean of the forces, where it is off by more than the reference's is
     uncertain. One that is not even known to its own size may be round-off, and judges nothing."""
     force, reference = forces
@@ -106,7 +118,15 @@ def judge_forces(result, forces, limits):
     return []
 
 
-def judge(point, outputs, weights, reference, scene, limits, forces):
+def judge(
+    point: Point,
+    outputs: Sequence[Output],
+    weights: Mapping[str, float],
+    reference: Reference,
+    scene: Scene,
+    limits: Limits,
+    forces: Forces,
+) -> None:
     """Fills in errors and status. What failed has no error: nothing that failed looks good. By a reference
     that is itself known no better than a useless run nobody is judged, but by forces, if these are known
     better. `forces`: (Force, Reference that knows it), which tell whether a run is locked or soft whatever
@@ -136,38 +156,24 @@ def judge(point, outputs, weights, reference, scene, limits, forces):
 # --- numbers --------------------------------------------------------------------------------------
 
 
-def number(value, digits=3):
-    if value is None or (isinstance(value, float) and math.isnan(value)):
-        return "–"
-    if isinstance(value, float):
-        return f"{value:.{digits}g}" if value == 0 or abs(value) < 10**digits else f"{value:.0f}"
-    return str(value)
-
-
-def big(value):
-    return "–" if math.isnan(value) else f"{value:,.0f}"
-
-
-def percent(value, digits=2):
-    return "–" if value is None or math.isnan(value) else number(100.0 * value, digits) + " %"
-
-
-def error_text(error, uncertainty):
+def error_text(error: float, uncertainty: float) -> str:
     return f"< {percent(uncertainty)}" if error < uncertainty else percent(error)
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head)] + rows
-    return "\n".join("| " + " | ".join(str(cell).replace("|", "/") for cell in line) + " |" for line in lines)
-
-
-# --- the sweep as a whole -------------------------------------------------------------------------
 
 
 class Sweep:
     """All points, the reference they are measured against, and what follows."""
 
-    def __init__(self, points, reference, outputs, weights, scene, cost, target, useless=Limits.error):
+    def __init__(
+        self,
+        points: Sequence[Point],
+        reference: Reference,
+        outputs: Sequence[Output],
+        weights: Mapping[str, float],
+        scene: Scene,
+        cost: str,
+        target: float | None,
+        useless: float = Limits.error,
+    ) -> None:
         """`useless`: the error beyond which a run is of no use; a reference that is known no better ranks
         nothing."""
         self.points, self.reference, self.outputs, self.weights = points, reference, outputs, weights
@@ -189,10 +195,10 @@ class Sweep:
             )
             self.chosen = None if i is None else good[i]
 
-    def cost_of(self, point):
+    def cost_of(self, point: Point) -> float:
         return point.seconds if self.cost == "seconds" else point.work
 
-    def _find_cancellations(self, good):
+    def _find_cancellations(self, good: Sequence[Point]) -> None:
         """{point: (error, by what)} of points that seem better than their meshes let them be, by more than
         the uncertainty: than the error of the mesh alone, which the reference knows of its own meshes, or
         than a point with a finer mesh and all else the same; and of points that seem clearly better than
@@ -233,47 +239,47 @@ class Sweep:
             if known:
                 self.cancelled[id(p)] = max(known)
 
-    def ranked(self, point):
+    def ranked(self, point: Point) -> float:
         """The error that a choice may rest on."""
         return max(point.error, self.cancelled.get(id(point), (0.0, ""))[0])
 
-    def curves(self):
+    def curves(self) -> dict[str, list[Point]]:
         """{knob: points}, each point once."""
-        found = {}
+        found: dict[str, list[Point]] = {}
         for point in self.points:
             if not point.is_base:
                 found.setdefault(point.curve, []).append(point)
         return found
 
-    def _floored(self, point):
+    def _floored(self, point: Point) -> float:
         return max(self.ranked(point), self.uncertainty)
 
-    def is_cheaper(self, point):
+    def is_cheaper(self, point: Point) -> bool:
         """Than the scene as written, beyond what timings scatter."""
         return self.cost_of(point) * (1.0 + max(0.05, self.noise)) < self.cost_of(self.base)
 
-    def _preference(self, point):
+    def _preference(self, point: Point) -> tuple[bool, float]:
         """What decides where the timings do not: no errors that cancel, then the least work."""
         return id(point) in self.cancelled, point.work
 
-    def _cheapest(self, points):
+    def _cheapest(self, points: Sequence[Point]) -> Point:
         """Of those whose costs the timings do not tell apart, the one to be preferred."""
         least = min(map(self.cost_of, points))
         return min((p for p in points if self.cost_of(p) <= least * (1.0 + self.noise)), key=self._preference)
 
-    def _allowed(self):
+    def _allowed(self) -> float:
         """What the target leaves for the error."""
         return (self.target or 0.0) - self.uncertainty
 
-    def _keeping(self):
+    def _keeping(self) -> str:
         return (
             "within the target" if self._allowed() > self._floored(self.base) * 1.02 else "at no more error"
         )
 
-    def purchases(self):
+    def purchases(self) -> list[Purchase]:
         """By knob: the point with the least error, and the cheapest whose error is no more than that of the
         scene as it is written (or than the target, where that is larger)."""
-        rows = []
+        rows: list[Purchase] = []
         base = self.base
         if not base.is_good:
             return rows
@@ -294,7 +300,7 @@ class Sweep:
             )
         return rows
 
-    def times(self, point):
+    def times(self, point: Point) -> str:
         """Its cost beside that of the scene as written."""
         ratio = self.cost_of(point) / self.cost_of(self.base)
         return (
@@ -303,16 +309,16 @@ class Sweep:
             else (f"{number(ratio, 2)} times the cost" if ratio > 1.05 else "about the same cost")
         )
 
-    def say(self, point):
+    def say(self, point: Point) -> str:
         return (
             f"`{point.label}`: error {error_text(self.ranked(point), self.uncertainty)}, {self.times(point)}"
         )
 
-    def seems_better(self, point):
+    def seems_better(self, point: Point) -> bool:
         """Than the scene as written, by its error."""
         return not point.is_base and self.base.is_good and self.ranked(point) < self.ranked(self.base)
 
-    def may_cancel(self, point):
+    def may_cancel(self, point: Point) -> str:
         """A sentence where fewer elements have less error, which mesh and steps together may feign; else
         nothing."""
         if (
@@ -326,12 +332,12 @@ class Sweep:
             f" there a reference known to {percent(self.uncertainty)} cannot tell."
         )
 
-    def hint(self, point):
+    def hint(self, point: Point) -> str:
         """What a gain is worth that the reference is not known well enough for."""
         small = self.seems_better(point) and self.ranked(self.base) - self._floored(point) < self.uncertainty
         return " (a gain below the reference's uncertainty)" if small else ""
 
-    def words(self):
+    def words(self) -> list[str]:
         """What came out, in sentences."""
         base, said = self.base, []
         u = self.uncertainty
@@ -353,7 +359,7 @@ class Sweep:
                 )
 
                 # Accuracy for money: decades of error for a decade of cost.
-                def rate(p):
+                def rate(p: Point) -> float:
                     gain = math.log(self._floored(base) / self._floored(p))
                     return gain / max(0.05, math.log(max(self.cost_of(p) / self.cost_of(base), 1.0)))
 
@@ -396,7 +402,8 @@ class Sweep:
             said.append(
                 "Failed: "
                 + "; ".join(
-                    f"`{p.label}` {p.status}" + (f" ({short(p.reason)})" if p.reason else "") for p in failed
+                    f"`{p.label}` {p.status}" + (f" ({first_sentence(p.reason)})" if p.reason else "")
+                    for p in failed
                 )
                 + "."
             )
@@ -412,10 +419,10 @@ class Sweep:
                 + ". They count with the larger error, and stand in brackets."
             )
         if self.target is not None:
-            said.append(self.choice())
+            said.append(self.choice(self.target))
         return said
 
-    def blindness(self):
+    def blindness(self) -> str:
         worst = max(self.reference.uncertainty_by_axis(), key=lambda row: row[2])
         return (
             f"**The reference is known to {percent(self.uncertainty)} only, so that nothing can be said of"
@@ -424,8 +431,8 @@ class Sweep:
             " --outputs, too, may choose what is known better."
         )
 
-    def choice(self):
-        target, u = self.target, self.uncertainty
+    def choice(self, target: float) -> str:
+        u = self.uncertainty
         if self.chosen:
             return (
                 f"**Within {percent(target)}, the reference's uncertainty included, the cheapest is"
@@ -448,9 +455,9 @@ class Sweep:
 
     # --- what is written ---
 
-    def rows(self):
+    def rows(self) -> list[list[object]]:
         front = set(map(id, self.front))
-        rows = []
+        rows: list[list[object]] = []
         for p in self.points:
             r = p.result
             marks = (
@@ -479,11 +486,11 @@ class Sweep:
             )
         return rows
 
-    def _told(self, point):
+    def _told(self, point: Point) -> str:
         told = error_text(point.error, self.uncertainty)
         return f"({told})" if id(point) in self.cancelled else told
 
-    def head(self):
+    def head(self) -> list[str]:
         return [
             "knob",
             "value",
@@ -499,7 +506,7 @@ class Sweep:
             "",
         ]
 
-    def reference_table(self):
+    def reference_table(self) -> str:
         rows = [
             [
                 name,
@@ -525,21 +532,23 @@ class Sweep:
             rows,
         )
 
-    def bought_table(self):
+    def bought_table(self) -> str:
         base = self.base
         rows = []
         for knob, best, keep in self.purchases():
 
-            def cell(p):
+            def cell(p: Point | None) -> str:
+                if p is None:
+                    return "–"
                 ratio = self.cost_of(p) / self.cost_of(base)
                 return f"{p.value}: {error_text(self.ranked(p), self.uncertainty)} at {number(ratio, 2)}"
 
-            rows.append([knob, cell(best) if best else "–", cell(keep) if keep else "–"])
+            rows.append([knob, cell(best), cell(keep)])
         return table(
             ["knob", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"], rows
         )
 
-    def page(self, title, command, remarks, picture):
+    def page(self, title: str, command: str, remarks: Sequence[str], picture: str) -> str:
         weights = ", ".join(f"{o.name} ({o.meaning}), weight {self.weights[o.name]:g}" for o in self.outputs)
         uncertainty = "; ".join(
             f"{o.name} {percent(self.reference.uncertainty[o.name])}" for o in self.outputs
@@ -590,13 +599,13 @@ class Sweep:
             parts.append("Of the reference's own runs, " + "; ".join(self.reference.remarks) + ".")
         return "\n\n".join(parts) + "\n"
 
-    def timed(self):
+    def timed(self) -> str:
         counts = sorted({len(p.result.seconds) for p in self.points if p.is_good})
         if not counts:
             return "one run"
         return f"{counts[0]} runs" if counts[0] == counts[-1] else f"{counts[0]} to {counts[-1]} runs"
 
-    def write_csv(self, file, reference_runs):
+    def write_csv(self, file: Path, reference_runs: Iterable[tuple[str, Result]]) -> None:
         names = [o.name for o in self.outputs]
         front = set(map(id, self.front))
         with open(file, "w", newline="") as stream:
@@ -630,15 +639,27 @@ class Sweep:
             )
 
             def line(
-                kind, knob, value, status, reason, r, work, error, errors, on_front, chosen, ranked, changes
-            ):
+                kind: str,
+                knob: str,
+                value: str,
+                status: str,
+                reason: str,
+                r: Result,
+                work: float,
+                error: float,
+                errors: Mapping[str, float],
+                on_front: bool,
+                chosen: bool,
+                ranked: float,
+                changes: Changes,
+            ) -> None:
                 out.writerow(
                     [
                         kind,
                         knob,
                         value,
                         status,
-                        short(reason),
+                        first_sentence(reason),
                         r.elements,
                         r.steps,
                         r.newton,
@@ -698,7 +719,7 @@ class Sweep:
                 )
 
 
-def but_the_mesh(point):
+def but_the_mesh(point: Point) -> dict[str, str]:
     """A point's scene without its meshes."""
     return {path: value for path, value in point.scene.entries.items() if "/Mesh/" not in path}
 
@@ -707,29 +728,22 @@ CLEARLY = 1.2  # times an error or the uncertainty: more than other steps scatte
 STEPS = ("Time stepping/", "Implicit dynamics/Error tolerance", "Explicit dynamics/Safety factor")
 
 
-def but_the_steps(point):
+def but_the_steps(point: Point) -> dict[str, str]:
     """A point's scene without what makes its steps."""
     return {path: value for path, value in point.scene.entries.items() if not path.startswith(STEPS)}
 
 
-def has_shorter_steps(point, other):
+def has_shorter_steps(point: Point, other: Point) -> bool:
     """Clearly so: half as many again, in a scene that is the same otherwise."""
     return point.result.steps >= 1.5 * other.result.steps and but_the_steps(point) == but_the_steps(other)
 
 
-def timing_noise(timings):
+def timing_noise(timings: Sequence[Sequence[float]]) -> float:
     """Median over points of what repeated timings differ by, as part of their median; a fifth where nothing
     was repeated."""
     spreads = [(max(t) - min(t)) / max(1e-9, statistics.median(t)) for t in timings if len(t) > 1]
     return statistics.median(spreads) if spreads else 0.2
 
 
-def plain(value):
+def plain(value: float) -> str:
     return "" if math.isnan(value) else f"{value:.6g}"
-
-
-def short(text):
-    """Its first sentence, or what stands before a list of details."""
-    text = " ".join(text.split())
-    first = re.match(r"(.+?)(?:\.(?= [A-Z])|\.?$)", text).group(1) if text else ""
-    return first if len(first) <= 400 else first[: first.rindex(" ", 0, 397)].rstrip(",;:") + " ..."

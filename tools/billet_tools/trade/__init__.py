@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""billet-trade: what accuracy costs in a scene of billet, knob by knob. doc/manual.md tells how to use it.
+
+command    the command line
+plan       what is run: the scene in pilot form, and the points of the sweep
+knobs      what can be turned, and what the reference turns
+reference  the converged reference, and its runs
+run        running, and keeping what came out
+results    what a run gave, as it is kept
+outputs    the outputs whose errors count
+measure    pure: norms, Richardson extrapolation, Pareto front, the choice
+sweep      the order of things: runs, judges and writes
+report     table, CSV and words; picture draws
+"""

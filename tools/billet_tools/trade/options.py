@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is asked for on the command line."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Sequence
+
+from .. import UserError
+from . import knobs
+from .outputs import Profile
+from .reference import GIVEN
+
+Options = argparse.Namespace
+
+HELP = """What accuracy costs in a scene of billet: turns one knob after the other, measures each run against
+a converged reference that it makes itself, and writes a table, a CSV file and a picture of error over cost.
+What has been run is kept; after Ctrl-C the same command goes on."""
+
+
+def parse(arguments: Sequence[str]) -> Options:
+    parser = argparse.ArgumentParser(
+        prog="billet-trade", description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    add = parser.add_argument
+    add("scene", help="a scene file of billet")
+    add(
+        "--list", action="store_true", help="say which knobs the scene can use and with which values, and end"
+    )
+    group = parser.add_argument_group("what is turned")
+    add = group.add_argument
+    add(
+        "--knobs",
+        nargs="+",
+        metavar="KNOB[=V,V]",
+        help="these only, with these values: mesh=0.5,1 tangent penalty=1,10 (all that the scene can use)",
+    )
+    add(
+        "--knob",
+        action="append",
+        default=[],
+        metavar="[NAME: ]PATH=V,V",
+        help=(
+            "a knob of your own: a parameter by its path, 'Solver/Line search=energy,none'; "
+            "several at once joined by ' & '; values with commas separated by '|'"
+        ),
+    )
+    add(
+        "--product",
+        action="append",
+        nargs="+",
+        default=[],
+        metavar="KNOB[=V,V]",
+        help="all combinations of the values of these knobs, too; may be given more than once",
+    )
+    add(
+        "--combine",
+        action="store_true",
+        help="with --target: join to the chosen point, knob by knob, what is cheaper still",
+    )
+    group = parser.add_argument_group("the scene in pilot form")
+    add = group.add_argument
+    add("--until", type=float, metavar="PART", help="this part of the end time only")
+    add(
+        "--mesh",
+        metavar="FACTOR",
+        help="elements along each edge, factor of the scene's: 0.5 for a coarser mesh",
+    )
+    add("--set", action="append", default=[], metavar="PATH=VALUE", help="any parameter")
+    group = parser.add_argument_group("what counts")
+    add = group.add_argument
+    add(
+        "--outputs",
+        default="",
+        metavar="O[=W],...",
+        help=(
+            "of force, strain, shape, rebound, with weights: force=2,shape "
+            "(force, where there is one, and shape; strain, too, with --line)"
+        ),
+    )
+    add(
+        "--force",
+        metavar="COLUMN,...",
+        help="columns of history.csv, such as die.force_z (forces of all tools, else of all pairs of bodies)",
+    )
+    add(
+        "--window",
+        type=float,
+        default=0.05,
+        metavar="PART",
+        help="explicit scenes: forces are means over this part of the time (0.05)",
+    )
+    add("--line", metavar="'X,Y,Z to X,Y,Z'", help="in the undeformed bodies, of the strain profile")
+    add(
+        "--profile",
+        choices=("stretch", "plastic"),
+        default="stretch",
+        help="logarithmic stretch along the line, or equivalent plastic strain",
+    )
+    add("--target", metavar="ERROR", help="such as 1%% or 0.01: name the cheapest point within it")
+    add(
+        "--cost",
+        choices=("seconds", "work"),
+        default="seconds",
+        help="what 'cheap' means: core-seconds, or work without regard to the machine",
+    )
+    group = parser.add_argument_group("the reference")
+    add = group.add_argument
+    add(
+        "--reference-mesh",
+        metavar="F,F,F",
+        help=(
+            "factors of the mesh in one ratio, 1 among them (1,2,4 where that is affordable, else 0.5,1,2);"
+            " given: the scene's mesh is taken as it is, and errors are those of all else"
+        ),
+    )
+    add(
+        "--reference-steps",
+        type=int,
+        metavar="N",
+        help="implicit scenes: N, 2N and 4N equal steps (as many as the largest step makes, 20 to 100)",
+    )
+    add(
+        "--reference",
+        action="append",
+        default=[],
+        metavar="PATH=VALUE",
+        help="a parameter that the reference has otherwise than the scene",
+    )
+    group = parser.add_argument_group("running")
+    add = group.add_argument
+    add("--ranks", type=int, default=1, help="processes of each run (1)")
+    add("-j", "--jobs", type=int, default=1, help="runs at a time; more than one blurs the core-seconds (1)")
+    add("--repeat", type=int, default=3, help="times that each point is timed; the median counts (3)")
+    add(
+        "--time-limit", type=float, default=600.0, metavar="S", help="seconds on the clock for each run (600)"
+    )
+    add("--program", help="billet itself (the one beside this program, or in BILLET, or on the path)")
+    group = parser.add_argument_group("what fails beside what does not come to its end")
+    add = group.add_argument
+    add("--largest-drift", type=float, default=0.05, help="of the energy balance of dynamic scenes (0.05)")
+    add("--largest-penetration", type=float, default=0.5, help="in facet sizes (0.5)")
+    add(
+        "--locked",
+        type=float,
+        default=0.2,
+        help="forces larger by this part in the mean are those of locking (0.2)",
+    )
+    add(
+        "--soft",
+        type=float,
+        default=0.2,
+        help="forces smaller by this part in the mean are those of too soft a contact (0.2)",
+    )
+    add(
+        "--largest-error",
+        type=float,
+        default=0.5,
+        help="beyond which a run is of no use; of the reference, too (0.5)",
+    )
+    group = parser.add_argument_group("where to")
+    add = group.add_argument
+    add("--folder", help="where runs are kept (results/trade/SCENE)")
+    add("--output", metavar="NAME", help="NAME.csv, NAME.md and NAME.png are written (FOLDER/trade)")
+    add("--picture", metavar="FILE", help="another place for the picture, .png, .svg or .pdf")
+    add("--title", help="of picture and page (the scene's)")
+    options = parser.parse_args(arguments)
+    for name, least in (("ranks", 1), ("jobs", 1), ("repeat", 1)):
+        if getattr(options, name) < least:
+            raise UserError(
+                f"--{name}: found {getattr(options, name)}, allowed are whole numbers from {least} on"
+            )
+    if options.reference_steps is not None and options.reference_steps < 1:
+        raise UserError(
+            f"--reference-steps: found {options.reference_steps}, allowed are whole numbers from 1 on"
+        )
+    if options.until is not None and not 0 < options.until <= 1:
+        raise UserError(f"--until: found {options.until:g}, allowed is a part of the end time, > 0 and <= 1")
+    if options.combine and not options.target:
+        raise UserError("--combine wants a --target to stay within")
+    if options.reference_mesh == GIVEN and any(
+        k.partition("=")[0] == "mesh" for k in (options.knobs or []) + sum(options.product, [])
+    ):
+        raise UserError("--reference-mesh given: the mesh cannot be a knob then")
+    options.target = read_error(options.target)
+    if "strain" in read_outputs(options.outputs) and not options.line:
+        raise UserError("--outputs: the strain profile wants a --line 'x, y, z to x, y, z'")
+    if options.line:
+        Profile(options.line, options.profile)  # says what is wrong with it
+    if not options.time_limit > 0:
+        raise UserError(f"--time-limit: found {options.time_limit:g}, allowed are seconds > 0")
+    return options
+
+
+def read_error(text: str | None) -> float | None:
+    if text is None:
+        return None
+    cleaned = text.replace("percent", "%").strip()
+    value = knobs.number(cleaned.rstrip("% "), "an error > 0, such as 1% or 0.01", "--target") * (
+        0.01 if "%" in cleaned else 1.0
+    )
+    if value >= 1:
+        raise UserError(f"--target: found '{text}', allowed is an error below 100 %, such as 1% or 0.01")
+    return value
+
+
+def read_settings(option: str, texts: Sequence[str]) -> dict[str, str]:
+    changes = {}
+    for text in texts:
+        path, equals, value = text.partition("=")
+        if not equals or not path.strip():
+            raise UserError(f"{option}: found '{text}', allowed is 'path/to/parameter=value'")
+        changes["/".join(" ".join(part.split()) for part in path.split("/"))] = value.strip()
+    return changes
+
+
+def read_outputs(text: str) -> dict[str, float]:
+    """{name: weight}."""
+    weights = {}
+    for part in filter(None, (p.strip() for p in text.split(","))):
+        name, equals, weight = part.partition("=")
+        if name not in ("force", "strain", "shape", "rebound"):
+            raise UserError(
+                f"--outputs: found '{name}', allowed are force, strain, shape, rebound, each with =WEIGHT if"
+                " need be"
+            )
+        weights[name] = knobs.number(weight, "a weight > 0", f"--outputs: {name}") if equals else 1.0
+    return weights

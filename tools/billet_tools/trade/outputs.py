@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The outputs whose errors count: tool force, strain profile, final shape, rebound."""
+
+from __future__ import annotations
+
+import math
+import re
+from abc import ABC, abstractmethod
+from typing import Sequence
+
+import numpy
+
+from .. import UserError
+from ..output import Array
+from ..scene import Scene
+from . import measure
+from .results import Result
+
+
+class Output(ABC):
+    """An output of a run as an array of vectors, with a norm. `values` are those that the reference
+    extrapolates."""
+
+    name: str
+    meaning: str
+
+    @abstractmethod
+    def values(self, result: Result) -> Array:
+        """Returns those of a run."""
+
+    @abstractmethod
+    def norm(self, values: Array) -> float:
+        """Returns the size of values or of their differences."""
+
+    def error(self, result: Result, reference_values: Array) -> float:
+        """Relative to the reference's own size."""
+        return self.norm(self.values(result) - reference_values) / self.scale(reference_values)
+
+    def scale(self, reference_values: Array) -> float:
+        return self.norm(reference_values)
+
+
+class Force(Output):
+    """Forces of tools, or of contact pairs of bodies where there are no tools: ∫|F − F*| / ∫|F*| over time,
+    at the ends of steps. Explicit histories, which ring, by running means.
+
+    What the reference extrapolates are curves at the ends of the centre's steps. Between them it goes as the
+    `finest` run does, by whose difference from it, which has hardly any corners, it is carried over: curves
+    have corners, which no interpolation of long steps can tell (Roache and Knupp 1993, completed
+    extrapolation)."""
+
+    name, meaning = "force", "∫|F − F*| / ∫|F*| over time"
+
+    def __init__(
+        self,
+        result: Result,
+        scene: Scene,
+        columns: Sequence[str] | None,
+        window: float,
+        finest: Result | None = None,
+    ) -> None:
+        self.columns = columns or self.all_forces(result, scene)
+        self.finest = finest or result
+        for column in self.columns:
+            if column not in result.history:
+                have = sorted(c for c in result.history if ".force_" in c)
+                raise UserError(
+                    f"--force: the history has no column '{column}'; it has"
+                    f" {', '.join(have) or 'no force at all'}"
+                )
+        self.window = window * scene.end_time if scene.is_explicit else 0.0
+        self.times = (
+            numpy.linspace(0.0, scene.end_time, 201)[1:] if self.window else self._curve(result)[0][1:]
+        )
+        self.weights = measure.trapezoids(self.times)
+
+    @staticmethod
+    def all_forces(result: Result, scene: Scene) -> list[str]:
+        found = [c for name in scene.names("Tools") for c in result.history if c.startswith(f"{name}.force_")]
+        return found or [c for c in result.history if ".force_" in c]
+
+    def _curve(self, result: Result) -> tuple[Array, Array]:
+        """As the history has it, from a force of zero at time zero on."""
+        times = result.history["time"]
+        forces = numpy.stack([result.history[c] for c in self.columns], -1)
+        if times[0] > 0.0:
+            return numpy.append(0.0, times), numpy.vstack([numpy.zeros(forces.shape[1]), forces])
+        return times, forces
+
+    def values(self, result: Result) -> Array:
+        times, forces = self._curve(result)
+        if self.window:
+            return measure.running_mean(times, forces, self.window, self.times)
+        return measure.interpolate(times, forces, self.times)
+
+    def norm(self, forces: Array) -> float:
+        return measure.mean_length(forces, self.weights)
+
+    def error(self, result: Result, reference_values: Array) -> float:
+        if self.window:
+            return super().error(result, reference_values)
+        # At the ends of the run's own steps: what lies between them was not computed, and the jump within the
+        # first step of the reference is nobody's fault.
+        times, forces = self._curve(result)
+        inside = times >= self.times[0] * (1 - 1e-9)
+        times, forces = times[inside], forces[inside]
+        finest_times, finest = (values[1:] for values in self._curve(self.finest))
+        differences = reference_values - measure.interpolate(finest_times, finest, self.times)
+        exact = measure.interpolate(finest_times, finest, times) + measure.interpolate(
+            self.times, differences, times
+        )
+        weights = measure.trapezoids(times) if len(times) > 1 else numpy.ones(1)
+        return measure.mean_length(forces - exact, weights) / measure.mean_length(exact, weights)
+
+    def excess(self, result: Result, reference_values: Array) -> float:
+        """How much larger the mean force is than the reference's, as part of it: what locking shows in."""
+        return self.norm(self.values(result)) / self.norm(reference_values) - 1.0
+
+
+class Profile(Output):
+    """Along a line in the undeformed bodies: the logarithmic stretch along it, or the equivalent plastic
+    strain."""
+
+    name, meaning = "strain", "L2 norm along the line"
+    SEGMENTS = 40
+
+    def __init__(self, line: str, kind: str) -> None:
+        numbers = re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", line)
+        if len(numbers) != 6 or " to " not in line:
+            raise UserError(f"--line: found '{line}', allowed is 'x, y, z to x, y, z'")
+        ends = numpy.array(numbers, dtype=float).reshape(2, 3)
+        if not numpy.linalg.norm(ends[1] - ends[0]) > 0:
+            raise UserError(f"--line: found '{line}', allowed are two different points")
+        self.kind = kind
+        parameters = numpy.linspace(0.0, 1.0, self.SEGMENTS + 1)
+        self.places = ends[0] + parameters[:, None] * (ends[1] - ends[0])
+        self.weights = numpy.ones(self.SEGMENTS) if kind == "stretch" else measure.trapezoids(parameters)
+
+    def values(self, result: Result) -> Array:
+        meshes = result.body_meshes.values()
+        if self.kind == "stretch":
+            nearest = [
+                min(
+                    (
+                        mesh.at(place, mesh.places, result.fields["displacement"][mesh.points])
+                        for mesh in meshes
+                    ),
+                    key=lambda found: found[1],
+                )[0]
+                for place in self.places
+            ]
+            places = numpy.array([n[0] for n in nearest])
+            lengths = numpy.linalg.norm(numpy.diff(places, axis=0), axis=1)
+            moved = numpy.linalg.norm(
+                numpy.diff(places + numpy.array([n[1] for n in nearest]), axis=0), axis=1
+            )
+            good = lengths > 0
+            return numpy.where(
+                good, numpy.log(numpy.where(good, moved, 1.0) / numpy.where(good, lengths, 1.0)), 0.0
+            )[:, None]
+        if "equivalent_plastic_strain" not in result.fields:
+            raise UserError("--profile: nothing yields in this scene; 'stretch' does without")
+        smooth = {id(mesh): mesh.nodal(result.fields["equivalent_plastic_strain"]) for mesh in meshes}
+        return numpy.array(
+            [
+                min((mesh.at(place, smooth[id(mesh)]) for mesh in meshes), key=lambda found: found[1])[0]
+                for place in self.places
+            ]
+        )
+
+    def norm(self, values: Array) -> float:
+        return measure.root_mean_square(values, self.weights)
+
+
+class Shape(Output):
+    """Final places of material points over the bodies' volume: root mean square of the difference, over that
+    of the reference's displacements without the rigid motion of each body."""
+
+    name, meaning = (
+        "shape",
+        "root mean square of the differences of final places over that of the deformation",
+    )
+    MOST = 1500
+
+    def __init__(self, result: Result) -> None:
+        self.places, self.weights = {}, {}
+        total = sum(len(mesh.cells) for mesh in result.body_meshes.values())
+        stride = max(1, math.ceil(total / self.MOST))
+        for body, mesh in result.body_meshes.items():
+            self.places[body] = mesh.centres[::stride]
+            self.weights[body] = mesh.volumes[::stride]
+        self.all_weights = numpy.concatenate(list(self.weights.values()))
+
+    def values(self, result: Result) -> Array:
+        found = []
+        for body, places in self.places.items():
+            mesh = result.body_meshes[body]
+            displacement = result.fields["displacement"][mesh.points]
+            found += [mesh.at(place, displacement)[0][0] for place in places]
+        return numpy.array(found)
+
+    def norm(self, values: Array) -> float:
+        return measure.root_mean_square(values, self.all_weights)
+
+    def scale(self, reference_values: Array) -> float:
+        deformations, begin = [], 0
+        for body, places in self.places.items():
+            u = reference_values[begin : begin + len(places)]
+            deformations.append(measure.without_rigid_motion(places, u, self.weights[body]))
+            begin += len(places)
+        deformation = self.norm(numpy.concatenate(deformations))
+        return (
+            deformation if deformation > 1e-6 * self.norm(reference_values) else self.norm(reference_values)
+        )
+
+
+class Rebound(Output):
+    """Mean velocities of the bodies at the end, and those of tools with mass."""
+
+    name, meaning = "rebound", "difference of the bodies' final velocities over these velocities"
+
+    def __init__(self, scene: Scene) -> None:
+        self.tools = [name for name in scene.names("Tools") if scene.number(f"Tools/{name}/Motion/Mass") > 0]
+
+    def values(self, result: Result) -> Array:
+        found = []
+        for mesh in result.body_meshes.values():
+            velocity = result.fields["velocity"][mesh.points][mesh.cells].mean(axis=1)
+            found.append(numpy.average(velocity, axis=0, weights=mesh.volumes))
+        for name in self.tools:
+            travel = numpy.stack([result.history[f"{name}.travel_{axis}"][-2:] for axis in "xyz"], -1)
+            found.append((travel[1] - travel[0]) / numpy.diff(result.history["time"][-2:]))
+        return numpy.array(found)
+
+    def norm(self, values: Array) -> float:
+        return measure.root_mean_square(values, numpy.ones(len(values)))

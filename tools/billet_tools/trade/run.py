@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Running billet. Whatever a run gives is kept in a folder named by a hash of scene, program and ranks, so
+that nothing is ever run twice: a sweep that was stopped goes on."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import re
+import shutil
+import statistics
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+from typing import Any, Iterable, Mapping
+
+from .. import UserError
+from ..kept import hash_of, hash_of_file, read_json, write_json
+from ..program import Program, Stopped, execute
+from ..scene import Scene, entries, variant
+from . import knobs, results
+from .results import Result
+
+
+Task = tuple[str, Scene, int]  # label, scene, and how often it is timed
+Checked = tuple[int, str, dict[str, Any]]  # elements of a scene, why it is refused, and what it is
+
+
+class Runner:
+    """Runs variants of one scene, `jobs` of which may run at a time, each again until it was timed `repeat`
+    times."""
+
+    def __init__(self, program: Program, folder: str | Path, limit: float, repeat: int) -> None:
+        self.program, self.limit, self.repeat = program, limit, repeat
+        self.folder = Path(folder)
+        self.stop = threading.Event()
+        self._elements: dict[tuple[tuple[str, str], ...], int] = {}
+        self._run_here: set[Path] = set()
+        self.files: dict[str, Path] = {}  # {path in the scene: absolute file}
+        try:
+            (self.folder / "runs").mkdir(parents=True, exist_ok=True)
+            (self.folder / "checks").mkdir(exist_ok=True)
+            self._lock = open(self.folder / "lock", "w")  # as long as this process lives
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise UserError(
+                f"another billet-trade works in the folder '{folder}': wait for it, or name another --folder"
+            ) from None
+        except OSError as error:
+            raise UserError(f"the folder '{folder}' cannot be written to: {error.strerror}") from None
+
+    def close(self) -> None:
+        self._lock.close()
+
+    def prepared(self, scene: Scene) -> str:
+        """The text that is run: files by their full names."""
+        return variant(scene.text, {path: file for path, file in self.files.items() if path in scene.entries})
+
+    def key(self, text: str) -> str:
+        contents = [hash_of_file(file) for file in self.files.values()]
+        whole = json.dumps(
+            [
+                results.FORMAT,
+                sorted(entries(text).items()),
+                contents,
+                self.program.fingerprint,
+                self.program.ranks,
+            ]
+        )
+        return hash_of(whole)[:20]
+
+    def check(self, scene: Scene) -> Checked:
+        """Elements of a scene, why the program refuses it, '' if it does not, and what the program says it
+        is."""
+        text = self.prepared(scene)
+        kept = self.folder / "checks" / (self.key(text) + ".json")
+        if not kept.exists():
+            file = kept.with_suffix(f".{threading.get_ident()}.prm")
+            file.write_text(text)
+            code, checked, against = self.program.check(file)
+            file.unlink()
+            if self.stop.is_set():
+                raise Stopped
+            if code not in (0, 2):
+                raise UserError(f"'{self.program.path} --check' ended with {code}: {against}", 3)
+            write_json(
+                kept,
+                {
+                    "code": code,
+                    "scene": checked,
+                    "against": against.replace(str(file), "scene").replace(file.name, "scene"),
+                },
+            )
+        known = json.loads(kept.read_text())
+        why = "" if known["code"] == 0 else known["against"]
+        return known["scene"].get("elements", 0), re.sub(r"^scene:?\d*:? ?", "", why), known["scene"]
+
+    def elements(self, scene: Scene) -> int:
+        """How many it has; scenes with the same meshes are asked once."""
+        key = tuple(sorted((path, value) for path, value in scene.entries.items() if "/Mesh/" in path))
+        if key not in self._elements:
+            self._elements[key] = self.check(scene)[0]
+        return self._elements[key]
+
+    def finished(self, scene: Scene, repeat: int | None = None) -> bool:
+        """Whether nothing is left to do for it."""
+        place = self.folder / "runs" / self.key(self.prepared(scene))
+        kept = read_json(place / "result.json")
+        return kept is not None and kept["status"] != "crashed" and self._enough(kept, repeat or self.repeat)
+
+    def _enough(self, kept: Mapping[str, Any], repeat: int) -> bool:
+        if kept["status"] == "out of time" and self.limit > 1.01 * kept["limit"]:
+            return False
+        return kept["status"] != "ok" or len(kept["seconds"]) >= repeat
+
+    def run(self, scene: Scene, repeat: int | None = None) -> Result:
+        """The result, from the folder where there is one."""
+        repeat = repeat or self.repeat
+        text = self.prepared(scene)
+        place = self.folder / "runs" / self.key(text)
+        kept = read_json(place / "result.json")
+        if kept and kept["status"] == "out of time" and not self._enough(kept, repeat):
+            kept = None
+        if kept and kept["status"] == "crashed" and place not in self._run_here:
+            kept = None  # who knows why: once more
+        self._run_here.add(place)
+        while kept is None or not self._enough(kept, repeat):
+            if self.stop.is_set():
+                raise Stopped
+            kept = self._run_once(text, place, kept)
+        return results.Result(place, kept)
+
+    def _run_once(self, text: str, place: Path, kept: dict[str, Any] | None) -> dict[str, Any]:
+        work = place if kept is None else place / "again"
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        (work / "scene.prm").write_text(text)
+        try:
+            code, seconds, clock = execute(
+                self.program.command + ["scene.prm"], work, self.limit, self.stop, self.program.ranks
+            )
+        except Stopped:
+            shutil.rmtree(work, ignore_errors=True)
+            raise
+        if kept is None:
+            kept = results.collect(work, code, self.limit)
+            kept.update(seconds=[seconds], clock=clock)
+        else:
+            kept["seconds"].append(seconds)
+            shutil.rmtree(work)
+        kept["core_seconds"] = statistics.median(kept["seconds"])
+        write_json(place / "result.json", kept)
+        return kept
+
+
+class Progress:
+    """A line for each run, with the time to go: by the clock of the runs so far, and what size, steps and
+    repeats of the rest let expect."""
+
+    def __init__(
+        self, base_elements: int, base_steps: int, base_clock: float, is_explicit: bool, jobs: int
+    ) -> None:
+        self.base, self.is_explicit, self.jobs = (
+            (base_elements, base_steps, max(base_clock, 1e-3)),
+            is_explicit,
+            jobs,
+        )
+        self.done = self.total = 0
+        self.left, self.spent, self.expected_so_far = 0.0, 0.0, 0.0
+
+    def expected(self, elements: int, steps: float, repeats: int) -> float:
+        size: float = (elements / max(1, self.base[0])) ** (4 / 3)
+        length: float = 1.0 if self.is_explicit else (steps / self.base[1]) ** 0.7
+        return self.base[2] * max(0.3, size * length) * repeats
+
+    def plan(self, seconds: float) -> None:
+        self.total += 1
+        self.left += seconds
+
+    def tell(self, label: str, result: Result, planned: float, took: float, was_kept: bool) -> None:
+        self.done += 1
+        self.left = max(0.0, self.left - planned)
+        if not was_kept:
+            self.spent += took
+            self.expected_so_far += planned
+        pace = self.spent / self.expected_so_far if self.expected_so_far > 0 else 1.0
+        work = (
+            f"{result.newton + result.linear} iterations" if not self.is_explicit else f"{result.steps} steps"
+        )
+        to_go = "" if self.done == self.total else f"; about {clock(self.left * pace / self.jobs)} to go"
+        kept = ", kept from before" if was_kept else ""
+        print(
+            (
+                f"[{self.done:>{len(str(self.total))}}/{self.total}] {label}: {result.status},"
+                f" {result.core_seconds:.3g} core-s, {work}{kept}{to_go}"
+            ),
+            file=sys.stderr,
+            flush=True,
+        )
+
+
+def clock(seconds: float) -> str:
+    return (
+        f"{seconds:.0f} s"
+        if seconds < 100
+        else f"{seconds / 60:.0f} min"
+        if seconds < 6000
+        else f"{seconds / 3600:.1f} h"
+    )
+
+
+class Work:
+    """Runs that are to be made, each scene once."""
+
+    def __init__(self, runner: Runner, progress: Progress, scene: Scene) -> None:
+        self.runner, self.progress, self.scene = runner, progress, scene
+
+    def expected(self, scene: Scene, repeats: int) -> float:
+        elements = self.runner.elements(scene)
+        steps = float(self.progress.base[1])
+        if not scene.is_explicit:
+            steps *= knobs.longest_steps(scene) / knobs.longest_steps(self.scene)
+        return self.progress.expected(elements, steps, repeats)
+
+    def run(self, tasks: Iterable[Task], jobs: int) -> dict[str, Result]:
+        """Results by the key of the scene, of (label, scene, repeats)."""
+        planned: dict[str, Task] = {}
+        found = {}
+        for label, scene, repeats in tasks:
+            key = self.runner.key(self.runner.prepared(scene))
+            known = planned.get(key)
+            planned[key] = (known[0] if known else label, scene, max(repeats, known[2] if known else 0))
+        left = {key: self.expected(scene, repeats) for key, (_, scene, repeats) in planned.items()}
+        for seconds in left.values():
+            self.progress.plan(seconds)
+
+        def one(key: str) -> tuple[str, Result, float, bool]:
+            label, scene, repeats = planned[key]
+            was_kept = self.runner.finished(scene, repeats)
+            begin = time.monotonic()
+            return key, self.runner.run(scene, repeats), time.monotonic() - begin, was_kept
+
+        with ThreadPoolExecutor(jobs) as pool:
+            futures = [pool.submit(one, key) for key in planned]
+            try:
+                for future in as_completed(futures):
+                    key, result, took, was_kept = future.result()
+                    found[key] = result
+                    self.progress.tell(planned[key][0], result, left[key], took, was_kept)
+            except BaseException:
+                self.runner.stop.set()
+                pool.shutdown(wait=True, cancel_futures=True)
+                raise
+        return found
+
+    def result(self, found: Mapping[str, Result], scene: Scene) -> Result:
+        return found[self.runner.key(self.runner.prepared(scene))]
