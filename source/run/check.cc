@@ -9,7 +9,7 @@
 #include "billet/run/output_folder.h"
 #include "billet/scene/plausibility.h"
 #include "billet/solve/explicit_dynamics.h"
-#include "billet/solve/quasi_static.h"
+#include "billet/solve/implicit/implicit_solution.h"
 
 #include <ostream>
 
@@ -33,7 +33,7 @@ DiagnosticList check_start(const Scene &scene, MPI_Comm communicator) {
   if (scene.parameters().is_explicit())
     append(messages, ExplicitDynamics(scene, discretization).initial_diagnostics());
   else
-    append(messages, QuasiStatic(scene, discretization).initial_diagnostics());
+    append(messages, ImplicitSolution(scene, discretization).initial_diagnostics());
   append(messages, check_meshes(scene, discretization));
   return messages;
 }

@@ -189,10 +189,7 @@ void ImplicitRun::check_energies(RunOutput &output) {
 
 void ImplicitRun::end(RunOutput &output) {
   output.report(review_.finish());
-  output.report(problem_.check_stabilisation());
-  output.report(problem_.check_balance());
-  output.report(problem_.check_contact_round_off());
-  output.report(problem_.check_augmentation());
+  output.report(problem_.finish());
   if (watch_)
     report_errors(make_report(*watch_, report_), problem_, discretization_, parameters_, review_, output);
   if (errors_) {

@@ -74,7 +74,7 @@ bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
   return parameters.target_error > 0. || parameters.time_stepping.error_tolerance > 0.;
 }
 
-ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem)
+ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, ImplicitSolution &problem)
     : problem_(problem),
       controls_(1, ErrorControl(tolerances_of(scene), scene.parameters().time_stepping.end_time)),
       // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
@@ -193,7 +193,7 @@ void ErrorWatch::take_measurement() {
 }
 
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
-  const QuasiStatic::Results results = problem_.results();
+  const ImplicitSolution::Results results = problem_.results();
   for (std::size_t i = 0; i < controls_.size(); ++i)
     controls_[i].accept(length, results[i], residual_factor_ * report.force, problem_.penetration());
   if (probe_length_ > 0. && control.time() < probe_end_) {

@@ -34,7 +34,7 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
     tools_.back().rate = motion.initial_rate;
   }
 
-  u_n_ = v_n_ = a_n_ = a_bare_ = c_ = lumped_ = discretization.make_owned_vector();
+  u_n_ = v_n_ = a_n_ = a_bare_ = bare_forces_n_ = c_ = lumped_ = discretization.make_owned_vector();
   lumped_ = 1.;
   lumped_ = inertia_.times(ghosted(lumped_));
   load_forces_n_ = load_forces_ = held_change_ = u_n_;
@@ -285,10 +285,20 @@ Vector ImplicitMotion::accelerations_by(const Vector &forces) const {
   return result;
 }
 
-void ImplicitMotion::damp_contact(const Vector &contact_forces) {
+void ImplicitMotion::choose_contact_damping(const ForceState &start) {
+  bare_forces_n_ = start.supports;
+  if (damps_contact_ && start.contact.l2_norm() == 0.)
+    damps_contact_ = false;
+  else if (damps_contact_)
+    damp_contact(start);
+}
+
+void ImplicitMotion::damp_contact(const ForceState &start) {
+  bare_forces_n_ = start.supports;
+  bare_forces_n_ -= start.contact;
   damps_contact_ = true;
   a_bare_ = a_n_;
-  a_bare_ -= accelerations_by(contact_forces);
+  a_bare_ -= accelerations_by(start.contact);
 }
 
 void ImplicitMotion::finish_contact(const Vector &contact_forces) {
@@ -370,7 +380,8 @@ double ImplicitMotion::add_loads(const double t, const Vector &displacements, Ve
   return load_forces_.l2_norm();
 }
 
-double ImplicitMotion::complete(const Vector &forces_n, Vector &residual) const {
+double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
+  residual.add(contact_weight() - 1., contact);
   if (step_ == 0.)
     return 0.;
   Vector weighted = a_;
@@ -379,7 +390,7 @@ double ImplicitMotion::complete(const Vector &forces_n, Vector &residual) const 
   const Vector inertia = inertia_.times(ghosted(weighted));
   residual += inertia;
   if (integrator_.forces_before() != 0.)
-    residual.add(integrator_.forces_before(), forces_n);
+    residual.add(integrator_.forces_before(), bare_forces_n_);
   return inertia.l2_norm();
 }
 
@@ -427,7 +438,7 @@ double ImplicitMotion::wanted_accuracy() const {
 }
 
 void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
-                            EnergyLedger &energies) {
+                            const double /*touching*/, EnergyLedger &energies) {
   // With p = M Δv and the mean forces F̄, what the nodes' motions v̄·p + F̄·Δu do not cancel out is the
   // supports' work where they prescribe the motion, and elsewhere what the integrator takes.
   Vector change = v_, mean_velocity = v_;

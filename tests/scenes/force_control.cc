@@ -177,7 +177,8 @@ int main(int argc, char *argv[]) {
     double strain_before = 0., strain_after = 0., force_before = 0., elastic_before = 0., drift_before = 0.;
     const EnergyLedger &energies = back.problem.state().energies;
     back.finish([&](const NewtonReport &) {
-      strain_after = back.problem.internal_forces()
+      strain_after = back.problem.equation()
+                         .internal()
                          .summarize(0, back.problem.state().displacements)
                          .front()
                          .equivalent_plastic_strain;

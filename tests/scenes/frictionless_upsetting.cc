@@ -51,7 +51,7 @@ std::array<double, 3> run(const Variant &variant) {
   });
   double least = 1e9, most = 0.;
   for (const auto &element :
-       scene.problem.internal_forces().summarize(0, scene.problem.state().displacements)) {
+       scene.problem.equation().internal().summarize(0, scene.problem.state().displacements)) {
     least = std::min(least, element.equivalent_plastic_strain);
     most = std::max(most, element.equivalent_plastic_strain);
   }

@@ -10,7 +10,7 @@
 
 using namespace billet;
 using billet::testing::check;
-using billet::testing::QuasiStaticRun;
+using billet::testing::ImplicitSolutionRun;
 using billet::testing::SceneRun;
 
 namespace {
@@ -50,7 +50,7 @@ int main(int argc, char *argv[]) {
     loose.finish([&](const NewtonReport &) {
       const EnergyLedger &energies = loose.problem.state().energies;
       drift.add(std::abs(energies.drift()));
-      const double factor = loose.problem.stabilisation()->factor(0);
+      const double factor = loose.problem.equation().stabilisation().get()->factor(0);
       comes_back = comes_back || factor > last_factor;
       last_factor = factor;
     });
@@ -60,23 +60,24 @@ int main(int argc, char *argv[]) {
                (loose.load(0).force - touching.load(0).force).norm(), 0.01 * force);
     check_here("that of the table, too", (loose.load(1).force - touching.load(1).force).norm(), 0.01 * force);
     check_here("energies balance", drift.value(), 0.01 * energies.external);
-    const ContactStabilisation &stabilisation = *loose.problem.stabilisation();
+    const ContactStabilisation &stabilisation = *loose.problem.equation().stabilisation().get();
     check_here("viscous forces have done work", energies.viscous > 0.);
     check_here("which is in the account",
                std::abs(energies.viscous - stabilisation.work(0) - stabilisation.work(1)),
                1e-12 * energies.viscous);
     check_here("and less than a thousandth of all", energies.viscous, 1e-3 * energies.external);
     check_here("they have gone and did not come back", !stabilisation.acts() && !comes_back);
-    check_here("without a message", loose.problem.check_stabilisation().empty());
+    check_here("without a message", loose.problem.finish().empty());
   }
   {
     parameters::Scene scene = read();
     set_way(scene, "-0.300005*t");
     SceneRun run(scene);
     run.finish();
-    const DiagnosticList messages = run.problem.check_stabilisation();
+    const DiagnosticList messages = run.problem.finish();
     const Diagnostic *found = find(messages, diagnostic::stabilisation_too_strong);
-    const double part = run.problem.stabilisation()->work(0) / run.problem.state().energies.external;
+    const double part =
+        run.problem.equation().stabilisation().get()->work(0) / run.problem.state().energies.external;
     check_here("bodies that are hardly pressed: a warning", found != nullptr && part > 1e-3);
     check_here("with the factor", found != nullptr && std::abs(*found->measure() / (1e3 * part) - 1.) < 0.2);
   }
@@ -86,8 +87,8 @@ int main(int argc, char *argv[]) {
     SceneRun run(scene);
     run.finish();
     check_here("bodies that nothing stops: a warning",
-               find(run.problem.check_stabilisation(), diagnostic::stabilised_loads) != nullptr &&
-                   run.problem.stabilisation()->factor(0) == 1.);
+               find(run.problem.finish(), diagnostic::stabilised_loads) != nullptr &&
+                   run.problem.equation().stabilisation().get()->factor(0) == 1.);
   }
   {
     parameters::Scene scene = read();
@@ -100,12 +101,12 @@ int main(int argc, char *argv[]) {
       SceneRun run(scene);
       run.finish();
       check_here("without friction an eccentric block is squeezed out: a warning",
-                 find(run.problem.check_stabilisation(), diagnostic::stabilisation_too_strong) != nullptr);
+                 find(run.problem.finish(), diagnostic::stabilisation_too_strong) != nullptr);
     }
     scene.bodies[1].mesh.translation = dealii::Tensor<1, 3>({-0.1, -0.15, 0.});
     SceneRun run(scene);
     run.finish();
-    const DiagnosticList messages = run.problem.check_stabilisation();
+    const DiagnosticList messages = run.problem.finish();
     check_here("a block in the middle could slide: a note",
                messages.size() == 2 && find(messages, diagnostic::stabilised_at_end) != nullptr);
   }
@@ -120,7 +121,7 @@ int main(int argc, char *argv[]) {
     run.finish();
     check_here("a force pushes them together, too", std::abs(run.load(1).force[2] - 10.), 0.01 * 10.);
     check_here("its work over the gaps is no reason to warn",
-               run.problem.check_stabilisation().empty() && !run.problem.stabilisation()->acts());
+               run.problem.finish().empty() && !run.problem.equation().stabilisation().get()->acts());
   }
   {
     // Pressed, then die and table go apart.
@@ -139,7 +140,7 @@ int main(int argc, char *argv[]) {
     }
     check_here("bodies that lose their contacts afterwards: as without viscous forces",
                is_told && !was_told_before && run.control.time() > 0.6 &&
-                   !run.problem.stabilisation()->acts());
+                   !run.problem.equation().stabilisation().get()->acts());
   }
   {
     parameters::Scene scene = read();
@@ -152,15 +153,15 @@ int main(int argc, char *argv[]) {
       SceneRun run(scene);
       while (!run.control.is_finished()) {
         run.advance();
-        const double factor = run.problem.stabilisation()->factor(0);
+        const double factor = run.problem.equation().stabilisation().get()->factor(0);
         if (middle == 0. && factor > 0. && factor < 0.05)
           middle = run.control.time();
       }
     }
     check_here("there is a step in the middle of the fading", middle > 0.5 && middle < 1.);
-    billet::testing::test_going_on<QuasiStaticRun>(
+    billet::testing::test_going_on<ImplicitSolutionRun>(
         "loose bodies", scene, {0.24, middle},
-        [](QuasiStaticRun &run, const double until, auto &history) { run.run(until, history); }, 1e-5);
+        [](ImplicitSolutionRun &run, const double until, auto &history) { run.run(until, history); }, 1e-5);
   }
   return is_first ? billet::testing::exit_code() : 0;
 }

@@ -41,7 +41,11 @@ std::array<unsigned int, 3> count(const std::string &scene, const double factor,
       throw;
     ++n[0];
   }
-  n[1] += run.problem.check_contact_round_off().empty() ? 0 : 1;
+  const DiagnosticList messages = run.problem.finish();
+  n[1] += find(messages, diagnostic::balanced_to_round_off) != nullptr ||
+                  find(messages, diagnostic::round_off_limits_forces) != nullptr
+              ? 1
+              : 0;
   return n;
 }
 

@@ -32,7 +32,7 @@ double spring_back(const unsigned int n_points, const double curvature) {
   displacement.precision(17);
   displacement << length * curvature << "*z*bend";
   scene.bodies[0].supports[1].displacement.value[0] = displacement.str();
-  testing::QuasiStaticRun run(scene, MPI_COMM_WORLD);
+  testing::ImplicitSolutionRun run(scene, MPI_COMM_WORLD);
   testing::History history;
   std::vector<double> works, curvatures;
   for (double t = 1.; t < 1.35; t += 0.1) {
@@ -80,7 +80,7 @@ double mean_plastic_strain(const Solution &solution, const MPI_Comm communicator
 void test_transfer(const unsigned int from, const unsigned int to, const std::string &direction) {
   double strain = 0.;
   {
-    testing::QuasiStaticRun run(read(from), MPI_COMM_WORLD);
+    testing::ImplicitSolutionRun run(read(from), MPI_COMM_WORLD);
     testing::History ignored;
     run.run(1., ignored);
     strain = mean_plastic_strain(run.problem, MPI_COMM_WORLD);
@@ -91,7 +91,7 @@ void test_transfer(const unsigned int from, const unsigned int to, const std::st
   if (to > 2)
     scene.bodies[0].thickness_direction.value = {"0", "0", direction};
   scene.restart.file.value = "layers.h5";
-  testing::QuasiStaticRun run(scene, MPI_COMM_WORLD);
+  testing::ImplicitSolutionRun run(scene, MPI_COMM_WORLD);
   const RestartReport report = run.load(scene.restart.file.value);
   const double found = mean_plastic_strain(run.problem, MPI_COMM_WORLD);
   testing::History history;
@@ -111,11 +111,11 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_springback();
   parameters::Scene scene = read(5);
-  testing::test_going_on<testing::QuasiStaticRun>(
+  testing::test_going_on<testing::ImplicitSolutionRun>(
       "Five points", scene, {0.8, 1.4},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
   scene.bodies[0].material.kinematics.value = parameters::Material::Kinematics::hypoelastic;
-  testing::test_going_on<testing::QuasiStaticRun>(
+  testing::test_going_on<testing::ImplicitSolutionRun>(
       "Five points, hypoelastic", scene, {0.8},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
   test_transfer(7, 2, "1");

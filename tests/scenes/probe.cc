@@ -16,7 +16,7 @@ using billet::testing::SceneRun;
 namespace {
 
 /// The largest of a group, as part of it.
-double difference(const QuasiStatic::Results &a, const QuasiStatic::Results &b) {
+double difference(const ImplicitSolution::Results &a, const ImplicitSolution::Results &b) {
   double largest = a.size() == b.size() ? 0. : 1.;
   for (std::size_t group = 0; group < a.size() && largest < 1.; ++group)
     largest = std::max(largest, ErrorControl::distance(a[group], b[group]) / ErrorControl::size(b[group]));
@@ -37,7 +37,7 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
   unsigned int n_from_probe = 0, n_otherwise = 0;
   for (unsigned int n = 0; n < 6; ++n) {
     const double from = tried.control.time(), to = tried.control.next_time();
-    const QuasiStatic::Probe probe = tried.problem.probe(2. * to - from, n == 0 ? 0. : to - from);
+    const ImplicitSolution::Probe probe = tried.problem.probe(2. * to - from, n == 0 ? 0. : to - from);
     if (n == 0) {
       check(name + ": a probe gives what the step gives", difference(probe.results, coarse.problem.results()),
             1e-8);
@@ -74,7 +74,7 @@ void check_automatic(parameters::Scene parameters, const unsigned int n_steps) {
   coarse.advance();
   testing::set_fixed_steps(parameters, 2 * n_steps);
   SceneRun tried(parameters), untried(parameters);
-  const QuasiStatic::Probe probe = tried.problem.probe(2. * tried.control.next_time(), 0.);
+  const ImplicitSolution::Probe probe = tried.problem.probe(2. * tried.control.next_time(), 0.);
   check("automatic: a probe gives what the step gives", difference(probe.results, coarse.problem.results()),
         1e-8);
   tried.advance();
@@ -128,7 +128,7 @@ void check_force() {
   coarse.advance();
   check("force: forces, and the travel",
         tried.problem.result_names() == std::vector<std::string>{"forces", "travel of 'die'"});
-  const QuasiStatic::Probe probe = tried.problem.probe(0.05, 0.);
+  const ImplicitSolution::Probe probe = tried.problem.probe(0.05, 0.);
   check("force: a probe gives what the step gives", difference(probe.results, coarse.problem.results()),
         1e-8);
   for (unsigned int n = 0; n < 2; ++n) {

@@ -21,7 +21,7 @@ int main(int argc, char *argv[]) {
     if (testing::n_ranks() > 1) // whether to augment once more may hang on round-off, and so on ranks
       for (auto &pair : scene.pairs)
         pair.penetration_tolerance = 0.;
-    testing::test_going_on<testing::QuasiStaticRun>(
+    testing::test_going_on<testing::ImplicitSolutionRun>(
         "Press", scene, {0.3, 0.6, 0.9},
         [](auto &run, const double time, History &history) { run.run(time, history); });
   }
@@ -33,7 +33,7 @@ int main(int argc, char *argv[]) {
     for (auto &pair : scene.pairs)
       pair.penetration_tolerance = 0.; // whether to augment once more may hang on round-off, and so on ranks
     testing::set_fixed_steps(scene, 25);
-    testing::test_going_on<testing::QuasiStaticRun>(
+    testing::test_going_on<testing::ImplicitSolutionRun>(
         "Press, one point, hypoelastic", scene, {0.6},
         [](auto &run, const double time, History &history) { run.run(time, history); });
   }
@@ -44,7 +44,7 @@ int main(int argc, char *argv[]) {
     scene.amplitudes[0].values.back() *= 10.;     // forces well above round-off of the raised penalties
     scene.implicit_dynamics.error_tolerance = 0.; // steps are fixed
     testing::set_fixed_steps(scene, 20);
-    testing::test_going_on<testing::QuasiStaticRun>(
+    testing::test_going_on<testing::ImplicitSolutionRun>(
         "Raises", scene, {0.1e-4, 0.15e-4},
         [](auto &run, const double time, History &history) { run.run(time, history); });
   }

@@ -17,7 +17,7 @@ const auto until_then = [](auto &run, const double time, History &history) { run
 /// The blocks slide where they stop.
 void test_blocks(const std::string &name, const parameters::Scene &scene) {
   testing::on_ranks(1, [&](MPI_Comm some) {
-    testing::QuasiStaticRun run(scene, some);
+    testing::ImplicitSolutionRun run(scene, some);
     History ignored;
     run.run(1.4, ignored);
     double slip = 0.;
@@ -28,7 +28,7 @@ void test_blocks(const std::string &name, const parameters::Scene &scene) {
     run.run(2., ignored);
     check(name + ": friction", run.problem.state().energies.friction > 0.);
   });
-  testing::test_going_on<testing::QuasiStaticRun>(name, scene, {1.4}, until_then);
+  testing::test_going_on<testing::ImplicitSolutionRun>(name, scene, {1.4}, until_then);
 }
 
 } // namespace
@@ -45,10 +45,10 @@ int main(int argc, char *argv[]) {
   parameters::Scene drop = testing::read_test_scene("../cli/drop.prm");
   drop.solver.force_tolerance = 1e-11;
   if (testing::n_ranks() == 1) // on others, steps that follow the error differ in their last bits
-    testing::test_going_on<testing::QuasiStaticRun>("Drop", drop, {0.1e-3, 0.3e-3}, until_then);
+    testing::test_going_on<testing::ImplicitSolutionRun>("Drop", drop, {0.1e-3, 0.3e-3}, until_then);
   testing::set_fixed_steps(drop, 25);
   drop.implicit_dynamics.error_tolerance = 0.;
-  testing::test_going_on<testing::QuasiStaticRun>("Drop in fixed steps", drop, {0.11e-3, 0.31e-3},
-                                                  until_then);
+  testing::test_going_on<testing::ImplicitSolutionRun>("Drop in fixed steps", drop, {0.11e-3, 0.31e-3},
+                                                       until_then);
   return testing::exit_code();
 }

@@ -37,7 +37,7 @@ void test(const std::string &name, parameters::Scene scene) {
   scene.time_stepping.control = parameters::TimeStepping::Control::fixed;
   scene.time_stepping.initial_step = 0.1;
   testing::on_ranks(1, [&](MPI_Comm some) {
-    testing::QuasiStaticRun run(scene, some);
+    testing::ImplicitSolutionRun run(scene, some);
     History ignored;
     run.run(1.3, ignored);
     bool slips = false;
@@ -49,7 +49,7 @@ void test(const std::string &name, parameters::Scene scene) {
     if (scene.time_stepping.end_time > 1.5)
       check(name + ": it has lifted off", run.problem.state().body_pair_loads[0].force.norm() == 0.);
   });
-  testing::test_going_on<testing::QuasiStaticRun>(name, scene, {1.3}, until_then);
+  testing::test_going_on<testing::ImplicitSolutionRun>(name, scene, {1.3}, until_then);
 }
 
 } // namespace
@@ -57,8 +57,8 @@ void test(const std::string &name, parameters::Scene scene) {
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   if (testing::n_ranks() == 1) // with iterations, on which steps and the tolerance depend, as they come
-    testing::test_going_on<testing::QuasiStaticRun>("Steps as they come", read_scene(), {0.5, 1.3, 1.7},
-                                                    until_then);
+    testing::test_going_on<testing::ImplicitSolutionRun>("Steps as they come", read_scene(), {0.5, 1.3, 1.7},
+                                                         until_then);
   test("Overlap", read_scene());
   parameters::Scene nodes = read_scene();
   nodes.pairs[0].facets.value = parameters::ContactPair::Facets::planed;

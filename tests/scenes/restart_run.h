@@ -78,9 +78,9 @@ template <class Run> void on_ranks(const unsigned int n, const Run &run) {
 }
 
 /// A quasi-static scene that can be stopped and gone on with.
-class QuasiStaticRun {
+class ImplicitSolutionRun {
 public:
-  QuasiStaticRun(const parameters::Scene &parameters, const MPI_Comm communicator)
+  ImplicitSolutionRun(const parameters::Scene &parameters, const MPI_Comm communicator)
       : scene(for_comparison(parameters)), discretization(scene, communicator),
         problem(scene, discretization), control(parameters.time_stepping, 0., scene.stops()) {}
 
@@ -129,7 +129,7 @@ public:
 
   Scene scene;
   Discretization discretization;
-  QuasiStatic problem;
+  ImplicitSolution problem;
   StepControl control;
   double previous = 0.;
 };
@@ -155,7 +155,7 @@ public:
     CheckpointWriter writer(discretization.communicator(), file);
     writer.in("scene", [&] { save_scene(writer, scene, discretization); });
     writer.in("solution", [&] { problem.save(writer); });
-    QuasiStaticRun::check_done(writer.finish());
+    ImplicitSolutionRun::check_done(writer.finish());
   }
   RestartReport load(const std::string &file) {
     CheckpointReader reader(discretization.communicator(), file, "test");
@@ -228,7 +228,7 @@ void test_going_on(const std::string &name, const parameters::Scene &scene, cons
         const History expected = after(whole, time);
         const std::string what = name + " from " + std::to_string(stop / end);
         // MUMPS on several ranks adds up in the order in which messages come.
-        const bool has_solver = std::is_same_v<Run, QuasiStaticRun>;
+        const bool has_solver = std::is_same_v<Run, ImplicitSolutionRun>;
         if (n == now && has_solver && n > 1)
           check(what + ", as many ranks", difference(expected, rest, kinds), 1e-8);
         else if (n == now)

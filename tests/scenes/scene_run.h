@@ -4,7 +4,7 @@
 
 #include "billet/errors.h"
 #include "billet/geometry/plane.h"
-#include "billet/solve/quasi_static.h"
+#include "billet/solve/implicit/implicit_solution.h"
 #include "billet/solve/step_control.h"
 
 #include "../testing.h"
@@ -59,7 +59,7 @@ public:
 
   Scene scene;
   Discretization discretization;
-  QuasiStatic problem;
+  ImplicitSolution problem;
   StepControl control;
   unsigned int n_iterations = 0;
 

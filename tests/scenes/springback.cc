@@ -60,12 +60,12 @@ double largest(const std::vector<double> &values) {
 }
 
 /// Of the nodal forces of the stresses, relative to that of a yielding element.
-double largest_force(testing::QuasiStaticRun &run) {
+double largest_force(testing::ImplicitSolutionRun &run) {
   Vector forces = run.discretization.make_additive_vector();
   InternalForces internal(run.scene, run.discretization);
   for (std::size_t e = 0; e < internal.block(0).size(); ++e) {
     std::vector<double> state(internal.block(0).state_size());
-    run.problem.internal_forces().block(0).get_state(e, state.data());
+    run.problem.equation().internal().block(0).get_state(e, state.data());
     internal.block(0).set_state(e, state.data());
   }
   internal.assemble_forces(run.problem.state().displacements, forces);
@@ -99,7 +99,7 @@ void test(const std::string &name, const parameters::Scene &bending, const doubl
   }
   parameters::Scene scene = without_tools(make_static(bending));
   scene.time_stepping.end_time = bending.time_stepping.end_time + 1.;
-  testing::QuasiStaticRun run(scene, MPI_COMM_WORLD);
+  testing::ImplicitSolutionRun run(scene, MPI_COMM_WORLD);
   const RestartReport report = run.load("bent.h5", 0.5);
   const std::vector<double> taken_over = plastic_strains(run.problem);
   testing::History history;
@@ -150,13 +150,13 @@ int main(int argc, char *argv[]) {
   {
     parameters::Scene scene = make_static(bending);
     scene.time_stepping.initial_step = scene.time_stepping.largest_step = 0.1e-3;
-    testing::QuasiStaticRun run(scene, MPI_COMM_WORLD);
+    testing::ImplicitSolutionRun run(scene, MPI_COMM_WORLD);
     testing::History ignored;
     run.run(scene.time_stepping.end_time, ignored);
     run.save("pressed.h5");
     parameters::Scene released = without_tools(make_static(bending));
     released.time_stepping.end_time = scene.time_stepping.end_time + 1.;
-    testing::QuasiStaticRun rest(released, MPI_COMM_WORLD);
+    testing::ImplicitSolutionRun rest(released, MPI_COMM_WORLD);
     rest.load("pressed.h5");
     rest.run(released.time_stepping.end_time, ignored);
     reference = deflection(rest.discretization, rest.problem.state().displacements);

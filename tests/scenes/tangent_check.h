@@ -14,7 +14,7 @@ namespace billet::testing {
 /// Runs to time t, starts one more step, and continues the last increment into it: there K⁻¹ (∂R/∂u v) must
 /// be v. Unknown travels of tools are among the u.
 inline double tangent_error(SceneRun &run, const double t, const unsigned int n_directions) {
-  QuasiStatic &problem = run.problem;
+  ImplicitProblem &problem = run.problem.equation();
   run.advance(); // from here on the unknowns of all steps are alike
   Epetra_Vector before(problem.unknowns()), point(before);
   while (run.control.time() < t) {
@@ -33,7 +33,7 @@ inline double tangent_error(SceneRun &run, const double t, const unsigned int n_
     for (const auto i : owned)
       direction(i) = random(-1., 1.);
     direction.compress(dealii::VectorOperation::insert);
-    run.problem.supports().homogeneous().distribute(direction);
+    problem.supports().homogeneous().distribute(direction);
     const Epetra_Vector &displacements = *direction.trilinos_vector()(0);
     for (int i = 0; i < v.MyLength(); ++i)
       v[i] = i < displacements.MyLength() ? displacements[i] : random(-1., 1.);
@@ -84,7 +84,7 @@ inline void check_curved(const std::string &name, const SurfacePart &part) {
     SceneRun exact(scene);
     check(name + state + ": exact tangent", tangent_error(exact, 0.75, 3), 1e-6);
     unsigned int n_touch = 0, n_stick = 0;
-    for (const auto &node : exact.problem.contacts()[0].report()) {
+    for (const auto &node : exact.problem.equation().contacts().of_tools()[0].report()) {
       n_touch += node.status != ContactStatus::open;
       n_stick += node.status == ContactStatus::stick;
     }

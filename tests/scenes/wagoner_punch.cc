@@ -18,7 +18,7 @@ struct StrainProfile {
 };
 
 StrainProfile strain_profile(const SceneRun &run) {
-  const auto summaries = run.problem.internal_forces().summarize(0, run.problem.state().displacements);
+  const auto summaries = run.problem.equation().internal().summarize(0, run.problem.state().displacements);
   const auto &elements = run.discretization.elements(0);
   StrainProfile result;
   double nearest = 1e9;

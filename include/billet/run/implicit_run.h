@@ -6,7 +6,7 @@
 #include "billet/run/run.h"
 #include "billet/solve/energy_errors.h"
 #include "billet/solve/error_watch.h"
-#include "billet/solve/quasi_static.h"
+#include "billet/solve/implicit/implicit_solution.h"
 #include "billet/solve/step_control.h"
 
 #include <array>
@@ -42,7 +42,7 @@ private:
   /// Cuts the step that failed. Throws SolutionFailure if that is not allowed.
   void reject_step(double from, double to, RunOutput &output);
 
-  QuasiStatic problem_;
+  ImplicitSolution problem_;
   StepControl control_;
   std::unique_ptr<ErrorWatch> watch_;    ///< of static scenes that control their errors
   std::unique_ptr<EnergyErrors> errors_; ///< of dynamic ones; their steps follow an estimate of their own

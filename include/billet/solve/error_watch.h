@@ -3,7 +3,7 @@
 #define BILLET_SOLVE_ERROR_WATCH_H
 
 #include "billet/solve/error_control.h"
-#include "billet/solve/quasi_static.h"
+#include "billet/solve/implicit/implicit_solution.h"
 #include "billet/solve/step_control.h"
 #include "billet/usage.h"
 
@@ -12,19 +12,19 @@
 
 namespace billet {
 
-/// Lets ErrorControls, one for each group of QuasiStatic::Results, choose the steps of a static scene, and
-/// how deep contacts may go in: makes the measurements that they want. The strictest decides.
+/// Lets ErrorControls, one for each group of ImplicitSolution::Results, choose the steps of a static scene,
+/// and how deep contacts may go in: makes the measurements that they want. The strictest decides.
 class ErrorWatch {
 public:
   /// Whether the scene has an 'Error tolerance' of steps or a 'Target error'.
   static bool is_wanted(const parameters::Scene &parameters);
-  ErrorWatch(const Scene &scene, const Discretization &discretization, QuasiStatic &problem);
+  ErrorWatch(const Scene &scene, const Discretization &discretization, ImplicitSolution &problem);
 
   /// Begins at this time, with another method's state.
   void begin(double time);
 
   /// Before a step: where a measurement is due, tries one of twice the length and steps back. Iterations that
-  /// this took. `previous_step`: see QuasiStatic::step().
+  /// this took. `previous_step`: see ImplicitSolution::step().
   unsigned int before_step(StepControl &control, double previous_step);
   /// After an accepted step of this length, and control.accept().
   void after_step(StepControl &control, double length, const NewtonReport &report);
@@ -69,13 +69,13 @@ private:
   /// What the last step's penetrations made, if it has measured that.
   void take_measurement();
 
-  QuasiStatic &problem_;
+  ImplicitSolution &problem_;
   std::vector<ErrorControl> controls_; ///< of forces first
   double residual_factor_;             ///< of a force, over that of the residual
   double end_time_;
   bool measures_steps_, measures_penetration_, controls_penetration_;
   double accuracy_of_measurements_; ///< residuals of steps that are compared, over those of others
-  QuasiStatic::Probe probe_;
+  ImplicitSolution::Probe probe_;
   double probe_length_ = 0.; ///< of each of the two steps that are compared with it; 0: none
   double probe_end_ = 0.;
   double last_residual_ = 0.;

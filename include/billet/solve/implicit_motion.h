@@ -5,8 +5,7 @@
 #include "billet/forces/external_loads.h"
 #include "billet/forces/inertia.h"
 #include "billet/integration/time_integrator.h"
-#include "billet/solve/restart.h"
-#include "billet/solve/solution.h"
+#include "billet/solve/implicit/scheme.h"
 #include "billet/usage.h"
 
 #include <memory>
@@ -14,15 +13,15 @@
 
 namespace billet {
 
-/// What makes of a step of equilibrium one of motion: velocities and accelerations of the bodies and of tools
-/// with a mass, their inertia, and loads. QuasiStatic sums up the forces F(u_{n+1}); this turns them into
+/// Implicit dynamics: velocities and accelerations of the bodies and of tools with a mass, their inertia, and
+/// loads. Of the sum of all forces F(u_{n+1}) it makes
 ///   R = F_{n+1} + α_f/(1 − α_f) F_n + M [(1 − α_m) a_{n+1} + α_m a_n]/(1 − α_f),
 /// see TimeIntegrator, whatever they are: a further force needs nothing here. The state at the start of the
 /// step changes on commit() only.
 ///
 /// Where supports move, velocity and acceleration along their normals are those of the prescribed
 /// displacement, by differences over a step: from (I2) they would swing between steps for ever.
-class ImplicitMotion {
+class ImplicitMotion final : public ImplicitScheme {
 public:
   /// At time 0, with the initial velocities. Throws InputError.
   ImplicitMotion(const Scene &scene, const Discretization &discretization, const Supports &supports);
@@ -34,65 +33,57 @@ public:
   /// The solution, on constrained dofs as well as the homogeneous constraints have it.
   void set_accelerations(const Vector &accelerations);
   /// Of all bodies. Collective.
-  double mass() const { return lumped_.l1_norm() / 3.; }
-  bool has_mass(const std::size_t tool) const { return tools_[tool].inertia > 0.; }
+  double mass() const override { return lumped_.l1_norm() / 3.; }
+  std::string name() const override { return "implicit dynamics"; }
+  bool has_inertia() const override { return true; }
+  bool has_mass(const std::size_t tool) const override { return tools_[tool].inertia > 0.; }
   /// Of a tool with a mass: what it exerts, and should.
   void start_tool(std::size_t tool, double exerted, double load);
 
-  /// The next steps are those of (I4), in which contact can only take energy; its −F_c at the start of the
-  /// step. Collective.
-  void damp_contact(const Vector &contact_forces);
-  /// They are not any more.
-  void release_contact() { damps_contact_ = false; }
+  /// Once damped by (I4), steps stay so until contacts have opened.
+  void choose_contact_damping(const ForceState &start) override;
+  /// The next steps are those of (I4), in which contact can only take energy.
+  void damp_contact(const ForceState &start) override;
   bool damps_contact() const { return damps_contact_; }
-  /// The weight of contact's forces, and of their tangent, in R.
-  double contact_weight() const { return damps_contact_ ? integrator_.contact() : 1.; }
+  double contact_weight() const override { return damps_contact_ ? integrator_.contact() : 1.; }
+  double contact_before() const override { return damps_contact_ ? 0. : 0.5; }
   /// With (I4), before step_error() and commit(): −F_c at the end of the step. Collective.
   void finish_contact(const Vector &contact_forces);
 
-  /// The step from t_n to t, from these displacements and offsets of the tools.
-  void start_step(double t_n, double t, const Vector &displacements, const std::vector<double> &offsets);
+  void start_step(double t_n, double t, const Vector &displacements,
+                  const std::vector<double> &offsets) override;
   /// Adds what they change by at constant acceleration.
   void extrapolate(Vector &displacements, std::vector<double> &offsets) const;
 
-  /// Adds the loads' −F at these displacements at the end of the step, or at the start of the run. Returns
-  /// their norm. Collective.
-  double add_loads(double t, const Vector &displacements, Vector &residual);
-  /// Makes R of the sum of all forces, after add_loads(). Returns the norm of the inertia forces. Nothing at
-  /// the start of the run.
-  double complete(const Vector &forces_n, Vector &residual) const;
-  /// Adds ∂R/∂u of loads and inertia. The system's constraints are homogeneous: accelerations of held nodes
-  /// do not depend on u.
-  void add_tangent(double t, const TangentSystem &system) const;
-  /// The same for a tool's offset: what there is beside the weighted force that it exerts and its load, and
-  /// the slope of that.
-  double tool_inertia(std::size_t tool, double offset) const;
-  double tool_slope(std::size_t tool) const;
-  /// The residual that round-off in the displacements makes [force].
-  double round_off_force() const { return round_off_force_; }
-  /// By what the tolerances of iterations are multiplied: where the user wants smaller errors of steps than
-  /// by default what iterations leave must not be as large as these.
-  double wanted_accuracy() const;
+  double add_loads(double t, const Vector &displacements, Vector &residual) override;
+  /// After add_loads(). Nothing at the start of the run.
+  double complete(const Vector &contact, Vector &residual) const override;
+  /// The system's constraints are homogeneous: accelerations of held nodes do not depend on u.
+  void add_tangent(double t, const TangentSystem &system) const override;
+  /// What there is beside the weighted force that the tool exerts and its load, and the slope of that.
+  double tool_inertia(std::size_t tool, double offset) const override;
+  double tool_slope(std::size_t tool) const override;
+  double round_off_force() const override { return round_off_force_; }
+  /// Where the user wants smaller errors of steps than by default what iterations leave must not be as large
+  /// as these.
+  double wanted_accuracy() const override;
 
   /// Error of the step's time integration as part of what is allowed, at the last add_loads(); 0 if nothing
   /// is asked for.
   double step_error(const Vector &displacements) const;
 
-  /// The state of the last add_loads() becomes the start of the next step; works are booked in `energies`.
-  /// `mean_forces`: F over the step.
+  /// The state of the last add_loads() becomes the start of the next step.
   void commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
-              EnergyLedger &energies);
+              double touching, EnergyLedger &energies) override;
   /// `exerted` on the bodies along the tool's direction, or about its axis.
-  void commit_tool(std::size_t tool, double offset, double exerted, double load, EnergyLedger &energies);
-  /// It goes with its mass; returns its kinetic energy.
-  double remove_tool(std::size_t tool);
-  /// Velocities, kinetic energy and momenta.
-  void update_state(SolutionState &state) const;
+  void commit_tool(std::size_t tool, double offset, double exerted, double load,
+                   EnergyLedger &energies) override;
+  double remove_tool(std::size_t tool) override;
+  void update_state(SolutionState &state) const override;
 
-  /// The state at the start of the step; that of a tool into the tool's group.
-  void save(StateWriter &writer, const OwnedNodes &nodes) const;
+  void save(StateWriter &writer, const OwnedNodes &nodes) const override;
   void load(const StateReader &reader, const OwnedNodes &nodes);
-  void save_tool(std::size_t tool, StateWriter &writer) const;
+  void save_tool(std::size_t tool, StateWriter &writer) const override;
   /// `is_exact`: with accelerations, which have to be found anew else.
   void load_tool(std::size_t tool, const StateReader &reader, bool is_exact);
   /// In place of load(), at time t of another method's state: with its velocities, if it has some, else the
@@ -154,6 +145,7 @@ private:
   bool damps_contact_ = false;
   Vector c_;                           ///< at the end of the step
   Vector a_bare_;                      ///< a_n, without what contact adds
+  Vector bare_forces_n_;               ///< F_n of the residual: all forces, or with (I4) without contact
   Vector lumped_;                      ///< row sums of the mass
   Vector load_forces_n_, load_forces_; ///< F
   NodalVectors displaced_;             ///< at the last add_loads()

@@ -1,17 +1,52 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Bodies that viscous forces hold until contact does.
+#include "billet/solve/implicit/body_stabilisation.h"
+
 #include "billet/diagnostic_kinds.h"
 #include "billet/mechanics/element_mass.h"
-#include "billet/solve/quasi_static.h"
+#include "billet/solve/restart.h"
 
 #include <deal.II/lac/full_matrix.h>
-
-#include <Epetra_Vector.h>
 
 #include <algorithm>
 #include <sstream>
 
 namespace billet {
+
+RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization) {
+  const std::size_t n_bodies = scene.bodies().size();
+  const double far = 10. * discretization.radius();
+  std::vector<double> low(3 * n_bodies, far), high(3 * n_bodies, far); // about the scene's centre, negative
+  for (std::size_t body = 0; body < n_bodies; ++body)
+    for (const auto &element : discretization.elements(body))
+      for (const unsigned int v : element.cell->vertex_indices())
+        for (unsigned int i = 0; i < 3; ++i) {
+          const double x = element.cell->vertex(v)[i] - discretization.centre()[i];
+          low[3 * body + i] = std::min(low[3 * body + i], x);
+          high[3 * body + i] = std::min(high[3 * body + i], -x);
+        }
+  dealii::Utilities::MPI::min(low, discretization.communicator(), low);
+  dealii::Utilities::MPI::min(high, discretization.communicator(), high);
+  for (std::size_t body = 0; body < n_bodies; ++body) {
+    RigidBodySupport::Body frame{discretization.centre(), 0.};
+    for (unsigned int i = 0; i < 3; ++i) {
+      frame.centre[i] += 0.5 * (low[3 * body + i] - high[3 * body + i]);
+      frame.size = std::max(frame.size, -0.5 * (low[3 * body + i] + high[3 * body + i]));
+    }
+    frames.push_back(frame);
+  }
+  RigidBodySupport support(discretization.communicator(), frames, 0);
+  for (const auto &entry : collect_held_nodes(scene, discretization))
+    for (std::size_t body = 0; body < n_bodies; ++body)
+      for (const auto &hold : scene.bodies()[body].holds)
+        if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0) {
+          supported_nodes.push_back({body, entry.second.position, hold.normal, entry.second.dofs});
+          support.add_support(body, entry.second.position, hold.normal);
+        }
+  if (support.find().n_free > 0)
+    return;
+  frames.clear();
+  supported_nodes.clear();
+}
 
 namespace {
 
@@ -42,24 +77,24 @@ Vector nodal_volumes(const Discretization &discretization, const std::size_t bod
 
 } // namespace
 
-void QuasiStatic::prepare_stabilisation() {
+void BodyStabilisation::prepare(const RigidBodies &bodies) {
   const std::size_t n_bodies = scene_.bodies().size();
-  needs_no_stabilisation_.assign(n_bodies, false);
+  is_needless_.assign(n_bodies, false);
   for (std::size_t body = 0; body < n_bodies; ++body)
-    needs_no_stabilisation_[body] = scene_.parameters().bodies[body].is_stabilised.value;
-  if (motion_ || body_frames_.empty())
+    is_needless_[body] = scene_.parameters().bodies[body].is_stabilised.value;
+  if (bodies.are_held())
     return;
   const auto &owned = discretization_.owned_dofs();
   std::vector<ContactStabilisation::Node> nodes;
   std::vector<double> speeds(n_bodies, 0.);
   for (std::size_t body = 0; body < n_bodies; ++body) {
-    RigidBodySupport support(discretization_.communicator(), {body_frames_[body]}, 0);
-    for (const auto &node : supported_nodes_)
+    RigidBodySupport support(discretization_.communicator(), {bodies.frames[body]}, 0);
+    for (const auto &node : bodies.supported_nodes)
       if (node.body == body)
         support.add_support(0, node.position, node.normal);
     if (support.find().n_free == 0)
       continue;
-    const double size = 2. * body_frames_[body].size, end = scene_.parameters().time_stepping.end_time;
+    const double size = 2. * bodies.frames[body].size, end = scene_.parameters().time_stepping.end_time;
     speeds[body] = size / end;
     const Vector volumes = nodal_volumes(discretization_, body);
     for (std::size_t first = 0; first < owned.n_elements(); first += 3)
@@ -71,24 +106,29 @@ void QuasiStatic::prepare_stabilisation() {
   stabilisation_ =
       std::make_unique<ContactStabilisation>(discretization_.communicator(), speeds, std::move(nodes));
   for (std::size_t body = 0; body < n_bodies; ++body)
-    if (speeds[body] > 0. && needs_no_stabilisation_[body]) {
+    if (speeds[body] > 0. && is_needless_[body]) {
       stabilisation_->hold(body);
-      needs_no_stabilisation_[body] = false;
+      is_needless_[body] = false;
     }
 }
 
-void QuasiStatic::add_stabilisation(Vector &residual) {
-  if (!stabilisation_ || !stabilisation_->acts())
-    return;
-  Epetra_Vector &values = *residual.trilinos_vector()(0);
-  stabilisation_->add_forces(
-      view(trial_), view(u_n_),
-      dealii::ArrayView<double>(values.Values(), static_cast<std::size_t>(values.MyLength())));
-  force_scale_ = std::max(force_scale_, stabilisation_->force_scale());
+void BodyStabilisation::start_step(const double duration) {
+  if (stabilisation_)
+    stabilisation_->start_step(duration);
 }
 
-void QuasiStatic::add_stabilisation_tangent(const TangentSystem &system) const {
-  if (!stabilisation_ || !stabilisation_->acts())
+double BodyStabilisation::add_forces(const StepState &step, Vector &residual) const {
+  if (!acts())
+    return 0.;
+  Epetra_Vector &values = as_epetra(residual);
+  stabilisation_->add_forces(
+      view(step.trial.displacements), view(step.start.displacements),
+      dealii::ArrayView<double>(values.Values(), static_cast<std::size_t>(values.MyLength())));
+  return stabilisation_->force_scale();
+}
+
+void BodyStabilisation::add_tangent(const TangentSystem &system) const {
+  if (!acts())
     return;
   const auto &owned = discretization_.owned_dofs();
   dealii::FullMatrix<double> matrix(3, 3);
@@ -102,19 +142,18 @@ void QuasiStatic::add_stabilisation_tangent(const TangentSystem &system) const {
   }
 }
 
-void QuasiStatic::commit_stabilisation() {
+double BodyStabilisation::commit(const StepState &step, const std::vector<bool> &is_free,
+                                 const double driven_work) {
   if (!stabilisation_)
-    return;
+    return 0.;
   std::vector<bool> is_supported;
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body)
-    is_supported.push_back(stabilisation_->acts_on(body) && !support_by_contact_.is_free[body]);
-  double driven_work = 0.;
-  for (const std::size_t tool : unknown_tools_)
-    driven_work += scene_.tools()[tool].load(time_) * last_offset_increments_[tool];
-  state_.energies.viscous += stabilisation_->commit(view(trial_), view(u_n_), is_supported, driven_work);
+    is_supported.push_back(stabilisation_->acts_on(body) && !is_free[body]);
+  return stabilisation_->commit(view(step.trial.displacements), view(step.start.displacements), is_supported,
+                                driven_work);
 }
 
-void QuasiStatic::save_stabilisation(StateWriter &writer) const {
+void BodyStabilisation::save(StateWriter &writer) const {
   if (!stabilisation_)
     return;
   Vector forces = discretization_.make_owned_vector();
@@ -129,7 +168,7 @@ void QuasiStatic::save_stabilisation(StateWriter &writer) const {
   });
 }
 
-void QuasiStatic::load_stabilisation(StateReader &reader) {
+void BodyStabilisation::load(StateReader &reader) {
   if (!stabilisation_ || !reader.has("stabilisation"))
     return;
   reader.in("stabilisation", [&] {
@@ -144,10 +183,10 @@ void QuasiStatic::load_stabilisation(StateReader &reader) {
   });
 }
 
-DiagnosticList QuasiStatic::initial_diagnostics() const {
-  DiagnosticList messages = RigidContact::check_small_tools(contacts_);
-  for (std::size_t body = 0; body < needs_no_stabilisation_.size(); ++body)
-    if (needs_no_stabilisation_[body])
+DiagnosticList BodyStabilisation::check_needless() const {
+  DiagnosticList messages;
+  for (std::size_t body = 0; body < is_needless_.size(); ++body)
+    if (is_needless_[body])
       messages.push_back(Diagnostic(diagnostic::needless_stabilisation,
                                     "Supports and symmetry planes hold body '" + scene_.bodies()[body].name +
                                         "', which is stabilised until it is touched")
@@ -155,13 +194,14 @@ DiagnosticList QuasiStatic::initial_diagnostics() const {
   return messages;
 }
 
-DiagnosticList QuasiStatic::check_stabilisation() const {
+DiagnosticList BodyStabilisation::finish(const double time, const double largest_energy, const double forces,
+                                         const RigidBodySupport::Result &support_by_contact) const {
   DiagnosticList messages;
   if (!stabilisation_)
     return messages;
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const std::string &name = scene_.bodies()[body].name;
-    const double part = largest_energy_ > 0. ? stabilisation_->work_of_motion(body) / largest_energy_ : 0.;
+    const double part = largest_energy > 0. ? stabilisation_->work_of_motion(body) / largest_energy : 0.;
     if (part > ContactStabilisation::max_part) {
       const double factor = part / ContactStabilisation::max_part;
       std::ostringstream text;
@@ -171,19 +211,18 @@ DiagnosticList QuasiStatic::check_stabilisation() const {
            << " %";
       messages.push_back(Diagnostic(diagnostic::stabilisation_too_strong, text.str())
                              .body(name)
-                             .time(state_.time)
+                             .time(time)
                              .measure("factor", factor)
                              .value("part of all work", part));
     }
-    if (!stabilisation_->acts_on(body) || body >= support_by_contact_.is_free.size() ||
-        !support_by_contact_.is_free[body])
+    if (!stabilisation_->acts_on(body) || body >= support_by_contact.is_free.size() ||
+        !support_by_contact.is_free[body])
       continue;
     const std::string what = "Neither supports nor contact resist a rigid-body mode of body '" + name +
                              "' at the end" +
-                             (support_by_contact_.free && support_by_contact_.free->body == body
-                                  ? ", with " + print(support_by_contact_.free->motion)
+                             (support_by_contact.free && support_by_contact.free->body == body
+                                  ? ", with " + print(support_by_contact.free->motion)
                                   : "");
-    const double forces = std::max(internal_forces_n_.l2_norm(), contact_forces_n_.l2_norm());
     const double force_part = forces > 0. ? stabilisation_->last_force(body) / forces : 0.;
     if (force_part > ContactStabilisation::max_part) {
       std::ostringstream text;
@@ -191,12 +230,11 @@ DiagnosticList QuasiStatic::check_stabilisation() const {
       text << what << ": viscous forces bear " << 100. * force_part << " % of the forces there";
       messages.push_back(Diagnostic(diagnostic::stabilised_loads, text.str())
                              .body(name)
-                             .time(state_.time)
+                             .time(time)
                              .measure("part of the forces", force_part));
     } else
-      messages.push_back(Diagnostic(diagnostic::stabilised_at_end, what + ": only viscous forces do")
-                             .body(name)
-                             .time(state_.time));
+      messages.push_back(
+          Diagnostic(diagnostic::stabilised_at_end, what + ": only viscous forces do").body(name).time(time));
   }
   return messages;
 }

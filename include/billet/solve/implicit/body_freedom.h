@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_BODY_FREEDOM_H
+#define BILLET_SOLVE_IMPLICIT_BODY_FREEDOM_H
+
+#include "billet/solve/implicit/implicit_problem.h"
+
+#include <optional>
+#include <set>
+#include <string>
+
+namespace billet {
+
+/// Finds a rigid motion of the body that supports and contacts do not hold, if there is one. Collective.
+std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, std::size_t body);
+
+/// Throws InputError where a body, of those that are not stabilised, has one at the start.
+void check_freedom(const ImplicitProblem &problem);
+
+/// Returns why the run ends if a body has one without the tools of these names; else an empty text.
+/// Collective.
+std::string describe_freedom(const ImplicitProblem &problem, std::size_t body,
+                             const std::set<std::string> &removed);
+
+/// Whether the trial state moves farther than tools and supports explain, in the step or in the run; then the
+/// step fails. Of static scenes. Collective.
+bool moves_too_far(const ImplicitProblem &problem, double t, NewtonReport &report);
+
+} // namespace billet
+
+#endif

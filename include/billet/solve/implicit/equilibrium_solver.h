@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_EQUILIBRIUM_SOLVER_H
+#define BILLET_SOLVE_IMPLICIT_EQUILIBRIUM_SOLVER_H
+
+#include "billet/solve/implicit/implicit_problem.h"
+
+#include <vector>
+
+namespace billet {
+
+/// Newton's method from a guess of a step, with the tolerances that the scene, the accuracy that is asked for
+/// and the purpose of the step call for.
+class EquilibriumSolver {
+public:
+  explicit EquilibriumSolver(ImplicitProblem &problem) : problem_(problem) {}
+
+  /// Iterates from these displacements and offsets of the tools, and overwrites them. Collective.
+  NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
+
+  /// Residuals, and their work, have to be this part of what the solver's tolerances allow; in (0, 1].
+  double accuracy() const { return accuracy_; }
+  void set_accuracy(const double factor) { accuracy_ = factor; }
+  /// Whether iterations that stall near balance converge.
+  bool accepts_stalled() const { return accepts_stalled_; }
+  void accept_stalled(const bool accepts) { accepts_stalled_ = accepts; }
+  /// Whether the step is tried for a measurement, and not taken.
+  bool is_probing() const { return is_probing_; }
+  void set_probing(const bool is_probing) { is_probing_ = is_probing; }
+
+private:
+  /// Iterations of a probe: what it tells is not worth more.
+  static constexpr unsigned int max_iterations_of_probe = 8;
+
+  ImplicitProblem &problem_;
+  double accuracy_ = 1.;
+  bool accepts_stalled_ = false, is_probing_ = false;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_PROBLEM_H
+#define BILLET_SOLVE_IMPLICIT_IMPLICIT_PROBLEM_H
+
+#include "billet/forces/internal_forces.h"
+#include "billet/solve/implicit/body_stabilisation.h"
+#include "billet/solve/implicit/driven_tools.h"
+#include "billet/solve/implicit/step_state.h"
+#include "billet/solve/implicit/tangent_matrix.h"
+#include "billet/solve/implicit/tool_removal.h"
+#include "billet/solve/implicit_motion.h"
+#include "billet/solve/newton.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem: the sum
+/// of its parts, and the derivative of that. The state at the start of the step is never written to by
+/// evaluations.
+class ImplicitProblem final : public NonlinearProblem {
+public:
+  ImplicitProblem(const Scene &scene, const Discretization &discretization);
+
+  const Scene &scene() const { return scene_; }
+  const parameters::Scene &parameters() const { return scene_.parameters(); }
+  const Discretization &discretization() const { return discretization_; }
+  MPI_Comm communicator() const { return discretization_.communicator(); }
+
+  // Its parts:
+  const Supports &supports() const { return supports_; }
+  InternalForces &internal() { return internal_; }
+  const InternalForces &internal() const { return internal_; }
+  ContactSet &contacts() { return contacts_; }
+  const ContactSet &contacts() const { return contacts_; }
+  ImplicitScheme &scheme() { return motion_ ? *motion_ : statics_; }
+  const ImplicitScheme &scheme() const { return motion_ ? *motion_ : statics_; }
+  /// Null in statics.
+  ImplicitMotion *motion() { return motion_.get(); }
+  DrivenTools &tools() { return tools_; }
+  const DrivenTools &tools() const { return tools_; }
+  ToolRemoval &removal() { return removal_; }
+  const ToolRemoval &removal() const { return removal_; }
+  ReleasedForces &released() { return released_; }
+  const ReleasedForces &released() const { return released_; }
+  BodyStabilisation &stabilisation() { return stabilisation_; }
+  const BodyStabilisation &stabilisation() const { return stabilisation_; }
+  TangentMatrix &tangent() { return tangent_; }
+  const TangentMatrix &tangent() const { return tangent_; }
+
+  StepState &step() { return step_; }
+  const StepState &step() const { return step_; }
+  ForceScales &scales() { return scales_; }
+  const ForceScales &scales() const { return scales_; }
+  /// At the end of the last accepted step.
+  SolutionState &state() { return state_; }
+  const SolutionState &state() const { return state_; }
+
+  /// Places the tools where they are at `t`; residuals and tangents are those of the step that ends there.
+  void start_step(double t);
+  /// Begins a step of no length at the last accepted state; tools stay there.
+  void start_at_rest();
+  /// Computes all forces at the start of the step. Collective.
+  void evaluate_start();
+  /// The unknowns, displacements and offsets of driven tools, at the start of the step and in the trial
+  /// state.
+  Epetra_Vector unknowns() const { return tools_.pack(step_.start.displacements, tools_.start_offsets()); }
+  Epetra_Vector trial_unknowns() const { return tools_.pack(step_.trial.displacements, tools_.offsets()); }
+  void set_trial(const Epetra_Vector &x);
+
+  bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
+  bool compute_tangent(const Epetra_Vector &x) override;
+  bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
+  double max_step_length(const Epetra_Vector &x, const Epetra_Vector &direction) override;
+  double force_scale() const override { return scales_.force; }
+  double round_off_force() const override { return scales_.round_off + scheme().round_off_force(); }
+  double contact_round_off_force() const override {
+    return scales_.contact_bears ? scales_.spring_round_off : 0.;
+  }
+  StatusChanges status_changes() const override { return status_changes_; }
+
+  /// Assembles the tangent at the trial state. `yield_slack`: see HenckyPlasticity::update().
+  bool assemble_tangent(const TangentSystem &system, double yield_slack = 0.);
+  /// Solves the bordered system; see DrivenTools::solve().
+  bool solve_bordered(const Vector &r_u, const std::vector<double> &r_s, double sense,
+                      double relative_tolerance, Vector &du, std::vector<double> &ds);
+  bool on_all_ranks(bool success) const;
+  /// Part of the motion from the start of the step to the trial state in which no node goes through
+  /// anything; then obstacle() says what is in the way. Collective.
+  double find_free_part(bool is_thorough);
+  const std::string &obstacle() const { return obstacle_; }
+  void clear_obstacle() { obstacle_.clear(); }
+
+private:
+  /// Compares the contacts with those at the last tangent. Collective.
+  StatusChanges find_status_changes() const;
+
+  const Scene &scene_;
+  const Discretization &discretization_;
+  Supports supports_;
+  InternalForces internal_;
+  ContactSet contacts_;
+  ImplicitScheme statics_;
+  std::unique_ptr<ImplicitMotion> motion_; ///< none in statics
+  DrivenTools tools_;
+  ToolRemoval removal_;
+  ReleasedForces released_;
+  BodyStabilisation stabilisation_;
+  TangentMatrix tangent_;
+  StepState step_;
+  ForceScales scales_;
+  SolutionState state_;
+  Vector raw_internal_, raw_contact_;               ///< additive
+  std::vector<std::vector<SlaveForce>> linearised_; ///< of the contacts at the last tangent
+  StatusChanges status_changes_;                    ///< between that and the last residual
+  std::string obstacle_;
+};
+
+} // namespace billet
+
+#endif

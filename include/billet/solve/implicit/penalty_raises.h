@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_PENALTY_RAISES_H
+#define BILLET_SOLVE_IMPLICIT_PENALTY_RAISES_H
+
+#include "billet/solve/implicit/implicit_problem.h"
+#include "billet/solve/penalty_control.h"
+#include "billet/solve/penalty_watch.h"
+
+#include <vector>
+
+namespace billet {
+
+/// Books and checks of what the springs of contacts hold.
+class SpringBooks {
+public:
+  explicit SpringBooks(ImplicitProblem &problem);
+
+  /// Sets the energy of a contact with a tool at the end of a step.
+  void set(const std::size_t contact, const double energy) { of_tools_[contact] = energy; }
+  /// Books a change of what the springs of a contact hold [energy].
+  void add(std::size_t contact, double energy);
+  /// Messages about penalties that are too soft for what presses, after a step. Collective.
+  DiagnosticList check();
+  /// See PenaltyWatch::has_soft_pairs().
+  bool has_soft_pairs() const { return watch_.has_soft_pairs(); }
+
+  void save(StateWriter &writer) const { watch_.save(writer); }
+  void load(const StateReader &reader) { watch_.load(reader); }
+
+private:
+  void check_pair(const std::string &name, Penetration deepest, double moved, double stored_energy,
+                  DiagnosticList &messages);
+
+  ImplicitProblem &problem_;
+  std::vector<double> of_tools_; ///< energy in the springs of each contact with a tool
+  PenaltyWatch watch_;
+};
+
+/// Raises penalties of static steps that let nodes in too deep; then the step is repeated.
+class PenaltyRaises {
+public:
+  PenaltyRaises(ImplicitProblem &problem, SpringBooks &books) : problem_(problem), books_(books) {}
+
+  /// Whether nodes penetrate too deep at the end of the step, so that it has to be repeated. Collective.
+  bool is_needed(NewtonReport &report);
+  /// Raises the penalties at the start of the step: springs that are compressed there are given the energy
+  /// that stiffer ones hold, and start the step with their forces. Collective.
+  DiagnosticList raise();
+
+private:
+  struct Limits {
+    static constexpr double min_raise = 2., max_raise = 8.;
+    /// Contact follows nodes to 0.4 of a facet, four times what default penalties allow. A penalty that the
+    /// scene sets stays below this multiple of what is little enough.
+    static constexpr double deep = 3.6;
+    /// Part of the first step below which a step cannot become much shorter.
+    static constexpr double short_step = 0.01;
+  };
+  /// Of each contact by how much its penalty should be raised; 1 is not at all. Collective.
+  std::vector<double> find_factors() const;
+  DiagnosticList describe() const;
+
+  ImplicitProblem &problem_;
+  SpringBooks &books_;
+  std::vector<double> factors_; ///< that the last is_needed() found
+};
+
+/// Raises penalties of dynamic scenes after a step, whose contacts are as they were accepted, so that a
+/// checkpoint knows them raised.
+class DynamicPenalties {
+public:
+  DynamicPenalties(ImplicitProblem &problem, SpringBooks &books)
+      : problem_(problem), books_(books),
+        control_(problem.scene(), problem.discretization(), PenaltyControl::in_implicit_scenes) {}
+
+  /// `solution` is that of the step. Collective.
+  DiagnosticList control(const Solution &solution);
+
+  void save(StateWriter &writer) const { control_.save(writer); }
+  void load(const StateReader &reader) { control_.load(reader); }
+
+private:
+  ImplicitProblem &problem_;
+  SpringBooks &books_;
+  PenaltyControl control_;
+};
+
+} // namespace billet
+
+#endif

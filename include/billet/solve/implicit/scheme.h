@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_SCHEME_H
+#define BILLET_SOLVE_IMPLICIT_SCHEME_H
+
+#include "billet/discretization/supports.h"
+#include "billet/solve/implicit/step_state.h"
+#include "billet/solve/restart.h"
+#include "billet/solve/solution.h"
+
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// What time adds to the sum of all forces in a step: inertia, loads and the weights of a time integrator.
+/// This class is statics: weights are one, and inertia is none. ImplicitMotion is implicit dynamics.
+class ImplicitScheme {
+public:
+  ImplicitScheme() = default;
+  virtual ~ImplicitScheme() = default;
+  ImplicitScheme(const ImplicitScheme &) = delete;
+  ImplicitScheme &operator=(const ImplicitScheme &) = delete;
+
+  /// Name in checkpoints.
+  virtual std::string name() const { return "quasi-static"; }
+  /// Whether inertia resists motions that neither supports nor contact do.
+  virtual bool has_inertia() const { return false; }
+  /// Of all bodies. Collective.
+  virtual double mass() const { return 0.; }
+  /// Factor of the iterations' tolerances.
+  virtual double wanted_accuracy() const { return 1.; }
+  /// Residual that round-off in inertia makes [force].
+  virtual double round_off_force() const { return 0.; }
+
+  /// Weight of contact's forces, and of their tangent, in the residual.
+  virtual double contact_weight() const { return 1.; }
+  /// Weight of contact's forces at the start of the step in their mean.
+  virtual double contact_before() const { return 0.5; }
+  /// Begins a step from these forces: chooses whether contact is damped in it. Collective.
+  virtual void choose_contact_damping(const ForceState &) {}
+  /// Damps contact in the step that begins from these forces, so that it makes no energy. Collective.
+  virtual void damp_contact(const ForceState &) {}
+
+  /// Begins the step from t_n to t, from these displacements and offsets of the tools.
+  virtual void start_step(double /*t_n*/, double /*t*/, const Vector & /*displacements*/,
+                          const std::vector<double> & /*offsets*/) {}
+  /// Adds the loads' −F at the end of the step. Returns their norm. Collective.
+  virtual double add_loads(double /*t*/, const Vector & /*displacements*/, Vector & /*residual*/) {
+    return 0.;
+  }
+  /// Completes the sum of all forces, in which contact has this part, to the residual. Returns the norm of
+  /// the inertia forces.
+  virtual double complete(const Vector & /*contact*/, Vector & /*residual*/) const { return 0.; }
+  /// Adds the derivatives of loads and inertia.
+  virtual void add_tangent(double /*t*/, const TangentSystem &) const {}
+
+  // Tools with a mass:
+  virtual bool has_mass(std::size_t /*tool*/) const { return false; }
+  virtual double tool_inertia(std::size_t /*tool*/, double /*offset*/) const { return 0.; }
+  virtual double tool_slope(std::size_t /*tool*/) const { return 0.; }
+  virtual void commit_tool(std::size_t /*tool*/, double /*offset*/, double /*exerted*/, double /*load*/,
+                           EnergyLedger &) {}
+  /// Removes a tool. Returns its kinetic energy.
+  virtual double remove_tool(std::size_t /*tool*/) { return 0.; }
+
+  /// Accepts the step, with its increment and mean forces, and books their works. `touching` is the work of
+  /// springs that touch, see StepWorks.
+  virtual void commit(const Vector & /*displacements*/, const Vector &increment, const Vector &mean_forces,
+                      const double touching, EnergyLedger &energies) {
+    energies.external += mean_forces * increment + touching;
+  }
+  /// Sets velocities, kinetic energy and momenta.
+  virtual void update_state(SolutionState &) const {}
+
+  /// Saves the state at the start of the step; that of a tool into the tool's group.
+  virtual void save(StateWriter &, const OwnedNodes &) const {}
+  virtual void save_tool(std::size_t /*tool*/, StateWriter &) const {}
+};
+
+} // namespace billet
+
+#endif

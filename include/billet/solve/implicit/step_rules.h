@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_STEP_RULES_H
+#define BILLET_SOLVE_IMPLICIT_STEP_RULES_H
+
+#include "billet/solve/implicit/energy_balance.h"
+#include "billet/solve/implicit/initial_motion.h"
+#include "billet/solve/implicit/penalty_raises.h"
+#include "billet/solve/implicit/predictor.h"
+#include "billet/solve/implicit/rigid_body_modes.h"
+
+#include <memory>
+#include <string>
+
+namespace billet {
+
+/// What a scheme demands of steps, beside the equation that it solves: how they begin, which are rejected,
+/// and what follows them. Of static and of dynamic scenes there is one each.
+class StepRules {
+public:
+  StepRules(ImplicitProblem &problem, const PathGuard &paths, SpringBooks &books)
+      : problem_(problem), paths_(paths), books_(books) {}
+  virtual ~StepRules() = default;
+  StepRules(const StepRules &) = delete;
+  StepRules &operator=(const StepRules &) = delete;
+
+  virtual Predictor &predictor() = 0;
+  virtual EnergyBalance &balance() = 0;
+  const Predictor &predictor() const { return const_cast<StepRules &>(*this).predictor(); }
+  const EnergyBalance &balance() const { return const_cast<StepRules &>(*this).balance(); }
+
+  /// Checks the contacts at time 0; throws InputError. Starts the run there. Collective.
+  virtual void check_start() {}
+  virtual void start(const Solution &) {}
+  /// Throws SolutionFailure, on all ranks, if there is no step after the last one.
+  virtual void check_next_step() const {}
+  virtual bool has_next_step() const { return true; }
+
+  /// Whether a step that has converged fails. Collective.
+  virtual bool rejects(double t, NewtonReport &report) = 0;
+  /// Whether penalties that are softened may mend a step that failed for a reason that is known. Steps of
+  /// motion that have converged, and are too long, need shorter ones.
+  virtual bool may_mend_explained() const = 0;
+  /// Raises penalties where a step has asked for it. Collective.
+  virtual DiagnosticList raise_penalties() { return {}; }
+  /// What a failed step, for this reason, may have to do with the state before it.
+  virtual std::string describe_sliding() const { return ""; }
+  virtual std::string describe_loss(const std::string &) const { return ""; }
+
+  /// Accepts the step: before the start of the next one moves, ...
+  virtual void commit(double t) { balance().commit(t); }
+  /// ... and after all is booked: tools leave at t. Collective.
+  virtual void close_step(double t) = 0;
+  /// After that. Collective.
+  virtual DiagnosticList after_step(const Solution &) { return {}; }
+
+  /// Messages about stabilised bodies at the end of the run. Collective.
+  virtual DiagnosticList check_stabilisation() const { return {}; }
+
+  virtual void save(StateWriter &writer) const = 0;
+  /// From the same scheme.
+  virtual void load(StateReader &reader, bool is_exact) = 0;
+  /// Where forces are out of balance after a resumption, as this residual.
+  virtual void hold_imbalance(const Vector & /*residual*/) {}
+  /// After all else is loaded. `release_time`: see ImplicitSolution::load(). Collective.
+  virtual void finish_load(StateReader &reader, double release_time, RestartReport &report) = 0;
+
+protected:
+  /// Removes tools that are due at t. Collective.
+  ToolRemoval::Removal remove_tools(double t);
+
+  ImplicitProblem &problem_;
+  const PathGuard &paths_;
+  SpringBooks &books_;
+};
+
+/// Makes those of the scheme.
+std::unique_ptr<StepRules> make_step_rules(ImplicitProblem &problem, const PathGuard &paths,
+                                           SpringBooks &books);
+
+class StaticRules final : public StepRules {
+public:
+  StaticRules(ImplicitProblem &problem, const PathGuard &paths, SpringBooks &books)
+      : StepRules(problem, paths, books), predictor_(problem), balance_(problem), modes_(problem),
+        raises_(problem, books) {}
+
+  Predictor &predictor() override { return predictor_; }
+  EnergyBalance &balance() override { return balance_; }
+  void check_start() override;
+  void check_next_step() const override;
+  bool has_next_step() const override { return free_body_.empty(); }
+  bool rejects(double t, NewtonReport &report) override;
+  bool may_mend_explained() const override { return true; }
+  DiagnosticList raise_penalties() override;
+  std::string describe_sliding() const override { return modes_.describe_sliding(); }
+  std::string describe_loss(const std::string &failure) const override {
+    return modes_.describe_loss(failure);
+  }
+  void commit(double t) override;
+  void close_step(double t) override;
+  DiagnosticList check_stabilisation() const override { return modes_.finish(balance_.largest_energy()); }
+  void save(StateWriter &writer) const override;
+  void load(StateReader &reader, bool is_exact) override;
+  void hold_imbalance(const Vector &residual) override;
+  void finish_load(StateReader &reader, double release_time, RestartReport &report) override;
+
+private:
+  Predictor predictor_;
+  StaticBalance balance_;
+  RigidBodyModes modes_;
+  PenaltyRaises raises_;
+  std::string free_body_; ///< why there is no next step: tools were removed that a body needs
+};
+
+class DynamicRules final : public StepRules {
+public:
+  DynamicRules(ImplicitProblem &problem, const PathGuard &paths, SpringBooks &books, ImplicitMotion &motion)
+      : StepRules(problem, paths, books), motion_(motion), predictor_(problem, motion),
+        balance_(problem, paths, motion), initial_(problem, motion), penalties_(problem, books) {}
+
+  Predictor &predictor() override { return predictor_; }
+  EnergyBalance &balance() override { return balance_; }
+  void start(const Solution &solution) override;
+  bool rejects(double t, NewtonReport &report) override;
+  bool may_mend_explained() const override { return false; }
+  void close_step(double t) override;
+  DiagnosticList after_step(const Solution &solution) override { return penalties_.control(solution); }
+  void save(StateWriter &writer) const override;
+  void load(StateReader &reader, bool is_exact) override;
+  void finish_load(StateReader &reader, double release_time, RestartReport &report) override;
+
+private:
+  ImplicitMotion &motion_;
+  MotionPredictor predictor_;
+  DynamicBalance balance_;
+  InitialMotion initial_;
+  DynamicPenalties penalties_;
+};
+
+} // namespace billet
+
+#endif

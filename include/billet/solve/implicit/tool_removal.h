@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_TOOL_REMOVAL_H
+#define BILLET_SOLVE_IMPLICIT_TOOL_REMOVAL_H
+
+#include "billet/solve/implicit/contact_set.h"
+#include "billet/solve/restart.h"
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Tools that leave the scene at a time: the forces by which they held the bodies fade over their release
+/// time.
+class ToolRemoval {
+public:
+  ToolRemoval(const Scene &scene, const Discretization &discretization, ContactSet &contacts)
+      : scene_(scene), discretization_(discretization), contacts_(contacts), forces_(scene.tools().size()) {}
+
+  bool is_removed(const std::size_t tool) const { return forces_[tool] != nullptr; }
+  /// Part of its forces that is left at t.
+  double fading(double t, std::size_t tool) const;
+  /// Whether the forces of any tool are others at t than at t_n.
+  bool changes(double t_n, double t) const;
+  /// Adds the forces that are left at t.
+  void add_forces(double t, Vector &residual) const;
+  /// Work that they do from t_n to t.
+  double work(double t_n, double t, const Vector &increment) const;
+
+  /// What leaves at a time.
+  struct Removal {
+    std::vector<std::size_t> tools;
+    std::map<std::size_t, std::set<std::string>> let_go; ///< names of the tools that each body loses
+  };
+  /// Removes the tools that are due at t from their contacts. Collective.
+  Removal remove_due(double t);
+  /// Residual of a removed tool's forces, as they were.
+  const Vector &forces(const std::size_t tool) const { return *forces_[tool]; }
+
+  // Into and from the group of a tool:
+  void save(std::size_t tool, StateWriter &writer, const OwnedNodes &nodes) const;
+  void load(std::size_t tool, StateReader &reader, const OwnedNodes &nodes);
+
+private:
+  const Scene &scene_;
+  const Discretization &discretization_;
+  ContactSet &contacts_;
+  std::vector<std::unique_ptr<Vector>> forces_; ///< by tool
+};
+
+/// Forces that are out of balance where a run resumes from another scheme's state, or with other tools. They
+/// fade to zero.
+class ReleasedForces {
+public:
+  bool are_there() const { return forces_ != nullptr; }
+  /// Part of them that is left at t.
+  double left(double t) const;
+  double end() const { return end_; }
+  /// The residual at time t begins to fade.
+  void hold(const Vector &residual, double t);
+  void clear() { forces_.reset(); }
+  void fade_until(const double end) { end_ = end; }
+  double begin() const { return begin_; }
+  /// Subtracts the residual that is left at t.
+  void add_forces(double t, Vector &residual) const;
+  /// Work that they take from t_n to t; negative of what they do.
+  double work(double t_n, double t, const Vector &increment) const;
+
+  void save(StateWriter &writer, const OwnedNodes &nodes) const;
+  void load(StateReader &reader, const OwnedNodes &nodes, const Discretization &discretization);
+
+private:
+  std::unique_ptr<Vector> forces_; ///< residual at the start, on dofs that are free; or none
+  double begin_ = 0., end_ = 0.;
+};
+
+} // namespace billet
+
+#endif

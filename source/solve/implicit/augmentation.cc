@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/augmentation.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/solve/penalty_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+/// What augmentations are left with, one after the other, as part of what is asked for.
+class Pace {
+public:
+  void add(const double error) { errors_.push_back(error); }
+
+  /// What each of the last augmentations left of the error, in the mean.
+  double ratio() const {
+    return std::pow(errors_.back() / errors_[errors_.size() - 1 - window], 1. / window);
+  }
+  /// Whether, at this pace, the error will be above 1 after `most` augmentations.
+  bool is_hopeless(const unsigned int most) const {
+    const auto n = static_cast<unsigned int>(errors_.size()) - 1;
+    return n >= 2 * window && std::log(errors_.back()) + (most - n) * std::log(ratio()) > 0.;
+  }
+  /// So many more it would take; the error has to fall.
+  double to_go() const { return std::ceil(-std::log(errors_.back()) / std::log(ratio())); }
+
+private:
+  static constexpr unsigned int window = 5;
+  std::vector<double> errors_;
+};
+
+} // namespace
+
+/// Limits of augmentation, as factors unless they say otherwise.
+struct Augmentation::Limits {
+  /// Augmentations for softness alone, which fails no step: it is reported at the end.
+  static constexpr unsigned int max_for_softness = 6;
+  /// An augmentation that leaves more than this of an error: residuals leave gaps, too, and have to be
+  /// smaller by `accuracy`, down to `min_accuracy`.
+  static constexpr double slow_error = 0.5, accuracy = 0.1, min_accuracy = 0.01;
+  /// An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's. A
+  /// contact that leaves more than `slow` becomes stiffer, so that `wanted` is left (Bertsekas, Constrained
+  /// Optimization, 1982, sec. 2.2.5).
+  static constexpr double slow = 0.25, wanted = 0.1;
+  /// Where softness is what counts. Stiff springs between facets that do not fit hold more than their mean
+  /// gaps: pairs of bodies are as stiff only where an augmentation adds `nearly_all` that springs hold to the
+  /// force and the error is above `much`, as where bodies are confined.
+  static constexpr double nearly_all = 0.98, much = 100., more_of_tools = 100., more_of_confined = 1e4;
+  /// Where bodies hardly give way springs keep this part of what they hold, and as much is added to the
+  /// force. Beside a force that is larger than what they hold by more than `min_held` that tells nothing:
+  /// friction may be what is augmented.
+  static constexpr double min_held = 0.05, kept = 0.9;
+  /// Change of the force, as part of the largest, up to which a pair is settled.
+  static constexpr double settled = 5e-3;
+};
+
+struct Augmentation::Series {
+  explicit Series(const std::size_t n_contacts) : stiffer(n_contacts, 1.), added(n_contacts, 0.) {}
+
+  Pace pace;
+  std::vector<ContactSprings> springs;
+  std::vector<double> before;         ///< demands before the last augmentation
+  std::vector<double> stiffer, added; ///< see stiffen_slow_contacts(); of all augmentations, of the last
+  std::unique_ptr<Vector> soft;       ///< the state from which augmentations are for softness alone
+  std::vector<double> soft_offsets;
+  std::size_t hardest = 0; ///< of the report before
+};
+
+Augmentation::Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver,
+                           PenetrationMeasurement &measurement)
+    : problem_(problem), solver_(solver), measurement_(measurement),
+      softness_(problem.contacts().collect(
+          [](const auto &contact) { return contact.settings().limits_softness(); })) {}
+
+std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double> &before,
+                                                        const std::vector<double> &errors,
+                                                        const std::vector<double> &added) {
+  ContactSet &contacts = problem_.contacts();
+  std::vector<double> room = contacts.stiffening_left(), factors(errors.size(), 1.);
+  const std::vector<bool> limits =
+      contacts.collect([](const auto &contact) { return contact.settings().limits_softness(); });
+  bool is_stiffer = false;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double left = errors[i] / before[i];
+    if (limits[i])
+      room[i] *= added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
+                 : contacts.is_of_tool(i)                                  ? Limits::more_of_tools
+                                                                           : 1.;
+    if (!(errors[i] > 1. && left > Limits::slow && room[i] >= 2.))
+      continue;
+    factors[i] = whole_octaves(
+        left < 1. ? std::min(room[i], left / (1. - left) * (1. - Limits::wanted) / Limits::wanted) : room[i]);
+    is_stiffer = true;
+    contacts.stiffen(i, factors[i]);
+  }
+  if (is_stiffer)
+    problem_.scales().spring_round_off = contacts.find_spring_round_off();
+  return factors;
+}
+
+bool Augmentation::soften_contacts(DiagnosticList &messages) {
+  ContactSet &contacts = problem_.contacts();
+  const std::vector<double> room = contacts.stiffening_left();
+  const std::vector<std::string> names = contacts.names();
+  const std::vector<bool> is_augmented =
+      contacts.collect([](const auto &contact) { return contact.settings().is_augmented(); });
+  bool has_softened = false;
+  for (std::size_t i = 0; i < room.size(); ++i) {
+    if (!(room[i] < 1.) || !is_augmented[i])
+      continue;
+    const double factor = whole_octaves(room[i]), penalty = enough_penalty / room[i] * factor;
+    contacts.stiffen(i, factor);
+    has_softened = true;
+    std::ostringstream text;
+    text << "The penalty was reduced to " << penalty
+         << " E/h, since Newton's method failed; augmentation makes up for that";
+    messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
+                           .pair(names[i])
+                           .time(problem_.step().time)
+                           .value("penalty [E/h]", penalty));
+  }
+  problem_.scales().spring_round_off = contacts.find_spring_round_off();
+  return has_softened;
+}
+
+Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs) const {
+  Demands demands;
+  demands.of_contacts = problem_.contacts().augmentation_errors();
+  for (double &demand : demands.of_contacts) {
+    demand /= penetration_allowed_;
+    demands.by_tolerances = std::max(demands.by_tolerances, demand);
+  }
+  demands.largest = demands.by_tolerances;
+  if (springs.empty())
+    return demands;
+  const std::vector<double> excess = softness_.excess(springs);
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
+    demands.largest = std::max(demands.largest, excess[i]);
+  }
+  return demands;
+}
+
+std::vector<ContactSprings> Augmentation::contact_springs() const {
+  if (!softness_.is_used())
+    return {};
+  auto springs = problem_.contacts().collect([](const auto &contact) { return contact.compute_springs(); });
+  std::vector<double> sums;
+  for (const auto &[normal, tangential] : springs)
+    sums.insert(sums.end(), {normal.force, normal.held, tangential.force, tangential.held});
+  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    springs[i].normal.force = sums[4 * i];
+    springs[i].normal.held = sums[4 * i + 1];
+    springs[i].tangential.force = sums[4 * i + 2];
+    springs[i].tangential.held = sums[4 * i + 3];
+  }
+  return springs;
+}
+
+std::vector<std::array<SoftnessLimit::Change, 2>>
+Augmentation::changes_of(const std::vector<ContactSprings> &before,
+                         const std::vector<ContactSprings> &after) const {
+  constexpr std::size_t n_sums = 4;
+  std::vector<double> sums;
+  std::vector<std::array<SoftnessLimit::Change, 2>> changes(after.size());
+  for (std::size_t i = 0; i < after.size(); ++i)
+    for (const auto direction : {&ContactSprings::normal, &ContactSprings::tangential}) {
+      const auto &then = (before[i].*direction).of_nodes, &now = (after[i].*direction).of_nodes;
+      double of_nodes = 0.;
+      dealii::Tensor<1, 3> in_all;
+      for (std::size_t n = 0; n < now.size(); ++n) {
+        of_nodes += (now[n] - then[n]).norm();
+        in_all += now[n] - then[n];
+      }
+      sums.insert(sums.end(), {of_nodes, in_all[0], in_all[1], in_all[2]});
+    }
+  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double *sum = sums.data() + n_sums * (2 * i + d);
+      const double scalar = d == 0 ? after[i].normal.force - before[i].normal.force
+                                   : after[i].tangential.force - before[i].tangential.force;
+      changes[i][d] = {sum[0], std::max(std::abs(scalar), std::hypot(sum[1], sum[2], sum[3]))};
+    }
+  return changes;
+}
+
+void Augmentation::give_up(const Series &series, const unsigned int n, const double error,
+                           NewtonReport &report) const {
+  std::ostringstream message;
+  message << "after " << n << " augmentations contact is still " << error
+          << " times its 'Penetration tolerance' from what it should be";
+  const unsigned int most = problem_.parameters().solver.most_augmentations;
+  if (n < most && series.pace.ratio() < 1.)
+    message << ", and at their pace, each leaves " << series.pace.ratio() << " of that, it would take "
+            << series.pace.to_go() << " more";
+  else if (n < most)
+    message << ", and they no longer lessen it";
+  message << ": try a larger penalty or 'Penetration tolerance', "
+          << (problem_.scheme().has_inertia()
+                  ? "or none: nodes that have come in would have to stop within a step"
+                  : "or more 'Most augmentations'");
+  report.converged = false;
+  report.failure = message.str();
+}
+
+void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
+  const unsigned int most = problem_.parameters().solver.most_augmentations;
+  const double accuracy = solver_.accuracy();
+  double last_error = std::numeric_limits<double>::infinity();
+  Series series(problem_.contacts().size());
+  series.hardest = report.hardest;
+  softness_.begin();
+  series.springs = contact_springs();
+  for (unsigned int n = 0; report.converged; ++n) {
+    const Demands demands = find_demands(series.springs);
+    const double error = demands.largest;
+    const bool is_of_softness = demands.by_tolerances <= 1.;
+    if (error <= 1.)
+      break;
+    if (error > Limits::slow_error * last_error)
+      solver_.set_accuracy(std::max(Limits::accuracy * solver_.accuracy(), Limits::min_accuracy * accuracy));
+    last_error = error;
+    series.pace.add(error);
+    if (is_of_softness &&
+        (n >= Limits::max_for_softness || series.pace.is_hopeless(Limits::max_for_softness)))
+      break;
+    if (n == most || series.pace.is_hopeless(most)) {
+      if (!may_leave_penetration_)
+        give_up(series, n, error, report);
+      break;
+    }
+    if (!solver_.is_probing())
+      measurement_.begin_with_augmentation();
+    if (is_of_softness && n == 0) {
+      series.soft = std::make_unique<Vector>(displacements);
+      series.soft_offsets = offsets;
+    }
+    if (!augment_once(series, demands, is_of_softness, report, offsets, displacements))
+      break;
+  }
+  solver_.set_accuracy(accuracy);
+}
+
+bool Augmentation::augment_once(Series &series, const Demands &demands, const bool is_of_softness,
+                                NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
+  ContactSet &contacts = problem_.contacts();
+  contacts.for_each([](auto &contact) {
+    if (contact.settings().is_augmented())
+      contact.augment();
+  });
+  if (!series.before.empty()) {
+    const std::vector<double> factors =
+        stiffen_slow_contacts(series.before, demands.of_contacts, series.added);
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      series.stiffer[i] *= factors[i];
+  }
+  series.before = demands.of_contacts;
+  report.append(solver_.iterate(offsets, displacements));
+  if (!report.converged && series.soft && is_of_softness) { // as it was before
+    for (std::size_t i = 0; i < series.stiffer.size(); ++i)
+      if (series.stiffer[i] != 1.)
+        contacts.stiffen(i, 1. / series.stiffer[i]);
+    contacts.take_back_augmentation();
+    displacements = *series.soft;
+    offsets = series.soft_offsets;
+    const NewtonReport again = solver_.iterate(offsets, displacements);
+    report.append(again);
+    // What found no end in a short step finds none in a shorter one.
+    report.hardest = std::max(series.hardest, again.hardest);
+    return false;
+  }
+  if (report.converged)
+    learn(series);
+  return true;
+}
+
+void Augmentation::learn(Series &series) {
+  const std::vector<ContactSprings> after = contact_springs();
+  if (after.empty())
+    return;
+  const auto changes = changes_of(series.springs, after);
+  softness_.learn(series.springs, changes);
+  for (std::size_t i = 0; i < series.added.size(); ++i) {
+    const ContactSprings::Direction &then = series.springs[i].normal, &now = after[i].normal;
+    series.added[i] = then.held > Limits::min_held * then.force && now.held > Limits::kept * then.held
+                          ? changes[i][0].in_all / then.held
+                          : 0.;
+  }
+  series.springs = after;
+}
+
+DiagnosticList Augmentation::finish() const {
+  constexpr double percent = 100.;
+  DiagnosticList messages;
+  const std::vector<double> unsettled = softness_.unsettled();
+  const std::vector<std::string> names = problem_.contacts().names();
+  for (std::size_t i = 0; i < unsettled.size(); ++i) {
+    if (!(unsettled[i] > Limits::settled))
+      continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << "Augmentation was given up while it still changed the force by " << percent * unsettled[i]
+         << " % of the largest: facets of the two sides do not fit, or a sharp edge bears";
+    messages.push_back(Diagnostic(diagnostic::contact_unsettled, text.str())
+                           .pair(names[i])
+                           .measure("change / force", unsettled[i]));
+  }
+  return messages;
+}
+
+void Augmentation::save(StateWriter &writer) const {
+  if (softness_.is_used())
+    writer.write("softness", softness_.save());
+}
+
+void Augmentation::load(StateReader &reader) {
+  if (softness_.is_used() && reader.has("softness"))
+    softness_.load(reader.read("softness"));
+}
+
+} // namespace billet

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/body_freedom.h"
+
+#include "billet/errors.h"
+#include "billet/scene/rigid_motions.h"
+#include "billet/solve/penalty_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+// Limits of quasi-static motion, beyond what tools and supports prescribe: of a step and of the run, in
+// diameters of the scene.
+constexpr double max_step = 1., max_path = 10.;
+
+} // namespace
+
+std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const std::size_t body) {
+  std::vector<Resistance> resistances;
+  for (const auto &entry : collect_held_nodes(problem.scene(), problem.discretization())) {
+    dealii::Tensor<1, 3> position = entry.second.position;
+    for (unsigned int i = 0; i < 3; ++i)
+      position[i] += problem.state().displacements(entry.second.dofs[i]);
+    for (const auto &hold : problem.scene().bodies()[body].holds)
+      if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0)
+        resistances.push_back({position, hold.normal, Resistance::Sense::both_ways});
+  }
+  for (const auto &contact : problem.contacts().of_tools())
+    if (contact.body() == body)
+      contact.add_resistances(resistances);
+  for (const auto &contact : problem.contacts().of_bodies())
+    contact->add_resistances(body, resistances);
+
+  // Those of all ranks, in the same order on each, so that all find the same.
+  std::vector<double> numbers;
+  for (const auto &[position, direction, sense] : resistances) {
+    numbers.insert(numbers.end(), position.begin_raw(), position.end_raw());
+    numbers.insert(numbers.end(), direction.begin_raw(), direction.end_raw());
+    numbers.push_back(static_cast<double>(sense));
+  }
+  resistances.clear();
+  BoundingBox box = BoundingBox::empty();
+  for (const auto &part : dealii::Utilities::MPI::all_gather(problem.communicator(), numbers))
+    for (auto x = part.begin(); x != part.end(); x += 7) {
+      resistances.push_back({dealii::Tensor<1, 3>({x[0], x[1], x[2]}),
+                             dealii::Tensor<1, 3>({x[3], x[4], x[5]}),
+                             static_cast<Resistance::Sense>(static_cast<int>(x[6]))});
+      box.add(resistances.back().position);
+    }
+  // Of what holds the body: where that is but a point, turns about it are free.
+  const double size = resistances.empty()
+                          ? 1.
+                          : std::max((box.high - box.low).norm(), 1e-6 * problem.discretization().radius());
+  return find_free_motion(resistances, 0.5 * (box.low + box.high), size);
+}
+
+void check_freedom(const ImplicitProblem &problem) {
+  for (std::size_t body = 0; body < problem.scene().bodies().size(); ++body)
+    if (const auto motion =
+            problem.stabilisation().acts_on(body) ? std::nullopt : find_freedom(problem, body))
+      throw InputError(
+          problem.scene().parameters().bodies[body].origin +
+          ": the body is without support: at the start neither supports, nor symmetry planes, "
+          "nor tools or bodies that it touches hold its rigid motion with " +
+          print(*motion) +
+          ". Allowed in a static scene: none that is free; hold it, or let it touch at the start");
+}
+
+std::string describe_freedom(const ImplicitProblem &problem, const std::size_t body,
+                             const std::set<std::string> &removed) {
+  const auto motion = find_freedom(problem, body);
+  if (!motion)
+    return "";
+  std::ostringstream message;
+  message << problem.scene().parameters().file_name << ": at time " << problem.state().time << ", without ";
+  for (const auto &name : removed)
+    message << "tool '" << name << "', ";
+  message
+      << "which " << (removed.size() == 1 ? "is" : "are") << " removed then, body '"
+      << problem.scene().bodies()[body].name
+      << "' is left without support: neither supports, nor symmetry planes, nor tools that it touches hold "
+         "its rigid motion with "
+      << print(*motion)
+      << ". Hold it there by a support or a symmetry plane, or let a tool stay. What was computed until "
+         "time "
+      << problem.state().time << " is in '" << problem.scene().parameters().output.folder.value << "'.";
+  return message.str();
+}
+
+bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport &report) {
+  const StepState &step = problem.step();
+  const double radius = problem.discretization().radius(), diameter = 2. * radius;
+  // What the scene prescribes, in the step and since the start.
+  double driven = 0., driven_so_far = 0.;
+  for (const auto &tool : problem.scene().tools()) {
+    const Placement start = tool.placement(0.), before = tool.placement(problem.state().time),
+                    after = tool.placement(t);
+    driven = std::max(driven, largest_motion(before, after, radius));
+    driven_so_far = std::max(
+        {driven_so_far, largest_motion(start, before, radius), largest_motion(start, after, radius)});
+  }
+  std::array<double, 5> largest{0., 0., 0., 0., -1.}; // held in the step, so far; all in it, so far; body
+  const Constraints &held = problem.supports().homogeneous();
+  for (const DofIndex dof : problem.discretization().owned_dofs()) {
+    const double now = step.trial.displacements(dof), change = now - step.start.displacements(dof);
+    if (held.is_constrained(dof)) {
+      largest[0] = std::max(largest[0], std::abs(change));
+      largest[1] = std::max({largest[1], std::abs(now), std::abs(step.start.displacements(dof))});
+    }
+    largest[2] = std::max(largest[2], std::abs(change));
+    largest[3] = std::max(largest[3], std::abs(now));
+  }
+  dealii::Utilities::MPI::max(dealii::ArrayView<const double>(largest.data(), largest.size()),
+                              problem.communicator(),
+                              dealii::ArrayView<double>(largest.data(), largest.size()));
+  driven += largest[0];
+  driven_so_far += largest[1];
+  const auto fail = [&](const std::string &what) {
+    report.converged = false;
+    report.is_explained = true;
+    report.failure = what + ". A quasi-static solution does not move like this: look for a body that nothing "
+                            "holds, for units and for penalties; use 'Scheme = implicit dynamics' for free "
+                            "motion, or smaller steps";
+    return true;
+  };
+  std::ostringstream text;
+  text.precision(3);
+  if (largest[2] > max_step * diameter + 2. * driven) {
+    text << "the step to time " << t << " moves a node by " << largest[2] << ", which is "
+         << largest[2] / diameter << " times the diameter of the scene, while tools and supports move by "
+         << driven << "; allowed is " << max_step << " diameter more than twice that";
+    return fail(text.str());
+  }
+  if (largest[3] > max_path * diameter + 2. * driven_so_far) {
+    text << "at time " << t << " a node has moved by " << largest[3] << ", which is " << largest[3] / diameter
+         << " times the diameter of the scene; allowed are " << max_path
+         << " diameters more than twice the way of tools and supports";
+    return fail(text.str());
+  }
+  return false;
+}
+
+} // namespace billet

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/driven_tools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace billet {
+
+DrivenTools::DrivenTools(const Scene &scene, const Discretization &discretization, const Supports &supports,
+                         ContactSet &contacts, const ImplicitScheme &scheme)
+    : scene_(scene), discretization_(discretization), supports_(supports), contacts_(contacts),
+      scheme_(scheme), offsets_(scene.tools().size(), 0.), offsets_n_(offsets_), stopped_(offsets_.size()) {
+  choose_unknown({});
+}
+
+void DrivenTools::commit() {
+  last_increments_.resize(offsets_.size());
+  for (std::size_t i = 0; i < offsets_.size(); ++i)
+    last_increments_[i] = offsets_[i] - offsets_n_[i];
+  offsets_n_ = offsets_;
+}
+
+void DrivenTools::choose_unknown(const std::vector<std::size_t> &tools) {
+  unknown_ = tools;
+  const Vector any = discretization_.make_owned_vector();
+  const Epetra_BlockMap &dofs = as_epetra(any).Map();
+  std::vector<int> indices(dofs.MyGlobalElements(), dofs.MyGlobalElements() + dofs.NumMyElements());
+  if (dofs.Comm().MyPID() == 0)
+    for (std::size_t k = 0; k < tools.size(); ++k)
+      indices.push_back(dofs.NumGlobalElements() + static_cast<int>(k));
+  map_ = std::make_unique<Epetra_Map>(-1, static_cast<int>(indices.size()), indices.data(), 0, dofs.Comm());
+}
+
+Epetra_Vector DrivenTools::pack(const Vector &displacements, const std::vector<double> &offsets) const {
+  Epetra_Vector x(*map_);
+  const Epetra_Vector &values = as_epetra(displacements);
+  std::copy(values.Values(), values.Values() + values.MyLength(), x.Values());
+  for (int i = values.MyLength(); i < x.MyLength(); ++i) {
+    const std::size_t tool = unknown_[static_cast<std::size_t>(i - values.MyLength())];
+    x[i] = offsets[tool] * unit_of(tool);
+  }
+  return x;
+}
+
+void DrivenTools::unpack(const Epetra_Vector &x, Vector &displacements) {
+  Epetra_Vector &own = as_epetra(displacements);
+  std::copy(x.Values(), x.Values() + own.MyLength(), own.Values());
+  if (unknown_.empty())
+    return;
+  std::vector<double> values(unknown_.size());
+  if (dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0)
+    std::copy(x.Values() + own.MyLength(), x.Values() + x.MyLength(), values.begin());
+  values = dealii::Utilities::MPI::broadcast(discretization_.communicator(), values, 0);
+  for (std::size_t k = 0; k < unknown_.size(); ++k)
+    offsets_[unknown_[k]] = values[k] / unit_of(unknown_[k]);
+}
+
+void DrivenTools::add_residual(const double t, const int n_displacements, Epetra_Vector &residual) const {
+  for (std::size_t k = 0; k < unknown_.size(); ++k) {
+    const double excess = imbalance(unknown_[k], t) / unit_of(unknown_[k]);
+    if (n_displacements + static_cast<int>(k) < residual.MyLength()) // on the rank that has it
+      residual[n_displacements + static_cast<int>(k)] = excess;
+  }
+}
+
+Placement DrivenTools::place(const std::size_t tool, const double t, const double offset) const {
+  return stopped_[tool] ? *stopped_[tool] : scene_.tools()[tool].placement(t, offset);
+}
+
+std::vector<Placement> DrivenTools::placements(const double t) const {
+  std::vector<Placement> placements;
+  for (std::size_t tool = 0; tool < scene_.tools().size(); ++tool)
+    placements.push_back(place(tool, t, offsets_[tool]));
+  return placements;
+}
+
+void DrivenTools::place_contacts(const double t) {
+  for (auto &contact : contacts_.of_tools())
+    contact.set_placement(place(contact.tool(), t, offsets_[contact.tool()]));
+}
+
+std::vector<std::size_t>
+DrivenTools::find_stopping(const double t, const std::function<bool(std::size_t)> &is_removed) const {
+  std::vector<std::size_t> result;
+  const double tolerance = scene_.parameters().solver.force_tolerance;
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
+    if (scene_.tools()[i].control() == Tool::Control::stop && !stopped_[i] && !is_removed(i) &&
+        excess_load(i, t) > -tolerance * scene_.tools()[i].load(t))
+      result.push_back(i);
+  return result;
+}
+
+double DrivenTools::unit_of(const std::size_t tool) const {
+  return scene_.tools()[tool].control() == Tool::Control::moment ? discretization_.radius() : 1.;
+}
+
+RigidContact::ToolRate DrivenTools::rate_of(const std::size_t tool) const {
+  if (scene_.tools()[tool].control() == Tool::Control::moment)
+    return {{}, scene_.tools()[tool].rotation_axis() / unit_of(tool)};
+  return {scene_.tools()[tool].force_direction(), {}};
+}
+
+double DrivenTools::exerted_load(const std::size_t tool) const {
+  const ContactLoad load = contacts_.compute_load(tool);
+  const Tool &which = scene_.tools()[tool];
+  return which.control() == Tool::Control::moment ? load.moment * which.rotation_axis()
+                                                  : load.force * which.force_direction();
+}
+
+double DrivenTools::excess_load(const std::size_t tool, const double t) const {
+  return exerted_load(tool) - scene_.tools()[tool].load(t);
+}
+
+double DrivenTools::imbalance(const std::size_t tool, const double t) const {
+  if (!scheme_.has_mass(tool))
+    return excess_load(tool, t);
+  return scheme_.contact_weight() * exerted_load(tool) - scene_.tools()[tool].load(t) +
+         scheme_.tool_inertia(tool, offsets_[tool]);
+}
+
+double DrivenTools::distance_to_touch(const std::size_t tool) const {
+  constexpr double more = 1e-6; // of the scene's radius, so that it does touch
+  double way = std::numeric_limits<double>::infinity();
+  if (scene_.tools()[tool].control() != Tool::Control::moment)
+    for (const auto &contact : contacts_.of_tools())
+      if (contact.tool() == tool)
+        way = std::min(way, contact.distance_to_touch(scene_.tools()[tool].force_direction()));
+  way = dealii::Utilities::MPI::min(way, discretization_.communicator());
+  return way + more * discretization_.radius();
+}
+
+void DrivenTools::assemble_tangent() {
+  const std::size_t n = unknown_.size();
+  Usage::count_if(n > 0, Capability::driven_tools, n);
+  border_.columns.assign(n, discretization_.make_owned_vector());
+  border_.rows = border_.columns;
+  border_.block.reinit(n, n);
+  border_.memory.set(2 * n * discretization_.owned_dofs().n_elements() * sizeof(double));
+  for (std::size_t k = 0; k < n; ++k) {
+    Vector column = discretization_.make_additive_vector(), row = column;
+    double slope = 0.;
+    for (const auto &contact : contacts_.of_tools())
+      if (contact.tool() == unknown_[k])
+        slope += contact.add_tool_derivatives(rate_of(unknown_[k]), column, row);
+    column.compress(dealii::VectorOperation::add);
+    row.compress(dealii::VectorOperation::add);
+    const bool has_mass = scheme_.has_mass(unknown_[k]);
+    const double weight = has_mass ? scheme_.contact_weight() : 1.;
+    border_.columns[k] = column;
+    border_.columns[k] *= scheme_.contact_weight();
+    border_.rows[k] = row;
+    border_.rows[k] *= weight;
+    supports_.condense(border_.columns[k]);
+    border_.block(k, k) = weight * dealii::Utilities::MPI::sum(slope, discretization_.communicator());
+    if (has_mass)
+      border_.block(k, k) += scheme_.tool_slope(unknown_[k]) / (unit_of(unknown_[k]) * unit_of(unknown_[k]));
+  }
+}
+
+bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector<double> &r_s,
+                        const double sense, const double relative_tolerance, Vector &du,
+                        std::vector<double> &ds) {
+  if (!solve(r_u, relative_tolerance, du))
+    return false;
+  const std::size_t n = unknown_.size();
+  if (n == 0)
+    return true;
+  constexpr double closer = 1e-2; // since a tool may have far to go where the bodies' residual is small
+  std::vector<Vector> Y(n, discretization_.make_owned_vector());
+  dealii::FullMatrix<double> S(border_.block);
+  dealii::Vector<double> rhs(n), solution(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    if (!solve(border_.columns[j], closer * relative_tolerance, Y[j]))
+      return false;
+    for (std::size_t i = 0; i < n; ++i)
+      S(i, j) -= border_.rows[i] * Y[j];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    rhs(i) = r_s[i] - border_.rows[i] * du;
+    if (border_.block(i, i) != 0.)
+      continue;
+    // It touches nothing, and moves on until it does.
+    const double way = distance_to_touch(unknown_[i]);
+    if (!std::isfinite(way)) {
+      failure_ = "tool '" + scene_.tools()[unknown_[i]].name() +
+                 "' has a force or moment, but nothing that it touches, or could come to touch, resists it";
+      return false;
+    }
+    S(i, i) = 1.;
+    rhs(i) = sense * way;
+  }
+  S.gauss_jordan();
+  S.vmult(solution, rhs);
+  for (std::size_t j = 0; j < n; ++j) {
+    ds[j] = solution(j);
+    du.add(-ds[j], Y[j]);
+  }
+  return true;
+}
+
+void DrivenTools::save(const std::size_t tool, const Placement &at, StateWriter &writer) const {
+  writer.write_text("name", scene_.tools()[tool].name());
+  const double last = tool < last_increments_.size() ? last_increments_[tool] : 0.;
+  writer.write("offset", {offsets_n_[tool], last});
+  writer.write("placement", to_numbers(at));
+}
+
+void DrivenTools::load(const std::size_t tool, StateReader &reader, const Placement &at) {
+  const std::vector<double> offset = reader.read("offset");
+  offsets_n_[tool] = offset.at(0);
+  last_increments_[tool] = offset.at(1);
+  if (reader.read("flags").at(0) != 0.)
+    stop(tool, at);
+}
+
+} // namespace billet

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/energy_balance.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/solve/implicit_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+bool EnergyBalance::is_inaccurate(double /*t*/, NewtonReport & /*report*/) {
+  trial_energies_ = problem_.internal().compute_energies(problem_.step().ghosted, Beat::evaluated);
+  return false;
+}
+
+EnergyBalance::ElementImbalance EnergyBalance::element_imbalance() const {
+  const StepState &step = problem_.step();
+  const EnergyLedger &energies = problem_.state().energies;
+  Vector increment = step.trial.displacements, mean = step.trial.internal;
+  increment -= step.start.displacements;
+  mean += step.start.internal;
+  const double dissipated = std::abs(trial_energies_.plastic - energies.plastic);
+  const double missed = trial_energies_.total() - energies.of_elements() - 0.5 * (mean * increment);
+  const double by_yielding = std::clamp(missed, -dissipated, dissipated);
+  return {by_yielding, missed - by_yielding};
+}
+
+EnergyBalance::ContactLoss EnergyBalance::contact_loss(const double t, const double works) const {
+  const StepState &step = problem_.step();
+  const SolutionState &state = problem_.state();
+  const ContactSet &contacts = problem_.contacts();
+  const double before = problem_.scheme().contact_before();
+  Vector mean = step.trial.contact, increment = step.trial.displacements;
+  mean *= 1. - before;
+  mean.add(before, step.start.contact);
+  increment -= step.start.displacements;
+  ContactLoss loss;
+  loss.total = mean * increment + state.energies.contact;
+  const auto &tools = problem_.scene().tools();
+  std::vector<ContactLoad> loads(tools.size());
+  for (const auto &contact : contacts.of_tools())
+    loads[contact.tool()] += contact.compute_load();
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (problem_.removal().is_removed(i))
+      continue;
+    const ContactLoad &load = loads[i], &load_n = state.tool_loads[i];
+    const Placement to = problem_.tools().place(i, t, problem_.tools().offsets()[i]);
+    loss.total += ((1. - before) * load.force + before * load_n.force) *
+                      (to.translation - state.placements[i].translation) +
+                  ((1. - before) * load.moment + before * load_n.moment) * tools[i].rotation_axis() *
+                      (to.rotation_angle - state.placements[i].rotation_angle) -
+                  load.stored_energy - load.dissipation;
+    loss.friction += load.damping;
+  }
+  for (const auto &contact : contacts.of_bodies()) {
+    const ContactLoad load = contact->compute_load();
+    loss.total -= load.stored_energy + load.dissipation;
+    loss.friction += load.damping;
+  }
+  loss.total += works;
+  return loss;
+}
+
+bool EnergyBalance::contact_makes_energy() const {
+  return !problem_.contacts().of_bodies().empty() &&
+         -contact_balance_ > 0.5 * std::abs(problem_.state().energies.drift());
+}
+
+void EnergyBalance::update_largest_energy() {
+  const EnergyLedger &energies = problem_.state().energies;
+  // As it is shown: what is there counts half, so that energy from nowhere does not hide itself.
+  largest_energy_ = std::max(
+      {largest_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
+}
+
+void EnergyBalance::save(StateWriter &writer) const {
+  writer.write("largest energy", {largest_energy_});
+  writer.write("contact balance", {contact_balance_});
+}
+
+void EnergyBalance::load(const StateReader &reader) {
+  largest_energy_ = reader.number("largest energy");
+  contact_balance_ = reader.number("contact balance");
+}
+
+bool StaticBalance::rejects(const double t, NewtonReport &report) {
+  trial_contact_loss_ = 0.;
+  if (problem_.contacts().empty())
+    return false;
+  const StepState &step = problem_.step();
+  Vector increment = step.trial.displacements, mean = step.trial.internal;
+  increment -= step.start.displacements;
+  mean += step.start.internal;
+  const double internal_work = 0.5 * (mean * increment);
+  mean = step.trial.contact;
+  mean += step.start.contact;
+  const double contact_work = 0.5 * (mean * increment);
+  const StepWorks springs = problem_.contacts().compute_step_works(1. - problem_.scheme().contact_before());
+  trial_contact_loss_ = contact_loss(t, springs.ramp + springs.touching).total;
+  const StepEnergy::Works works{trial_contact_loss_,
+                                std::max(std::abs(internal_work), std::abs(contact_work)), largest_energy_};
+  const double floor = problem_.scales().round_off * problem_.discretization().radius();
+  const double t_n = problem_.state().time;
+  const StepEnergy::Verdict verdict = step_energy_.judge(t_n, t - t_n, works, floor);
+  if (verdict == StepEnergy::Verdict::balanced)
+    return false;
+  const double percent = 100. * StepEnergy::part_of_all(works);
+  std::ostringstream text;
+  text.precision(3);
+  text << "contact " << (works.imbalance > 0. ? "loses" : "makes") << " energy in the step to time " << t
+       << ": " << percent << " % of all work so far";
+  if (verdict == StepEnergy::Verdict::jump) {
+    trial_contact_loss_ = 0.;
+    report.diagnostics.push_back(Diagnostic(diagnostic::energy_imbalance, text.str())
+                                     .time(t)
+                                     .measure("part of all work [%]", percent)
+                                     .advice("Smaller steps do not change this: the bodies jump, as when one "
+                                             "slips off another, or have passed through each other. Check "
+                                             "the field output at this time; 'Scheme = implicit dynamics' "
+                                             "resolves jumps"));
+    return false;
+  }
+  text << ", more than the allowed " << 100. * StepEnergy::max_part
+       << " %. The solution jumped to another branch, or bodies passed through each other. Reduce 'Largest "
+          "step' or the penalty, or use a finer mesh where they touch";
+  report.converged = false;
+  report.is_explained = true;
+  report.failure = text.str();
+  return true;
+}
+
+void StaticBalance::commit(double /*t*/) {
+  contact_balance_ += trial_contact_loss_;
+  problem_.state().energies.external += element_imbalance().by_yielding; // (A3)
+}
+
+DiagnosticList StaticBalance::finish() const {
+  constexpr double doubtful = 0.04; // of all work
+  const double floor = problem_.scales().round_off * problem_.discretization().radius();
+  if (!(std::abs(contact_balance_) > std::max(doubtful * largest_energy_, floor)))
+    return {};
+  const double percent = 100. * contact_balance_ / largest_energy_;
+  std::ostringstream text;
+  text.precision(3);
+  text << "In the whole run contact " << (percent > 0. ? "has lost " : "has made ") << std::abs(percent)
+       << " % of all work";
+  return {Diagnostic(diagnostic::energy_imbalance, text.str())
+              .time(problem_.state().time)
+              .measure("part of all work [%]", percent)
+              .advice("Forces of contact do not fit its motion: reduce 'Largest step', or use a finer mesh "
+                      "where bodies touch, and check in the field output that they touch where they should")};
+}
+
+void StaticBalance::save(StateWriter &writer) const {
+  EnergyBalance::save(writer);
+  writer.write("rejected step", step_energy_.save());
+}
+
+void StaticBalance::load(const StateReader &reader) {
+  EnergyBalance::load(reader);
+  step_energy_.load(reader.read("rejected step"));
+}
+
+double DynamicBalance::largest_energy_of_trial() const {
+  return std::max(largest_energy_, std::abs(trial_energies_.total()));
+}
+
+double DynamicBalance::energy_error(const double imbalance) const {
+  const double largest =
+      std::max(largest_energy_of_trial(), 0.5 * std::abs(problem_.state().energies.total()));
+  const double allowed = std::max(Limits::always * largest,
+                                  Limits::of_rest * (Limits::of_run * largest - std::abs(element_balance_)));
+  return allowed > 0. ? std::abs(imbalance) / allowed : 0.;
+}
+
+bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
+  EnergyBalance::is_inaccurate(t, report);
+  motion_.finish_contact(problem_.step().trial.contact);
+  time_error_ = motion_.step_error(problem_.step().trial.displacements);
+  std::ostringstream message;
+  message.precision(3);
+  message << "the error of the step's time integration is " << time_error_
+          << " times the 'Error tolerance'. Try a smaller 'Smallest step' or a larger 'Error tolerance'";
+  trial_imbalance_ = element_imbalance().unexplained;
+  if (paths_.may_be_cut(t)) {
+    const double error = energy_error(trial_imbalance_);
+    if (error > std::max(1., time_error_)) {
+      message.str("");
+      message << "the work of the elements' forces in the step differs from their energy by " << error
+              << " times what is allowed. Try a smaller 'Smallest step'";
+    }
+    time_error_ = std::max(time_error_, error);
+  }
+  if (time_error_ <= 1.)
+    return false;
+  report.converged = false;
+  report.is_explained = true;
+  report.failure = message.str();
+  return true;
+}
+
+EnergyBalance::ContactLoss DynamicBalance::dynamic_loss(const double t) const {
+  return contact_loss(t, problem_.contacts().compute_step_works(1. - motion_.contact_before()).ramp);
+}
+
+double DynamicBalance::taken_by_contact(const ContactLoss &loss) const {
+  return std::max(0., motion_.damps_contact()
+                          ? loss.total
+                          : contact_balance_ + loss.total - Limits::may_make * largest_energy_of_trial());
+}
+
+bool DynamicBalance::rejects(const double t, NewtonReport &report) {
+  update_largest_energy();
+  const double largest = largest_energy_of_trial(); // in the first step there has been none before
+  const ContactLoss loss = dynamic_loss(t);
+  report.makes_energy =
+      !motion_.damps_contact() && contact_balance_ + loss.total < -Limits::may_make * largest;
+  // So long a step that bodies meet in it, rather than at its end.
+  const bool takes_too_much =
+      taken_by_contact(loss) - loss.friction > Limits::may_take * largest && paths_.may_be_cut(t);
+  if (!report.makes_energy && !takes_too_much)
+    return false;
+  report.converged = false;
+  report.is_explained = takes_too_much;
+  report.failure =
+      std::string("contact ") + (report.makes_energy ? "makes" : "takes") + " energy in the step";
+  return true;
+}
+
+void DynamicBalance::commit(const double t) {
+  const ContactLoss loss = dynamic_loss(t);
+  EnergyLedger &energies = problem_.state().energies;
+  const double taken = taken_by_contact(loss);
+  if (motion_.damps_contact()) {
+    const double by_friction = std::min(taken, loss.friction);
+    contact_losses_.add(ContactLosses::friction, by_friction);
+    contact_losses_.add(ContactLosses::impacts, taken - by_friction);
+  } else
+    contact_losses_.add(ContactLosses::crossings, taken);
+  contact_balance_ += loss.total - taken;
+  energies.numerical += taken;
+  // Areas that change take energy at one time and give it back at another.
+  const double returned = contact_losses_.give_back(std::max(0., -contact_balance_));
+  contact_balance_ += returned;
+  energies.numerical -= returned;
+  element_balance_ += trial_imbalance_;
+}
+
+DiagnosticList DynamicBalance::check() {
+  return contact_losses_.watch(largest_energy_, problem_.state().time);
+}
+
+void DynamicBalance::save(StateWriter &writer) const {
+  EnergyBalance::save(writer);
+  writer.write("element balance", {element_balance_});
+  writer.write("contact losses", contact_losses_.save());
+}
+
+void DynamicBalance::load(const StateReader &reader) {
+  EnergyBalance::load(reader);
+  element_balance_ = reader.number("element balance");
+  contact_losses_.load(reader.read("contact losses"));
+}
+
+} // namespace billet

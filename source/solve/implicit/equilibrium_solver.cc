@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/equilibrium_solver.h"
+
+#include <algorithm>
+
+namespace billet {
+
+NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &displacements) {
+  const Epetra_Vector x_n = problem_.unknowns();
+  Epetra_Vector x = problem_.tools().pack(displacements, offsets);
+  parameters::Solver settings = problem_.parameters().solver;
+  const double accuracy = accuracy_ * problem_.scheme().wanted_accuracy();
+  settings.force_tolerance *= accuracy;
+  settings.energy_tolerance *= accuracy;
+  settings.displacement_tolerance *= accuracy;
+  if (is_probing_)
+    settings.most_iterations = std::min(settings.most_iterations, max_iterations_of_probe);
+  NewtonReport report = solve_newton(problem_, settings, x_n, x, accepts_stalled_);
+  if (!problem_.tools().failure().empty() && !report.converged)
+    report.failure = problem_.tools().failure();
+  else if (!problem_.obstacle().empty() && !report.converged && report.failure.empty())
+    report.failure = "the correction is useless: " + problem_.obstacle();
+  problem_.set_trial(x);
+  displacements = problem_.step().trial.displacements;
+  offsets = problem_.tools().offsets();
+  return report;
+}
+
+} // namespace billet

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/implicit_problem.h"
+
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace billet {
+
+namespace {
+
+/// Makes the motion of a dynamic scene; null of a static one. Throws InputError where prescribed
+/// displacements contradict each other.
+std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretization &discretization,
+                                            const Supports &supports) {
+  check_before_start([&] {
+    supports.at_time(0.);
+    supports.at_time(scene.parameters().time_stepping.end_time);
+  });
+  if (scene.parameters().is_dynamic())
+    return std::make_unique<ImplicitMotion>(scene, discretization, supports);
+  return nullptr;
+}
+
+/// A hundred times the force that the last bit of a displacement of the scene's size makes.
+double find_round_off_force(const Scene &scene, const Discretization &discretization) {
+  constexpr double last_bits = 100.;
+  double stiffest = 0.;
+  for (const auto &body : scene.bodies())
+    stiffest = std::max(stiffest, body.largest_modulus);
+  return last_bits * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
+         discretization.radius();
+}
+
+} // namespace
+
+ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discretization)
+    : scene_(scene), discretization_(discretization), supports_(scene, discretization),
+      internal_(scene, discretization), contacts_(scene, discretization),
+      motion_(make_motion(scene, discretization, supports_)),
+      tools_(scene, discretization, supports_, contacts_, scheme()),
+      removal_(scene, discretization, contacts_), stabilisation_(scene, discretization),
+      tangent_(scene, discretization, supports_, contacts_), step_(discretization),
+      raw_internal_(discretization.make_additive_vector()),
+      raw_contact_(discretization.make_additive_vector()) {
+  if (contacts_.of_bodies().empty()) // else when it is known who touches whom
+    tangent_.build();
+  scales_.round_off = find_round_off_force(scene, discretization);
+  scales_.spring_round_off = contacts_.find_spring_round_off();
+  state_.body_pair_loads.resize(contacts_.of_bodies().size());
+  state_.tool_loads.resize(scene.tools().size());
+  for (const auto &tool : scene.tools())
+    state_.placements.push_back(tool.placement(0.));
+  // Prescribed displacements hold at time 0, too.
+  supports_.at_time(0.).distribute(step_.start.displacements);
+  state_.displacements = discretization.make_ghosted_vector();
+  state_.displacements = step_.start.displacements;
+}
+
+bool ImplicitProblem::on_all_ranks(const bool success) const {
+  return dealii::Utilities::MPI::min(success ? 1 : 0, communicator()) == 1;
+}
+
+void ImplicitProblem::set_trial(const Epetra_Vector &x) {
+  tools_.unpack(x, step_.trial.displacements);
+  step_.ghosted = step_.trial.displacements;
+  if (!tools_.unknown().empty())
+    tools_.place_contacts(step_.time);
+}
+
+bool ImplicitProblem::compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) {
+  set_trial(x);
+  raw_internal_ = 0.;
+  raw_contact_ = 0.;
+  if (!on_all_ranks(internal_.assemble_forces(step_.ghosted, raw_internal_)))
+    return false;
+  raw_internal_.compress(dealii::VectorOperation::add);
+  contacts_.update(step_.ghosted, step_.duration, raw_contact_);
+  raw_contact_.compress(dealii::VectorOperation::add);
+
+  ForceState &trial = step_.trial;
+  const auto measure = [this](const double force) { scales_.force = std::max(scales_.force, force); };
+  trial.internal = raw_internal_;
+  trial.contact = raw_contact_;
+  scales_.force = trial.internal.l2_norm();
+  const double contact_size = trial.contact.l2_norm();
+  scales_.contact_bears = contact_size > 0.;
+  measure(contact_size);
+  Vector total = trial.internal;
+  total += trial.contact;
+  measure(stabilisation_.add_forces(step_, total));
+  removal_.add_forces(step_.time, total);
+  measure(scheme().add_loads(step_.time, trial.displacements, total));
+  released_.add_forces(step_.time, total);
+  trial.supports = total;
+  measure(scheme().complete(trial.contact, total));
+  supports_.condense(total);
+  const Epetra_Vector &values = as_epetra(total);
+  std::copy(values.Values(), values.Values() + values.MyLength(), residual.Values());
+  tools_.add_residual(step_.time, values.MyLength(), residual);
+  status_changes_ = find_status_changes();
+  const bool is_finite = std::isfinite(scales_.force);
+  measure(scales_.lasting);
+  return is_finite;
+}
+
+bool ImplicitProblem::compute_tangent(const Epetra_Vector &x) {
+  set_trial(x);
+  const bool success = assemble_tangent({supports_.homogeneous(), tangent_.matrix()});
+  linearised_ = contacts_.slave_forces();
+  return success;
+}
+
+StatusChanges ImplicitProblem::find_status_changes() const {
+  StatusChanges changes;
+  if (linearised_.empty()) // nothing can touch, or there has been no tangent
+    return changes;
+  const std::vector<std::vector<SlaveForce>> now = contacts_.slave_forces();
+  for (std::size_t i = 0; i < now.size(); ++i)
+    changes.add(linearised_[i], now[i]);
+  std::vector<double> sums{changes.n, changes.force, changes.contact_force};
+  dealii::Utilities::MPI::sum(sums, communicator(), sums);
+  return {sums[0], sums[1], sums[2]};
+}
+
+bool ImplicitProblem::assemble_tangent(const TangentSystem &system, const double yield_slack) {
+  for (const auto &contact : contacts_.of_bodies())
+    contact->update(step_.ghosted, step_.duration);
+  tangent_.follow_couplings();
+  system.matrix = 0.;
+  if (!on_all_ranks(internal_.assemble_tangent(step_.ghosted, system, yield_slack)))
+    return false;
+  stabilisation_.add_tangent(system);
+  const TangentSystem contact_system{system.constraints, system.matrix, system.lift,
+                                     scheme().contact_weight()};
+  for (auto &contact : contacts_.of_tools()) {
+    contact.update(step_.ghosted);
+    contact.add_tangent(contact_system);
+  }
+  tangent_.start_contact();
+  for (const auto &contact : contacts_.of_bodies())
+    contact->add_tangent(contact_system, tangent_.kind());
+  scheme().add_tangent(step_.time, {supports_.homogeneous(), system.matrix});
+  system.matrix.compress(dealii::VectorOperation::add);
+  tools_.assemble_tangent();
+  tangent_.set_geometry(step_.trial.displacements);
+  tangent_.solver().expect_nearly_singular(stabilisation_.acts());
+  return tangent_.solver().factorize();
+}
+
+bool ImplicitProblem::solve_bordered(const Vector &r_u, const std::vector<double> &r_s, const double sense,
+                                     const double relative_tolerance, Vector &du, std::vector<double> &ds) {
+  return tools_.solve(
+      [this](const Vector &b, const double tolerance, Vector &x) { return tangent_.solve(b, tolerance, x); },
+      r_u, r_s, sense, relative_tolerance, du, ds);
+}
+
+bool ImplicitProblem::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx,
+                                    const double relative_tolerance) {
+  Vector r_u = discretization_.make_owned_vector(), du = r_u;
+  Epetra_Vector &r_values = as_epetra(r_u);
+  std::copy(residual.Values(), residual.Values() + r_values.MyLength(), r_values.Values());
+  std::vector<double> r_s(tools_.unknown().size()), ds(r_s);
+  if (residual.MyLength() > r_values.MyLength())
+    std::copy(residual.Values() + r_values.MyLength(), residual.Values() + residual.MyLength(), r_s.begin());
+  if (!r_s.empty())
+    r_s = dealii::Utilities::MPI::broadcast(communicator(), r_s, 0);
+  if (!solve_bordered(r_u, r_s, -1., relative_tolerance, du, ds)) // what Newton subtracts
+    return false;
+  const Epetra_Vector &values = as_epetra(du);
+  std::copy(values.Values(), values.Values() + values.MyLength(), dx.Values());
+  if (dx.MyLength() > values.MyLength())
+    std::copy(ds.begin(), ds.end(), dx.Values() + values.MyLength());
+  return std::isfinite(du.l2_norm());
+}
+
+double ImplicitProblem::max_step_length(const Epetra_Vector &x, const Epetra_Vector &direction) {
+  if (contacts_.empty())
+    return 1.;
+  set_trial(x);
+  const Vector from = step_.ghosted;
+  const std::vector<Placement> tools_from = tools_.placements(step_.time);
+  Epetra_Vector end(x);
+  end.Update(1., direction, 1.);
+  set_trial(end);
+  const double part = contacts_.find_free_part(from, tools_from, step_.ghosted, tools_.placements(step_.time),
+                                               false, obstacle_);
+  constexpr double least = 1e-3; // so short a correction is none
+  return part < least ? 0. : part;
+}
+
+double ImplicitProblem::find_free_part(const bool is_thorough) {
+  step_.ghosted = step_.trial.displacements;
+  return contacts_.find_free_part(state_.displacements, state_.placements, step_.ghosted,
+                                  tools_.placements(step_.time), is_thorough, obstacle_);
+}
+
+void ImplicitProblem::start_step(const double t) {
+  step_.time = t;
+  step_.duration = t - state_.time;
+  stabilisation_.start_step(step_.duration);
+  const bool is_static = !scheme().has_inertia();
+  for (const auto &contact : contacts_.of_bodies())
+    contact->start_step(state_.time, t);
+  scheme().start_step(state_.time, t, step_.start.displacements, tools_.start_offsets());
+  for (auto &contact : contacts_.of_tools()) {
+    const std::size_t tool = contact.tool();
+    contact.start_step(state_.placements[tool], tools_.place(tool, t, tools_.offsets()[tool]),
+                       t - state_.time);
+    contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(t));
+  }
+  contacts_.for_each(
+      [&](auto &contact) { contact.set_friction_account(scheme().contact_before(), is_static); });
+}
+
+void ImplicitProblem::start_at_rest() {
+  for (auto &contact : contacts_.of_tools()) {
+    const Placement &now = state_.placements[contact.tool()];
+    contact.start_step(now, now, 0.);
+    contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(state_.time));
+  }
+  for (const auto &contact : contacts_.of_bodies())
+    contact->start_step(state_.time, state_.time);
+  step_.duration = 0.;
+}
+
+void ImplicitProblem::evaluate_start() {
+  start_at_rest();
+  contacts_.restart();
+  stabilisation_.start_step(0.);
+  step_.time = state_.time;
+  tools_.restart();
+  tools_.choose_unknown({});
+  Epetra_Vector x = unknowns(), ignored(x);
+  compute_residual(x, ignored);
+}
+
+} // namespace billet

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/initial_motion.h"
+
+#include "billet/errors.h"
+#include "billet/solve/implicit_motion.h"
+
+#include <sstream>
+
+namespace billet {
+
+void InitialMotion::start() {
+  check_before_start([&] {
+    Epetra_Vector x = problem_.unknowns(), ignored(x);
+    if (!problem_.compute_residual(x, ignored))
+      throw SolutionFailure(problem_.parameters().file_name +
+                            ": the displacements that supports prescribe at time 0 turn an element inside "
+                            "out; allowed are small ones: the rest of the body starts undeformed");
+  });
+  StepState &step = problem_.step();
+  SolutionState &state = problem_.state();
+  step.start.supports = step.trial.supports;
+  step.start.contact = step.trial.contact;
+  step.start.internal = step.trial.internal;
+  for (const auto &contact : problem_.contacts().of_tools())
+    state.tool_loads[contact.tool()] += contact.compute_load();
+  check_before_start([&] { accelerate(); });
+
+  const auto energies = problem_.internal().compute_energies(state.displacements);
+  state.energies.elastic = energies.elastic;
+  state.energies.hourglass = energies.hourglass;
+  for (const auto &load : state.tool_loads)
+    state.energies.contact += load.stored_energy;
+  for (std::size_t i = 0; i < state.body_pair_loads.size(); ++i) {
+    state.body_pair_loads[i] = problem_.contacts().of_bodies()[i]->compute_load();
+    state.energies.contact += state.body_pair_loads[i].stored_energy;
+  }
+  motion_.update_state(state);
+  state.energies.initial = state.energies.total();
+}
+
+void InitialMotion::accelerate() {
+  TangentMatrix &tangent = problem_.tangent();
+  tangent.matrix() = 0.;
+  motion_.add_mass({problem_.supports().homogeneous(), tangent.matrix()});
+  tangent.matrix().compress(dealii::VectorOperation::add);
+  Vector rhs = motion_.driving_forces(problem_.step().start.supports),
+         accelerations = problem_.discretization().make_owned_vector();
+  problem_.supports().condense(rhs);
+  if (tangent.solver().is_iterative()) {
+    tangent.solver().start_contact({}); // there is none in the mass
+    tangent.set_geometry(problem_.step().trial.displacements);
+  }
+  if (!tangent.solver().factorize() || !tangent.solve(rhs, tolerance, accelerations)) {
+    std::ostringstream message;
+    message << problem_.parameters().file_name << ": at time " << problem_.state().time
+            << " the mass matrix cannot be solved for the accelerations: " << tangent.solver().failure()
+            << "; are the densities of the right unit?";
+    throw SolutionFailure(message.str());
+  }
+  motion_.set_accelerations(accelerations);
+  const auto &tools = problem_.scene().tools();
+  for (std::size_t tool = 0; tool < tools.size(); ++tool)
+    if (motion_.has_mass(tool))
+      motion_.start_tool(tool, problem_.tools().exerted_load(tool), tools[tool].load(problem_.state().time));
+}
+
+void InitialMotion::load(StateReader &reader, RestartReport &report) {
+  const OwnedNodes nodes(problem_.discretization(), NodeKeys(problem_.discretization()));
+  SolutionState &state = problem_.state();
+  if (report.is_exact) {
+    motion_.load(reader, nodes);
+  } else {
+    report.imbalance = 0.; // it accelerates the bodies
+    motion_.begin(reader, nodes, state.time);
+  }
+  const auto &tools = problem_.scene().tools();
+  for (std::size_t i = 0; i < tools.size(); ++i)
+    if (const auto found = find_group(reader, "tool", tools[i].name()))
+      reader.in(group("tool", *found), [&] { motion_.load_tool(i, reader, report.is_exact); });
+  if (report.is_exact) {
+    motion_.update_state(state);
+    return;
+  }
+  accelerate();
+  const double drift = state.energies.drift();
+  motion_.update_state(state);
+  state.energies.initial += drift - state.energies.drift(); // velocities that begin are no drift
+}
+
+} // namespace billet

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/path_guard.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+constexpr const char *goes_unseen = " goes to and fro, or around, within the step";
+
+bool fail(NewtonReport &report, const std::string &failure) {
+  report.converged = false;
+  report.is_explained = true;
+  report.failure = failure;
+  return true;
+}
+
+} // namespace
+
+bool PathGuard::may_be_cut(const double t) const {
+  const auto &stepping = problem_.parameters().time_stepping;
+  return stepping.control == parameters::TimeStepping::Control::automatic &&
+         t - problem_.state().time > stepping.smallest_step * (1. + Limits::rounding);
+}
+
+bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
+  for (const auto &contact : problem_.contacts().of_tools())
+    if (contact.has_thin_tool() && !problem_.on_all_ranks(!contact.lets_nodes_through()))
+      return fail(report, contact.describe_thin_tool());
+  return false;
+}
+
+bool PathGuard::goes_through(const bool is_thorough, NewtonReport &report) {
+  if (problem_.find_free_part(is_thorough) == 1.)
+    return false;
+  return fail(report, problem_.obstacle() +
+                          ", or deeper into it than contact follows them. Try a smaller 'Smallest step', a "
+                          "larger 'Normal penalty' or smaller facets");
+}
+
+bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
+  const SolutionState &state = problem_.state();
+  for (const auto &contact : problem_.contacts().of_tools()) {
+    const std::size_t tool = contact.tool();
+    const double angle =
+        std::abs(problem_.tools().place(tool, t, problem_.tools().offsets()[tool]).rotation_angle -
+                 state.placements[tool].rotation_angle);
+    if (problem_.removal().is_removed(tool) || !contact.settings().has_friction() ||
+        angle <= Limits::max_turn * (1. + Limits::rounding) ||
+        !(state.tool_loads[tool].area > 0. || !problem_.on_all_ranks(!contact.has_touching_nodes())))
+      continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "tool '" << problem_.scene().tools()[tool].name() << "' turns by " << angle * 180. / M_PI
+         << " degrees in the step, and friction needs steps of at most " << Limits::max_turn * 180. / M_PI
+         << ". Try a smaller "
+         << (problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed
+                 ? "'Initial step'"
+                 : "'Smallest step'");
+    return fail(report, text.str());
+  }
+  return false;
+}
+
+bool PathGuard::skips_motion(const double t, NewtonReport &report) const {
+  if (!may_be_cut(t))
+    return false;
+  const std::string unseen = motions_.find_unseen(problem_.state().time, t);
+  return !unseen.empty() && fail(report, unseen + goes_unseen);
+}
+
+DiagnosticList PathGuard::check_motion(const double t) const {
+  if (may_be_cut(t)) // and was not
+    return {};
+  const std::string unseen = motions_.find_unseen(problem_.state().time, t);
+  if (unseen.empty())
+    return {};
+  return {Diagnostic(diagnostic::unseen_motion, unseen + goes_unseen).time(t)};
+}
+
+bool PathGuard::meets_too_early(const double t, NewtonReport &report) const {
+  if (!may_be_cut(t))
+    return false;
+  const double largest =
+      problem_.contacts().max([](const auto &contact) { return contact.closing_of_new_contacts(); });
+  if (!(largest > Limits::max_closing))
+    return false;
+  std::ostringstream text;
+  text.precision(3);
+  text << "nodes close by " << largest << " facet sizes in the step in which they touch, allowed are "
+       << Limits::max_closing;
+  return fail(report, text.str());
+}
+
+} // namespace billet

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/penalty_raises.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace billet {
+
+SpringBooks::SpringBooks(ImplicitProblem &problem)
+    : problem_(problem), of_tools_(problem.contacts().of_tools().size()),
+      watch_(problem.scheme().has_inertia() ? PenaltyWatch::Motion::sudden : PenaltyWatch::Motion::slow) {}
+
+void SpringBooks::add(const std::size_t contact, const double energy) {
+  problem_.state().energies.contact += energy;
+  if (problem_.contacts().is_of_tool(contact))
+    of_tools_[contact] += energy;
+  else
+    problem_.state().body_pair_loads[contact - of_tools_.size()].stored_energy += energy;
+}
+
+void SpringBooks::check_pair(const std::string &name, Penetration deepest, const double moved,
+                             const double stored_energy, DiagnosticList &messages) {
+  deepest = {dealii::Utilities::MPI::max(deepest.of_facet, problem_.communicator()),
+             dealii::Utilities::MPI::max(deepest.length, problem_.communicator())};
+  const double work = problem_.state().energies.total();
+  append(messages,
+         watch_.check(name, problem_.state().time, deepest, moved, work > 0. ? stored_energy / work : 0.));
+}
+
+DiagnosticList SpringBooks::check() {
+  DiagnosticList messages;
+  const SolutionState &state = problem_.state();
+  const double displacement = problem_.step().start.displacements.linfty_norm();
+  for (std::size_t i = 0; i < of_tools_.size(); ++i) {
+    const RigidContact &contact = problem_.contacts().of_tools()[i];
+    const std::size_t tool = contact.tool();
+    const double tool_moved = largest_motion(problem_.scene().tools()[tool].placement(0.),
+                                             state.placements[tool], problem_.discretization().radius());
+    check_pair(contact.name(), contact.penetration(), std::max(displacement, tool_moved), of_tools_[i],
+               messages);
+    append(messages, contact.check_nodes_behind());
+  }
+  for (std::size_t i = 0; i < state.body_pair_loads.size(); ++i) {
+    const BodyContact &contact = *problem_.contacts().of_bodies()[i];
+    check_pair(contact.name(), contact.penetration(), displacement, state.body_pair_loads[i].stored_energy,
+               messages);
+  }
+  return messages;
+}
+
+std::vector<double> PenaltyRaises::find_factors() const {
+  const ContactSet &contacts = problem_.contacts();
+  std::vector<double> factors =
+      contacts.collect_max([](const auto &contact) { return contact.excessive_penetration(); });
+  const std::vector<double> room = contacts.stiffening_left();
+  const auto &stepping = problem_.parameters().time_stepping;
+  const bool is_short =
+      stepping.control == parameters::TimeStepping::Control::automatic &&
+      problem_.step().time - problem_.state().time < Limits::short_step * stepping.initial_step;
+  const std::vector<bool> has_tolerance = contacts.collect(
+                              [](const auto &contact) { return contact.settings().has_tolerance(); }),
+                          has_own_penalty = contacts.collect(
+                              [](const auto &contact) { return contact.settings().input->has_own_penalty; });
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    // A penalty that the scene sets stays while it can; the warnings tell what it makes softer. It cannot
+    // where nodes are about to go deeper than contact follows them.
+    const bool is_too_much =
+        !has_tolerance[i] && factors[i] > (has_own_penalty[i] && !is_short ? Limits::deep : 1.);
+    const double raise =
+        std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), most_raise * room[i]);
+    factors[i] = is_too_much && raise >= Limits::min_raise ? whole_octaves(raise) : 1.;
+  }
+  return factors;
+}
+
+bool PenaltyRaises::is_needed(NewtonReport &report) {
+  factors_ = find_factors();
+  if (std::none_of(factors_.begin(), factors_.end(), [](const double factor) { return factor > 1.; }))
+    return false;
+  report.converged = false;
+  report.penetrates = true;
+  report.failure = "nodes penetrate too deep";
+  return true;
+}
+
+DiagnosticList PenaltyRaises::raise() {
+  ContactSet &contacts = problem_.contacts();
+  problem_.evaluate_start();
+  const std::vector<double> before = contacts.stored_energies();
+  for (std::size_t i = 0; i < factors_.size(); ++i)
+    if (factors_[i] > 1.)
+      contacts.stiffen(i, factors_[i]);
+  problem_.scales().spring_round_off = contacts.find_spring_round_off();
+  problem_.evaluate_start();
+  const std::vector<double> after = contacts.stored_energies();
+  SolutionState &state = problem_.state();
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    const double given = after[i] - before[i];
+    books_.add(i, given);
+    state.energies.external += given;
+    if (contacts.is_of_tool(i)) {
+      const std::size_t tool = contacts.of_tools()[i].tool();
+      state.tool_loads[tool] = contacts.compute_load(tool);
+    }
+  }
+  StepState &step = problem_.step();
+  step.start.supports = step.trial.supports;
+  step.start.contact = step.trial.contact;
+  return describe();
+}
+
+DiagnosticList PenaltyRaises::describe() const {
+  DiagnosticList messages;
+  ContactSet &contacts = problem_.contacts();
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    if (!(factors_[i] > 1.))
+      continue;
+    contacts.at(i, [&](const auto &contact) {
+      const parameters::ContactPair &input = *contact.settings().input;
+      const double penalty = input.normal_penalty * contact.stiffening();
+      const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
+      std::ostringstream text;
+      text.precision(3);
+      text << "The penalty of the pair was raised " << factors_[i] << " times, to " << penalty
+           << (is_factor ? " E/h" : "") << ", since nodes penetrated too deep with it";
+      messages.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
+                             .pair(input.name)
+                             .time(problem_.state().time)
+                             .value("factor", factors_[i])
+                             .measure(is_factor ? "penalty [E/h]" : "penalty", penalty));
+    });
+  }
+  return messages;
+}
+
+DiagnosticList DynamicPenalties::control(const Solution &solution) {
+  if (!control_.is_used())
+    return {};
+  ContactSet &contacts = problem_.contacts();
+  const MPI_Comm communicator = problem_.communicator();
+  const PenaltyControl::Energies energies =
+      control_.measure(solution, problem_.scene().bodies().size(), problem_.state().time, communicator);
+  const auto room =
+      contacts.collect([&](const auto &contact) { return control_.room_of(contact, communicator); });
+  const std::vector<PenaltyControl::Factors> factors = control_.raises(energies, room);
+  if (std::none_of(factors.begin(), factors.end(), [](const auto &factor) { return factor.raises(); }))
+    return {};
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (!factors[i].raises())
+      continue;
+    const double normal = factors[i].normal, tangential = factors[i].tangential;
+    contacts.at(i, [&](auto &contact) { contact.stiffen_under_load(normal, tangential); });
+    // With the same force a stiffer spring holds less: the rest stays in the penetration that is allowed now.
+    const double lost =
+        (1. - 1. / normal) * energies.of_pairs[i] + (1. - 1. / tangential) * energies.sticking[i].stored;
+    books_.add(i, -lost);
+    problem_.state().energies.numerical += lost;
+  }
+  problem_.scales().spring_round_off = contacts.find_spring_round_off();
+  return control_.take_diagnostics();
+}
+
+} // namespace billet

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/penetration_measurement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+namespace {
+
+/// The largest difference of a group, as part of it.
+double difference(const StepResults::Groups &a, const StepResults::Groups &b) {
+  double largest = 0.;
+  for (std::size_t group = 0; group < a.size(); ++group) {
+    const double scale = ErrorControl::size(b[group]);
+    if (scale > 0.)
+      largest = std::max(largest, ErrorControl::distance(a[group], b[group]) / scale);
+  }
+  return largest;
+}
+
+} // namespace
+
+bool StepResults::has_forces_of_contacts() const {
+  const auto &pairs = problem_.scene().body_pairs();
+  return !problem_.contacts().of_tools().empty() ||
+         std::any_of(pairs.begin(), pairs.end(), [](const auto &pair) { return !pair.is_self_contact; });
+}
+
+StepResults::Groups StepResults::accepted() const {
+  Groups results(1);
+  for (const auto &load : problem_.state().tool_loads)
+    results[0].push_back(load.force);
+  for (const auto &load : problem_.state().body_pair_loads)
+    results[0].push_back(load.force);
+  if (!has_forces_of_contacts())
+    results[0].push_back(dealii::Tensor<1, 3>({problem_.step().start.supports.l2_norm(), 0., 0.}));
+  add_travels(problem_.tools().start_offsets(), results);
+  return results;
+}
+
+StepResults::Groups StepResults::of_trial() const {
+  Groups results(1);
+  results[0].resize(problem_.state().tool_loads.size());
+  for (const auto &contact : problem_.contacts().of_tools())
+    results[0][contact.tool()] += contact.compute_load().force;
+  for (const auto &contact : problem_.contacts().of_bodies())
+    results[0].push_back(contact->compute_load().force);
+  if (!has_forces_of_contacts())
+    results[0].push_back(dealii::Tensor<1, 3>({problem_.step().trial.supports.l2_norm(), 0., 0.}));
+  add_travels(problem_.tools().offsets(), results);
+  return results;
+}
+
+void StepResults::add_travels(const std::vector<double> &offsets, Groups &results) const {
+  const auto &tools = problem_.scene().tools();
+  for (std::size_t i = 0; i < tools.size(); ++i)
+    if (tools[i].is_driven())
+      results.push_back({dealii::Tensor<1, 3>({offsets[i], 0., 0.})});
+}
+
+std::vector<std::string> StepResults::names() const {
+  std::vector<std::string> names = {"forces"};
+  for (const auto &tool : problem_.scene().tools())
+    if (tool.is_driven())
+      names.push_back("travel of '" + tool.name() + "'");
+  return names;
+}
+
+void PenetrationMeasurement::begin_with_augmentation() {
+  if (is_wanted_ && !measured_)
+    measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
+}
+
+void PenetrationMeasurement::measure(const Epetra_Vector &accepted, const double accuracy,
+                                     NewtonReport &report) {
+  if (measured_ && measured_->with.empty()) // of no use any more
+    return;
+  if (!measured_ && (!(problem_.force_scale() > 0.) || !(problem_.contacts().find_penetration() > 0.))) {
+    measured_ = OfPenetration(); // nothing touches
+    return;
+  }
+  double left = 0.;
+  if (measured_) { // tractions have been augmented in this step
+    measured_->without = results_.of_trial();
+    measured_->residual = report.force;
+    left = problem_.contacts().find_penetration() / measured_->penetration;
+  } else if (!problem_.contacts().empty())
+    left = augment_once(accepted, accuracy, report);
+  if (!measured_ || measured_->without.empty())
+    return;
+  left = std::isfinite(left) ? std::min(Limits::max_left, left) : 0.;
+  for (std::size_t group = 0; group < measured_->with.size(); ++group)
+    for (std::size_t i = 0; i < measured_->with[group].size(); ++i)
+      measured_->without[group][i] +=
+          left / (1. - left) * (measured_->without[group][i] - measured_->with[group][i]);
+}
+
+double PenetrationMeasurement::augment_once(const Epetra_Vector &accepted, const double accuracy,
+                                            NewtonReport &report) {
+  Epetra_Vector x(accepted), residual(accepted), dx(accepted);
+  double left = 0.;
+  measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
+  problem_.contacts().for_each([](auto &contact) { contact.augment(); });
+  const parameters::Solver &solver = problem_.parameters().solver;
+  bool is_admissible = problem_.compute_residual(x, residual), is_accurate = false;
+  while (is_admissible && !is_accurate && measured_->n_iterations < Limits::max_iterations) {
+    dx.PutScalar(0.);
+    is_admissible =
+        problem_.compute_tangent(x) && problem_.solve_tangent(residual, dx, solver.linear_tolerance);
+    if (!is_admissible)
+      break;
+    x.Update(-1., dx, 1.);
+    double energy = 0., norm = 0.;
+    residual.Dot(dx, &energy);
+    ++measured_->n_iterations;
+    is_admissible = problem_.compute_residual(x, residual);
+    residual.Norm2(&norm);
+    report.iterations.push_back({norm / problem_.force_scale(), std::abs(energy), 1.});
+    measured_->residual = norm / problem_.force_scale();
+    is_accurate =
+        measured_->residual <= std::max(accuracy * solver.force_tolerance,
+                                        Limits::accuracy * difference(results_.of_trial(), measured_->with));
+  }
+  if (is_admissible && is_accurate) {
+    measured_->without = results_.of_trial();
+    left = problem_.contacts().find_penetration() / measured_->penetration;
+  }
+  problem_.contacts().take_back_augmentation();
+  return left;
+}
+
+double PenetrationMeasurement::find_allowed() const {
+  if (!measured_ || measured_->without.empty())
+    return 0.;
+  const double error = difference(measured_->without, measured_->with);
+  if (!(error > allowed_ && allowed_ > 0.))
+    return 0.;
+  return std::max(1., measured_->penetration * allowed_ / error);
+}
+
+} // namespace billet

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/rigid_body_modes.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/errors.h"
+#include "billet/solve/implicit/body_freedom.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace billet {
+
+RigidBodyModes::RigidBodyModes(ImplicitProblem &problem)
+    : problem_(problem), bodies_(problem.scene(), problem.discretization()),
+      forces_n_(problem.scene().bodies().size(), 0.), largest_forces_(forces_n_) {
+  problem.stabilisation().prepare(bodies_);
+}
+
+void RigidBodyModes::add_supports(RigidBodySupport &support) const {
+  for (const auto &node : bodies_.supported_nodes) {
+    dealii::Tensor<1, 3> position = node.position;
+    for (unsigned int i = 0; i < 3; ++i)
+      position[i] += problem_.step().ghosted(node.dofs[i]);
+    support.add_support(node.body, position, node.normal);
+  }
+}
+
+template <class AddContact> void RigidBodyModes::add_supporting_points(const AddContact &add) const {
+  for (const auto &contact : problem_.contacts().of_tools()) {
+    const std::size_t tool = contact.tool();
+    const auto unknown =
+        std::find(problem_.tools().unknown().begin(), problem_.tools().unknown().end(), tool);
+    const auto centre =
+        problem_.tools().place(tool, problem_.step().time, problem_.tools().offsets()[tool]).moved_centre();
+    contact.visit_supporting([&](const SupportingPoint &point) {
+      RigidBodySupport::Side on;
+      if (unknown != problem_.tools().unknown().end()) {
+        const RigidContact::ToolRate rate = problem_.tools().rate_of(tool);
+        on.tool = static_cast<std::size_t>(unknown - problem_.tools().unknown().begin());
+        on.tool_velocity =
+            rate.translation + dealii::cross_product_3d(rate.rotation, point.position - centre);
+      }
+      add(contact.body(), contact.body(), point, RigidBodySupport::Side{contact.body(), {}, {}}, on);
+    });
+  }
+  for (const auto &contact : problem_.contacts().of_bodies())
+    contact->visit_supporting([&](const SupportingPoint &point, const std::size_t body,
+                                  const std::size_t other) {
+      add(body, other, point, RigidBodySupport::Side{body, {}, {}}, RigidBodySupport::Side{other, {}, {}});
+    });
+}
+
+RigidBodySupport RigidBodyModes::hold_bodies() const {
+  RigidBodySupport support(problem_.communicator(), bodies_.frames, problem_.tools().unknown().size());
+  add_supports(support);
+  for (std::size_t body = 0; body < bodies_.frames.size(); ++body)
+    if (problem_.stabilisation().acts_on(body))
+      support.hold(body);
+  return support;
+}
+
+RigidBodySupport::Result RigidBodyModes::find_support(const std::vector<bool> &unloaded_bodies) const {
+  RigidBodySupport support = hold_bodies();
+  add_supporting_points([&](const std::size_t body, const std::size_t other, const SupportingPoint &point,
+                            const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
+    if (!unloaded_bodies.empty() && (unloaded_bodies[body] || unloaded_bodies[other]))
+      support.add_unloaded_contact(point, of, on);
+    else
+      support.add_contact(point, of, on);
+  });
+  return support.find();
+}
+
+std::optional<RigidBodySupport::Mode> RigidBodyModes::find_sliding_soon() const {
+  RigidBodySupport support = hold_bodies();
+  bool any = false;
+  add_supporting_points([&](const std::size_t, const std::size_t, const SupportingPoint &point,
+                            const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
+    any = any || point.is_near_limit();
+    if (point.is_near_limit())
+      support.add_spent_contact(point, of, on);
+    else
+      support.add_contact(point, of, on);
+  });
+  if (dealii::Utilities::MPI::max(any ? 1 : 0, problem_.communicator()) == 0)
+    return {};
+  return support.find().sliding;
+}
+
+RigidBodySupport::Result RigidBodyModes::find_support_by_contact() const {
+  RigidBodySupport support(problem_.communicator(), bodies_.frames, problem_.tools().unknown().size());
+  support.weigh_pushes();
+  add_supports(support);
+  if (dealii::Utilities::MPI::this_mpi_process(problem_.communicator()) == 0)
+    for (std::size_t k = 0; k < problem_.tools().unknown().size(); ++k)
+      if (const double load =
+              problem_.scene().tools()[problem_.tools().unknown()[k]].load(problem_.step().time);
+          load != 0.)
+        support.add_load(k, load);
+  add_supporting_points([&](const std::size_t body, const std::size_t other, const SupportingPoint &point,
+                            const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
+    if (problem_.stabilisation().acts_on(body) || problem_.stabilisation().acts_on(other))
+      support.add_pushing_contact(point, of, on);
+    else
+      support.add_contact(point, of, on);
+  });
+  return support.find();
+}
+
+std::vector<double> RigidBodyModes::contact_forces_on_bodies() const {
+  std::vector<double> forces(problem_.scene().bodies().size(), 0.);
+  const auto sum = [](const auto &contact) {
+    double total = 0.;
+    for (const auto &node : contact.slave_forces())
+      total += node.force.norm();
+    return total;
+  };
+  for (const auto &contact : problem_.contacts().of_tools())
+    forces[contact.body()] += sum(contact);
+  for (const auto &contact : problem_.contacts().of_bodies())
+    for (const std::size_t body : contact->settings().bodies)
+      forces[body] += sum(*contact);
+  dealii::Utilities::MPI::sum(forces, problem_.communicator(), forces);
+  return forces;
+}
+
+bool RigidBodyModes::hold_if_let_go(const RigidBodySupport::Mode &mode) {
+  if (!(largest_forces_[mode.body] > 0.) ||
+      forces_n_[mode.body] > Limits::little * largest_forces_[mode.body])
+    return false;
+  problem_.stabilisation().hold(mode.body);
+  let_go_.push_back(mode);
+  return true;
+}
+
+void RigidBodyModes::hold_unloaded_bodies() {
+  std::vector<bool> is_unloaded;
+  for (std::size_t body = 0; body < forces_n_.size(); ++body)
+    is_unloaded.push_back(forces_n_[body] < Limits::unloaded * largest_forces_[body] &&
+                          !problem_.stabilisation().acts_on(body));
+  // One after the other: those that hang together are free together.
+  for (std::size_t n = std::count(is_unloaded.begin(), is_unloaded.end(), true); n > 0; --n) {
+    const RigidBodySupport::Result lifted = find_support(is_unloaded);
+    if (lifted.n_free <= support_.n_free || !hold_if_let_go(*lifted.free))
+      return;
+    support_ = find_support();
+  }
+}
+
+std::string RigidBodyModes::describe_sliding() const {
+  if (bodies_.frames.empty() || !support_.sliding)
+    return "";
+  std::ostringstream text;
+  text << "; at the end of the last step body '" << problem_.scene().bodies()[support_.sliding->body].name
+       << "' slides, or nearly does, on all that it touches along its rigid-body mode with "
+       << print(support_.sliding->motion)
+       << ": friction has reached its limit, and cannot resist more. Hold the body, press it harder, or "
+          "increase friction";
+  return text.str();
+}
+
+bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, NewtonReport &report) {
+  const bool is_held = hold_if_let_go(mode);
+  std::ostringstream text;
+  text << "body '" << problem_.scene().bodies()[mode.body].name << "' is unsupported at time " << t
+       << ": the last contact that resisted its rigid-body mode with " << print(mode.motion)
+       << " has opened, or slides at the limit of friction. Hold the body by a support or a symmetry "
+          "plane, let a tool or body touch it longer, or increase friction; use 'Scheme = implicit "
+          "dynamics' if it is to move freely";
+  const parameters::Scene &parameters = problem_.parameters();
+  if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.largest_step)
+    throw SolutionFailure(parameters.file_name + ": " + text.str() +
+                          ". What was computed until then is in '" + parameters.output.folder.value + "'");
+  loss_ = {t, text.str()};
+  report.converged = false;
+  report.failure = text.str();
+  report.is_explained = true;
+  return true;
+}
+
+bool RigidBodyModes::rejects(const double t, NewtonReport &report) {
+  if (bodies_.are_held())
+    return moves_too_far(problem_, t, report);
+  const RigidBodySupport::Result found = find_support();
+  if (found.n_free > support_.n_free)
+    return lose(*found.free, t, report);
+  if (moves_too_far(problem_, t, report))
+    return true;
+  forces_n_ = contact_forces_on_bodies();
+  for (std::size_t body = 0; body < forces_n_.size(); ++body)
+    largest_forces_[body] = std::max(largest_forces_[body], forces_n_[body]);
+  support_ = found;
+  hold_unloaded_bodies();
+  report_let_go(t, report);
+  if (!support_.sliding)
+    support_.sliding = find_sliding_soon();
+  if (problem_.stabilisation().acts())
+    support_by_contact_ = find_support_by_contact();
+  return false;
+}
+
+void RigidBodyModes::report_let_go(const double t, NewtonReport &report) {
+  for (const RigidBodySupport::Mode &mode : let_go_) {
+    const std::string &name = problem_.scene().bodies()[mode.body].name;
+    report.diagnostics.push_back(
+        Diagnostic(
+            diagnostic::unsupported_body,
+            "Nothing presses body '" + name +
+                "' any more, and neither supports nor symmetry planes resist its rigid-body mode with " +
+                print(mode.motion) + ": viscous forces hold it from now on")
+            .body(name)
+            .time(t));
+  }
+  let_go_.clear();
+}
+
+void RigidBodyModes::commit() {
+  double driven_work = 0.;
+  for (const std::size_t tool : problem_.tools().unknown())
+    driven_work +=
+        problem_.scene().tools()[tool].load(problem_.step().time) * problem_.tools().last_increments()[tool];
+  problem_.state().energies.viscous +=
+      problem_.stabilisation().commit(problem_.step(), support_by_contact_.is_free, driven_work);
+}
+
+void RigidBodyModes::begin() {
+  if (!bodies_.are_held())
+    support_ = find_support();
+}
+
+std::string RigidBodyModes::describe_loss(const std::string &failure) const {
+  return problem_.state().time < loss_.time && failure != loss_.text
+             ? "; a step that goes further failed since " + loss_.text
+             : "";
+}
+
+DiagnosticList RigidBodyModes::finish(const double largest_energy) const {
+  const ForceState &state = problem_.step().start;
+  return problem_.stabilisation().finish(problem_.state().time, largest_energy,
+                                         std::max(state.internal.l2_norm(), state.contact.l2_norm()),
+                                         support_by_contact_);
+}
+
+void RigidBodyModes::save(StateWriter &writer) const {
+  writer.write("forces on bodies", forces_n_);
+  writer.write("largest forces on bodies", largest_forces_);
+  if (!bodies_.are_held())
+    writer.write("free modes", {static_cast<double>(support_.n_free)});
+  problem_.stabilisation().save(writer);
+}
+
+void RigidBodyModes::load(StateReader &reader, const bool is_exact) {
+  problem_.stabilisation().load(reader);
+  if (!is_exact)
+    return;
+  if (reader.has("forces on bodies")) {
+    forces_n_ = reader.read("forces on bodies");
+    largest_forces_ = reader.read("largest forces on bodies");
+  }
+  if (!bodies_.are_held() && reader.has("free modes"))
+    support_.n_free = static_cast<std::size_t>(reader.number("free modes"));
+}
+
+} // namespace billet

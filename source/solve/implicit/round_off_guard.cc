@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/round_off_guard.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace billet {
+
+bool RoundOffGuard::rejects(const double t, NewtonReport &report) const {
+  const bool is_last = t >= problem_.parameters().time_stepping.end_time;
+  if (!report.is_lost_in_round_off || (n_lost_ < Limits::max_lost_steps && !is_last))
+    return false;
+  report.converged = false;
+  return true;
+}
+
+void RoundOffGuard::commit(const double t, const NewtonReport &report) {
+  n_lost_ = report.is_lost_in_round_off ? n_lost_ + 1 : 0;
+  watch_.add(t, problem_.contact_round_off_force(), problem_.force_scale());
+}
+
+std::string RoundOffGuard::describe(const double part) const {
+  std::ostringstream text;
+  text.precision(2);
+  text << "round-off leaves " << part << " of the forces, allowed is " << max_stalled_residual
+       << ": the penalty of contact pair " << problem_.contacts().stiffest_pairs()
+       << " is too stiff for such small displacements and sixteen digits. Try a softer penalty, with a "
+          "'Penetration tolerance' where that is too soft, or bodies nearer to the origin";
+  return text.str();
+}
+
+bool RoundOffGuard::may_explain(const NewtonReport &report) const {
+  if (problem_.scheme().has_inertia() || report.iterations.empty() ||
+      !(report.force > 0.)) // or it has not come to a residual
+    return false;
+  const double springs = problem_.scales().spring_round_off, forces = problem_.force_scale();
+  return springs > most_round_off * forces && report.force * forces <= Limits::by_much * springs;
+}
+
+DiagnosticList RoundOffGuard::check(const double part, const double accuracy) const {
+  const double tolerance = problem_.parameters().solver.force_tolerance * std::max(1., accuracy);
+  // Bodies that nothing acts on yet have no other forces than round-off, nor have those in flight.
+  const bool is_loaded = !problem_.scheme().has_inertia() &&
+                         problem_.force_scale() > Limits::unloaded * problem_.scales().round_off;
+  // That of contact is reported at the end, see finish().
+  const bool is_of_contact = problem_.contact_round_off_force() > tolerance * problem_.force_scale();
+  if (!is_loaded || is_of_contact || part <= std::max(tolerance, notable_round_off))
+    return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "Round-off of displacements leaves " << part << " of the forces, 'Force tolerance' is " << tolerance
+       << ": the forces are that small beside the stiffness of the bodies";
+  return {Diagnostic(diagnostic::round_off_limits_forces, text.str())
+              .time(problem_.step().time)
+              .measure("part of the forces", part)
+              .advice("Place bodies nearer to the origin, or choose moduli less far apart")};
+}
+
+DiagnosticList RoundOffGuard::finish() const {
+  return watch_.finish(problem_.parameters().solver.force_tolerance, problem_.scheme().has_inertia());
+}
+
+} // namespace billet

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/step_attempt.h"
+
+namespace billet {
+
+void StepAttempt::begin(const double t) {
+  ImplicitProblem &problem = p_.problem;
+  problem.step().time = t;
+  p_.measurement.begin();
+  problem.tools().clear_failure();
+  problem.clear_obstacle();
+  problem.tools().restart();
+  std::vector<std::size_t> pressing;
+  const auto &tools = problem.scene().tools();
+  for (std::size_t i = 0; i < tools.size(); ++i)
+    if (tools[i].is_driven() && !problem.removal().is_removed(i))
+      pressing.push_back(i);
+  problem.tools().choose_unknown(pressing);
+  problem.stabilisation().start_step(t - problem.state().time);
+  stopping_.clear();
+}
+
+bool StepAttempt::find_guess(const double t, const double previous_step, NewtonIteration &linear_step,
+                             NewtonReport &report) {
+  ImplicitProblem &problem = p_.problem;
+  Predictor &predictor = p_.rules.predictor();
+  bool has_guess = predictor.guess(t, previous_step), takes_solution = !has_guess;
+  problem.scheme().start_step(problem.state().time, t, problem.step().start.displacements,
+                              problem.tools().start_offsets());
+  if (takes_solution)
+    has_guess = predictor.follow_tangent(t, linear_step);
+  problem.start_step(t);
+  if (has_guess && !takes_solution && predictor.has_alternative() && p_.paths.goes_through(false, report)) {
+    report = NewtonReport();
+    has_guess = predictor.follow_tangent(t, linear_step);
+    problem.start_step(t);
+  }
+  if (has_guess && p_.paths.goes_through(false, report))
+    return false;
+  problem.clear_obstacle();
+  if (has_guess)
+    return true;
+  report.failure = !problem.tools().failure().empty()              ? problem.tools().failure()
+                   : !problem.tangent().solver().failure().empty() ? problem.tangent().solver().failure()
+                                                                   : "the first guess is not admissible";
+  return false;
+}
+
+NewtonReport StepAttempt::make(const double t, const double previous_step, const Way way) {
+  NewtonReport report;
+  begin(t);
+  if (p_.paths.turns_too_far(t, report) || p_.paths.skips_motion(t, report))
+    return report;
+  NewtonIteration linear_step{};
+  if (!find_guess(t, previous_step, linear_step, report))
+    return report;
+  Unknowns x{p_.problem.step().trial.displacements, p_.problem.tools().offsets()};
+  p_.problem.contacts().restart();
+  const bool is_direct = way == Way::direct;
+  report = is_direct ? p_.solver.iterate(x.offsets, x.displacements)
+                     : p_.continuation.iterate(x.offsets, x.displacements);
+  if (linear_step.force > 0.)
+    report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
+  if (is_direct)
+    report.hardest = report.iterations.size();
+  p_.augmentation.augment(report, x.offsets, x.displacements);
+  if (report.converged)
+    stop_tools(t, x, report);
+  if (report.converged)
+    evaluate(x, report);
+  if (report.converged)
+    judge(t, report);
+  return report;
+}
+
+void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) {
+  ImplicitProblem &problem = p_.problem;
+  stopping_ = problem.tools().find_stopping(
+      t, [&](const std::size_t tool) { return problem.removal().is_removed(tool); });
+  if (stopping_.empty())
+    return;
+  const bool has_measured = p_.measurement.has_begun();
+  std::vector<std::size_t> pressing = problem.tools().unknown();
+  pressing.insert(pressing.end(), stopping_.begin(), stopping_.end());
+  problem.tools().choose_unknown(pressing);
+  report.append(p_.solver.iterate(x.offsets, x.displacements));
+  p_.augmentation.augment(report, x.offsets, x.displacements);
+  if (has_measured) // with the tool where it is no more
+    p_.measurement.spoil();
+}
+
+void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
+  ImplicitProblem &problem = p_.problem;
+  // The line search may have looked further since: the histories have to be those of the accepted state.
+  Epetra_Vector accepted = problem.tools().pack(x.displacements, x.offsets);
+  Epetra_Vector residual(accepted);
+  problem.compute_residual(accepted, residual);
+  if (!p_.measurement.is_wanted() || p_.solver.is_probing())
+    return;
+  p_.measurement.measure(accepted, p_.solver.accuracy(), report);
+  problem.compute_residual(accepted, residual);
+  const double allowed = p_.measurement.find_allowed();
+  if (allowed == 0.)
+    return;
+  p_.augmentation.allow_penetration(allowed);
+  p_.augmentation.augment(report, x.offsets, x.displacements);
+  accepted = problem.tools().pack(x.displacements, x.offsets);
+  problem.compute_residual(accepted, residual);
+}
+
+void StepAttempt::judge(const double t, NewtonReport &report) {
+  if (p_.solver.is_probing())
+    return;
+  // Each sets report.converged to false where it is true.
+  static_cast<void>(p_.round_off.rejects(t, report) || p_.rules.balance().is_inaccurate(t, report) ||
+                    p_.paths.goes_through_thin_tool(report) || p_.paths.goes_through(true, report) ||
+                    p_.paths.turns_too_far(t, report) || p_.rules.rejects(t, report));
+}
+
+} // namespace billet

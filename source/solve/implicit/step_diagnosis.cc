@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/step_diagnosis.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+void StepDiagnosis::commit() {
+  slipping_tools_.clear();
+  for (const std::size_t tool : problem_.tools().unknown()) {
+    const Tool &which = problem_.scene().tools()[tool];
+    std::vector<double> sums(3);
+    for (const auto &contact : problem_.contacts().of_tools())
+      if (contact.tool() == tool && problem_.scene().pairs()[contact.pair()].has_friction()) {
+        const RigidContact::Grip grip = contact.grip(
+            which.control() == Tool::Control::moment ? RigidContact::ToolRate{{}, which.rotation_axis()}
+                                                     : RigidContact::ToolRate{which.force_direction(), {}});
+        sums[0] += grip.touching;
+        sums[1] += grip.slipping;
+        sums[2] += grip.power_of_pressure;
+      }
+    dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+    if (sums[0] > 0. && sums[1] >= Limits::nearly_all * sums[0] &&
+        std::abs(sums[2]) <= Limits::by_pressure * std::abs(which.load(problem_.step().time)))
+      slipping_tools_.push_back(tool);
+  }
+}
+
+std::string StepDiagnosis::describe_slipping_tools() const {
+  std::ostringstream text;
+  for (const std::size_t tool : slipping_tools_) {
+    const Tool &which = problem_.scene().tools()[tool];
+    const bool turns = which.control() == Tool::Control::moment;
+    text << "; at the end of the last step tool '" << which.name()
+         << "' slips on nearly all that it touches: friction has reached its limit, and cannot bear a "
+         << (turns ? "moment" : "force") << " of " << which.load(problem_.step().time)
+         << ". Try a smaller one, more pressure or friction, or move the tool by its "
+         << (turns ? "'Rotation angle'" : "'Translation'");
+  }
+  return text.str();
+}
+
+std::string StepDiagnosis::describe_contacts() const {
+  std::string text;
+  for (const auto &contact : problem_.contacts().of_bodies())
+    text += contact->describe_restless();
+  return text + describe_slipping_tools();
+}
+
+std::string StepDiagnosis::describe_residual() {
+  const Epetra_Vector x = problem_.trial_unknowns();
+  Epetra_Vector residual(x);
+  if (!problem_.compute_residual(x, residual))
+    return "";
+  const MPI_Comm communicator = problem_.communicator();
+  // The largest nodal force that is out of balance, where, and of which body.
+  std::array<double, 5> mine{};
+  for (std::size_t body = 0; body < problem_.discretization().n_bodies(); ++body)
+    for (const auto &element : problem_.discretization().elements(body))
+      for (const unsigned int v : element.cell->vertex_indices()) {
+        double square = 0.;
+        std::array<double, 3> position{};
+        for (unsigned int i = 0; i < 3; ++i) {
+          const DofIndex dof = element.dofs[3 * v + i];
+          position[i] = element.cell->vertex(v)[i] + problem_.step().ghosted(dof);
+          const int place = residual.Map().LID(static_cast<int>(dof));
+          square += place >= 0 ? residual[place] * residual[place] : 0.;
+        }
+        if (square > mine[0])
+          mine = {square, position[0], position[1], position[2], static_cast<double>(body)};
+      }
+  std::array<double, 5> worst{};
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
+    if (of_rank[0] > worst[0])
+      worst = of_rank;
+  if (!(worst[0] > 0.))
+    return "";
+  std::ostringstream text;
+  text << "; the largest residual is in body '"
+       << problem_.scene().bodies()[static_cast<std::size_t>(worst[4])].name << "' at (" << worst[1] << ", "
+       << worst[2] << ", " << worst[3] << ")";
+  const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
+  for (const auto &contact : problem_.contacts().of_tools())
+    if (!problem_.on_all_ranks(!contact.has_node_on_border(position))) {
+      text << ", which lies on the edge of tool '" << problem_.scene().tools()[contact.tool()].name()
+           << "', where contact comes and goes with each correction: draw the tool larger or smaller by a "
+              "part of a facet, or give its edge a fillet";
+      break;
+    }
+  return text.str();
+}
+
+Diagnostic StepDiagnosis::describe_stall(const NewtonReport &report) const {
+  Diagnostic diagnostic(
+      diagnostic::stalled_step,
+      "A step was accepted although Newton's method no longer came nearer to equilibrium: " +
+          report.criteria);
+  return diagnostic.time(problem_.step().time)
+      .measure("residual", report.measures.force)
+      .value("energy", report.measures.energy)
+      .value("correction", report.measures.correction)
+      .value("status changes", report.measures.n_status_changes)
+      .value("force of status changes", report.measures.status);
+}
+
+} // namespace billet

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/step_rules.h"
+
+#include "billet/errors.h"
+#include "billet/solve/implicit/body_freedom.h"
+#include "billet/solve/implicit_motion.h"
+
+#include <algorithm>
+
+namespace billet {
+
+std::unique_ptr<StepRules> make_step_rules(ImplicitProblem &problem, const PathGuard &paths,
+                                           SpringBooks &books) {
+  if (problem.motion() != nullptr)
+    return std::make_unique<DynamicRules>(problem, paths, books, *problem.motion());
+  return std::make_unique<StaticRules>(problem, paths, books);
+}
+
+ToolRemoval::Removal StepRules::remove_tools(const double t) {
+  ToolRemoval::Removal removal = problem_.removal().remove_due(t);
+  SolutionState &state = problem_.state();
+  for (const std::size_t tool : removal.tools) {
+    // What its penalty springs held leaves with it.
+    state.energies.external -= state.tool_loads[tool].stored_energy;
+    state.energies.contact -= state.tool_loads[tool].stored_energy;
+    predictor().lose_pace();
+    problem_.step().start.contact -= problem_.removal().forces(tool); // it is contact no more
+  }
+  return removal;
+}
+
+void StaticRules::check_start() { check_freedom(problem_); }
+
+void StaticRules::check_next_step() const {
+  if (!free_body_.empty())
+    throw SolutionFailure(free_body_);
+}
+
+bool StaticRules::rejects(const double t, NewtonReport &report) {
+  return raises_.is_needed(report) || balance_.rejects(t, report) || modes_.rejects(t, report);
+}
+
+DiagnosticList StaticRules::raise_penalties() {
+  DiagnosticList messages = raises_.raise();
+  predictor_.drop_probe();
+  return messages;
+}
+
+void StaticRules::commit(const double t) {
+  modes_.commit();
+  StepRules::commit(t);
+}
+
+void StaticRules::close_step(const double t) {
+  balance_.update_largest_energy();
+  const ToolRemoval::Removal removal = remove_tools(t);
+  for (const auto &[body, removed] : removal.let_go)
+    if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
+      free_body_ = describe_freedom(problem_, body, removed);
+}
+
+void StaticRules::save(StateWriter &writer) const {
+  writer.write_text("free body", free_body_);
+  modes_.save(writer);
+  balance_.save(writer);
+}
+
+void StaticRules::load(StateReader &reader, const bool is_exact) {
+  balance_.load(reader);
+  modes_.load(reader, is_exact);
+  if (is_exact)
+    free_body_ = reader.read_text("free body");
+}
+
+void StaticRules::hold_imbalance(const Vector &residual) {
+  problem_.released().hold(residual, problem_.state().time);
+}
+
+void StaticRules::finish_load(StateReader & /*reader*/, const double release_time, RestartReport &report) {
+  if (report.is_exact)
+    return;
+  modes_.begin();
+  ReleasedForces &released = problem_.released();
+  const double end = problem_.parameters().time_stepping.end_time;
+  released.fade_until(release_time > 0. ? std::min(end, released.begin() + release_time) : end);
+}
+
+void DynamicRules::start(const Solution &solution) {
+  initial_.start();
+  penalties_.control(solution); // learns of the motion at the start, and raises nothing yet
+}
+
+bool DynamicRules::rejects(const double t, NewtonReport &report) {
+  return paths_.meets_too_early(t, report) || balance_.rejects(t, report);
+}
+
+void DynamicRules::close_step(const double t) {
+  const ToolRemoval::Removal removal = remove_tools(t);
+  bool forces_jump = false;
+  for (const std::size_t tool : removal.tools) {
+    problem_.state().energies.external -= motion_.remove_tool(tool);
+    const double jump = 1. - problem_.removal().fading(t, tool);
+    problem_.step().start.supports.add(-jump, problem_.removal().forces(tool));
+    forces_jump = forces_jump || jump > 0.;
+  }
+  if (forces_jump)
+    initial_.accelerate();
+  motion_.update_state(problem_.state());
+  balance_.update_largest_energy();
+}
+
+void DynamicRules::save(StateWriter &writer) const {
+  balance_.save(writer);
+  penalties_.save(writer);
+  writer.write("kinetic energy", {problem_.state().energies.kinetic});
+  writer.write("damps contact", {motion_.damps_contact() ? 1. : 0.});
+  motion_.save(writer, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
+}
+
+void DynamicRules::load(StateReader &reader, bool /*is_exact*/) {
+  balance_.load(reader);
+  if (reader.number("damps contact") != 0.)
+    motion_.damp_contact(problem_.step().start); // the next step begins with that anew
+  penalties_.load(reader);
+}
+
+void DynamicRules::finish_load(StateReader &reader, double /*release_time*/, RestartReport &report) {
+  initial_.load(reader, report);
+}
+
+} // namespace billet

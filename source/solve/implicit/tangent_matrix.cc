@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/tangent_matrix.h"
+
+#include "billet/solve/implicit/step_state.h"
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+namespace billet {
+
+namespace {
+
+NodalGeometry collect_geometry(const Discretization &discretization, const Constraints &constraints) {
+  const auto &owned = discretization.owned_dofs();
+  NodalGeometry geometry;
+  geometry.positions.resize(owned.n_elements());
+  geometry.constrained.resize(owned.n_elements());
+  for (const auto &cell : discretization.dof_handler().active_cell_iterators())
+    if (!cell->is_artificial())
+      for (const unsigned int v : cell->vertex_indices())
+        for (unsigned int i = 0; i < 3; ++i) {
+          const DofIndex dof = cell->vertex_dof_index(v, i);
+          if (owned.is_element(dof))
+            geometry.positions[owned.index_within_set(dof)] = cell->vertex(v)[i];
+        }
+  for (const auto &line : constraints.get_lines())
+    if (owned.is_element(line.index))
+      geometry.constrained[owned.index_within_set(line.index)] = true;
+  return geometry;
+}
+
+} // namespace
+
+void TangentMatrix::build(const bool couplings_are_known) {
+  const auto &owned = discretization_.owned_dofs();
+  dealii::IndexSet written = discretization_.relevant_dofs();
+  for (const auto &contact : contacts_.of_bodies()) {
+    if (!couplings_are_known)
+      contact->find_couplings(kind_);
+    contact->add_foreign_dofs(written);
+  }
+  dealii::TrilinosWrappers::SparsityPattern pattern(owned, owned, written, discretization_.communicator());
+  dealii::DoFTools::make_sparsity_pattern(
+      discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
+      dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
+  for (const auto &contact : contacts_.of_bodies())
+    contact->add_couplings(pattern);
+  pattern.compress();
+  if (linear_) {
+    linear_->release();
+    matrix_.reinit(pattern);
+    linear_->set_matrix(matrix_.trilinos_matrix());
+    return;
+  }
+  matrix_.reinit(pattern);
+  parameters::Solver settings = scene_.parameters().solver;
+  const bool has_own_tangent = kind_ == scene_.contact_tangent();
+  using LinearSolver = parameters::Solver::LinearSolver;
+  LinearSolver &kind = settings.linear_solver.value;
+  if (!has_own_tangent &&
+      (kind == LinearSolver::mumps_symmetric || kind == LinearSolver::conjugate_gradients))
+    kind = LinearSolver::automatic;
+  linear_ =
+      std::make_unique<TangentSolver>(settings, has_own_tangent && !scene_.capabilities().unsymmetric_matrix,
+                                      matrix_.trilinos_matrix(), discretization_.communicator());
+  if (linear_->is_iterative())
+    undeformed_ = collect_geometry(discretization_, supports_.homogeneous());
+}
+
+void TangentMatrix::follow_couplings() {
+  bool is_known = linear_ != nullptr;
+  for (const auto &contact : contacts_.of_bodies())
+    is_known = is_known && !contact->has_new_couplings();
+  if (!contacts_.of_bodies().empty() &&
+      dealii::Utilities::MPI::min(is_known ? 1 : 0, discretization_.communicator()) == 0)
+    build();
+}
+
+bool TangentMatrix::take_exact() {
+  if (kind_ == ContactTangent::exact || contacts_.empty())
+    return false;
+  kind_ = ContactTangent::exact;
+  for (auto &contact : contacts_.of_tools())
+    contact.set_tangent(kind_);
+  if (linear_) { // else it is made when it is known who touches whom
+    linear_->release();
+    linear_.reset();
+    build();
+  }
+  return true;
+}
+
+bool TangentMatrix::solve(const Vector &b, const double relative_tolerance, Vector &x) {
+  if (!linear_->solve(as_epetra(b), as_epetra(x), relative_tolerance))
+    return false;
+  supports_.homogeneous().distribute(x);
+  return true;
+}
+
+void TangentMatrix::set_geometry(const Vector &displacements) {
+  if (!linear_->is_iterative())
+    return;
+  NodalGeometry geometry = undeformed_;
+  const Epetra_Vector &values = as_epetra(displacements);
+  for (std::size_t i = 0; i < geometry.positions.size(); ++i)
+    geometry.positions[i] += values[static_cast<int>(i)];
+  linear_->set_geometry(geometry);
+}
+
+void TangentMatrix::start_contact() {
+  if (!linear_->is_iterative() || contacts_.of_bodies().empty())
+    return;
+  matrix_.compress(dealii::VectorOperation::add);
+  linear_->start_contact(touching_dofs());
+}
+
+std::vector<int> TangentMatrix::touching_dofs() const {
+  Vector additive = discretization_.make_additive_vector(), forces = discretization_.make_owned_vector();
+  for (const auto &contact : contacts_.of_bodies())
+    contact->add_forces(additive);
+  additive.compress(dealii::VectorOperation::add);
+  forces = additive;
+  const Epetra_Vector &values = as_epetra(forces);
+  std::vector<int> dofs;
+  for (int i = 0; i < values.MyLength(); i += 3)
+    if (values[i] != 0. || values[i + 1] != 0. || values[i + 2] != 0.)
+      dofs.insert(dofs.end(), {i, i + 1, i + 2});
+  return dofs;
+}
+
+} // namespace billet
