@@ -15,20 +15,46 @@ double product(const ErrorControl::Forces &a, const ErrorControl::Forces &b) {
   return sum;
 }
 
-// Steps between measurements, at least: with fewer they cost more than they save, and no target was missed
-// for that. Where one was not possible, the next step may be the occasion.
-constexpr unsigned int shortest_interval = 4, soon = 1;
-
-// Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they fade.
-// This is what the first makes of them.
-constexpr double growth_of_errors = 1.4;
+/// Rules of error control; factors unless they say otherwise.
+struct Rules {
+  /// Steps between measurements, at least: with fewer they cost more than they save, and no target was missed
+  /// for that. Where one was not possible, the next step may be the occasion.
+  static constexpr unsigned int min_interval = 4, soon = 1;
+  /// Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they
+  /// fade. This is what the first makes of them.
+  static constexpr double growth_of_errors = 1.4;
+  /// Sum of 1, 1/2, 1/4, ...: of errors that fade by half in each pair of steps.
+  static constexpr double sum_of_halves = 2.;
+  /// Growth of forces until the end that counts, at most.
+  static constexpr double max_growth_of_forces = 10.;
+  /// Least part of the span that is left for errors to grow in.
+  static constexpr double min_left = 1e-3;
+  /// Of an even rate of errors. Forces may be others by the end: nothing is saved at any price, nor spent at
+  /// once. What is spent late adds little, which is true of what is saved, too.
+  static constexpr double min_rate = 0.2, max_rate = 6.;
+  /// By which steps may become shorter or longer at once.
+  static constexpr double min_stretch = 0.5, max_stretch = 4.;
+  /// Of the slope of errors from one measurement to the next: what is above happens once.
+  static constexpr double max_sudden = 3.;
+  /// Between two slopes that are steady.
+  static constexpr double steady = 2.;
+  /// Part of the target below which errors are little: measurements become rare.
+  static constexpr double little = 0.1;
+  /// Part of the target from which on steps matter at all: then they are not longer than `max_span` times the
+  /// root of the tolerance in spans of the run, so that slopes do not change beyond recognition between two
+  /// measurements; nor made shorter than `min_span` times the tolerance, so that what happens once in a
+  /// while, whatever the step, does not decide.
+  static constexpr double matters = 0.05, max_span = 0.65, min_span = 3.;
+  /// Steps that are `shorter` than the last ones, and err `as_much` in the same time, are of no use: where
+  /// nodes touch, or begin to slip, one by one.
+  static constexpr double shorter = 0.75, as_much = 0.8;
+  /// Of a step after which comparisons fail twice in a row.
+  static constexpr double cut = 0.5;
+};
 
 /// What is left of the forces by steps of length h of which each pair makes 2 c h², in parts of c, and
 /// forgets half of what was: the sum of 1, ½, ¼, ...
-double left_where_errors_fade(const double h) {
-  constexpr double sum = 2.;
-  return sum * 2. * h * h;
-}
+double left_where_errors_fade(const double h) { return Rules::sum_of_halves * 2. * h * h; }
 
 } // namespace
 
@@ -48,17 +74,17 @@ double ErrorControl::distance(const Forces &a, const Forces &b) {
 
 double ErrorControl::force_scale() const {
   // What it is, has been, or will be in the mean if it goes on like this.
-  constexpr double most_growth = 10.;
   const double left = std::max(0., end_time_ - time_);
-  return std::max({last_force_, time_ > start_ ? work_ / (time_ - start_) : 0.,
-                   last_force_ + std::min(0.5 * force_rate_ * left, most_growth * last_force_)});
+  return std::max(
+      {last_force_, time_ > start_ ? work_ / (time_ - start_) : 0.,
+       last_force_ + std::min(0.5 * force_rate_ * left, Rules::max_growth_of_forces * last_force_)});
 }
 
 void ErrorControl::add_step_errors(const double h) {
   errors_.resize(slopes_.size()); // after a restart there may be other tools
   for (std::size_t i = 0; i < errors_.size(); ++i)
     errors_[i] = tolerances_.fade ? left_where_errors_fade(h) * slopes_[i]
-                                  : errors_[i] + growth_of_errors * h * h * slopes_[i];
+                                  : errors_[i] + Rules::growth_of_errors * h * h * slopes_[i];
 }
 
 void ErrorControl::accept(const double h, const Forces &forces, const double residual,
@@ -89,29 +115,27 @@ void ErrorControl::accept(const double h, const Forces &forces, const double res
 double ErrorControl::allowed_rate() const {
   // If the errors of forces grew from e at a rate r until the end, with forces as they are,
   //   ∫ e dt = I + e t' + ½ r t'²,   ∫ Σ|F| dt = W + S t',   t' what is left of the time.
-  const double left = std::max(end_time_ - time_, 1e-3 * (end_time_ - start_)), scale = force_scale();
+  const double left = std::max(end_time_ - time_, Rules::min_left * (end_time_ - start_)),
+               scale = force_scale();
   const double rate =
       2. * (tolerances_.steps * (work_ + scale * left) - steps_ - last_error_ * left) / (left * left);
-  // Forces may be others by then: nothing is saved at any price, nor spent at once. What is spent late adds
-  // little, which is true of what is saved, too.
-  constexpr double least = 0.2, most = 6.;
   const double span = end_time_ - start_, even = 2. * tolerances_.steps * scale / span;
-  return std::min(most * even, std::max(least * even * span * span / (left * left), rate));
+  return std::min(Rules::max_rate * even,
+                  std::max(Rules::min_rate * even * span * span / (left * left), rate));
 }
 
 double ErrorControl::left_at_the_end(const double slope, const double h) const {
   return tolerances_.fade ? left_where_errors_fade(h) * slope
-                          : growth_of_errors * slope * h * (end_time_ - start_);
+                          : Rules::growth_of_errors * slope * h * (end_time_ - start_);
 }
 
 double ErrorControl::allowed_stretch(const double h) const {
-  constexpr double least = 0.5, most = 4.; // at once
   if (!(last_slope_ > 0.))
-    return most;
+    return Rules::max_stretch;
   const double stretch = tolerances_.fade
                              ? std::sqrt(tolerances_.steps * force_scale() / left_at_the_end(last_slope_, h))
-                             : allowed_rate() / (growth_of_errors * last_slope_ * h);
-  return std::clamp(stretch, least, most);
+                             : allowed_rate() / (Rules::growth_of_errors * last_slope_ * h);
+  return std::clamp(stretch, Rules::min_stretch, Rules::max_stretch);
 }
 
 void ErrorControl::measure_steps(const double h, const Forces &forces, const Forces &of_one_step,
@@ -141,18 +165,18 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   slopes_.resize(forces.size());
   errors_.resize(forces.size());
   for (std::size_t i = 0; i < forces.size(); ++i)
-    errors_[i] = tolerances_.fade
-                     ? left_where_errors_fade(h) * now[i]
-                     : errors_[i] + growth_of_errors * (2. * h * h * now[i] + h_squared * between * now[i] -
-                                                        unmeasured_ * slopes_[i]);
+    errors_[i] = tolerances_.fade ? left_where_errors_fade(h) * now[i]
+                                  : errors_[i] + Rules::growth_of_errors *
+                                                     (2. * h * h * now[i] + h_squared * between * now[i] -
+                                                      unmeasured_ * slopes_[i]);
   const double error = size(errors_);
   steps_ += 0.5 * (error - last_error_) * unmeasured_span_;
   last_error_ = error;
   // From here on this, unless it is much more than last time, for the same reason. Errors that turn around do
   // not add up.
-  constexpr double most_sudden = 3.;
-  const double sudden =
-      slope > most_sudden * last_slope && !tolerances_.stays ? most_sudden * last_slope / slope : 1.;
+  const double sudden = slope > Rules::max_sudden * last_slope && !tolerances_.stays
+                            ? Rules::max_sudden * last_slope / slope
+                            : 1.;
   const bool has_turned = product(now, slopes_) < 0.;
   for (std::size_t i = 0; i < forces.size(); ++i)
     slopes_[i] = has_turned ? 0.5 * (slopes_[i] + sudden * now[i]) : sudden * now[i];
@@ -164,32 +188,30 @@ void ErrorControl::measure_steps(const double h, const Forces &forces, const For
   part_ = force > 0. ? difference / (h * force) : 0.;
   ++n_measurements_;
   n_failed_ = 0;
-  const bool is_steady = slope <= 2. * last_slope && slope >= 0.5 * last_slope && !is_first;
-  constexpr double little = 0.1;
+  const bool is_steady =
+      slope <= Rules::steady * last_slope && slope >= last_slope / Rules::steady && !is_first;
   const double rough_target = tolerances_.fade ? tolerances_.steps : 2. * tolerances_.steps;
-  is_little_ = left_at_the_end(most_slope, h) <= little * rough_target * force_scale();
-  interval_ = is_steady || is_little_ ? std::clamp(2 * interval_, shortest_interval, longest_interval)
-                                      : shortest_interval;
+  is_little_ = left_at_the_end(most_slope, h) <= Rules::little * rough_target * force_scale();
+  interval_ = is_steady || is_little_ ? std::clamp(2 * interval_, Rules::min_interval, longest_interval)
+                                      : Rules::min_interval;
   until_measurement_ = interval_;
   if (tolerances_.steps == 0.)
     return;
-  longest_step_ = h * allowed_stretch(h);
-  // Where steps matter at all: not so long that c could change beyond recognition between two measurements,
-  // nor so short that what happens once in a while, whatever the step, would decide.
-  constexpr double matters = 0.05, longest = 0.65, shortest = 3.;
-  const double span = end_time_ - start_;
-  if (!tolerances_.fade && left_at_the_end(most_slope, h) > matters * rough_target * force_scale()) {
-    const double most_span = longest * std::sqrt(tolerances_.steps) * span;
-    longest_step_ = std::min(longest_step_, difference > noise ? most_span : std::max(most_span, h));
-    if (longest_step_ < h)
-      longest_step_ = std::max(longest_step_,
-                               std::min(h, std::min(0.5 * most_span, shortest * tolerances_.steps * span)));
-  }
-  // Shorter steps that err as much in the same time, or more, are of no use: where nodes touch, or begin to
-  // slip, one by one.
-  constexpr double shorter = 0.75, as_much = 0.8;
-  if (h < shorter * last_step && part_ > as_much * last_part)
+  const bool may_matter = left_at_the_end(most_slope, h) > Rules::matters * rough_target * force_scale();
+  choose_longest_step(h, may_matter && !tolerances_.fade, difference > noise);
+  if (h < Rules::shorter * last_step && part_ > Rules::as_much * last_part)
     longest_step_ = std::max(longest_step_, last_step);
+}
+
+void ErrorControl::choose_longest_step(const double h, const bool matter, const bool is_known) {
+  longest_step_ = h * allowed_stretch(h);
+  if (!matter)
+    return;
+  const double span = end_time_ - start_, most_span = Rules::max_span * std::sqrt(tolerances_.steps) * span;
+  longest_step_ = std::min(longest_step_, is_known ? most_span : std::max(most_span, h));
+  if (longest_step_ < h)
+    longest_step_ = std::max(
+        longest_step_, std::min(h, std::min(0.5 * most_span, Rules::min_span * tolerances_.steps * span)));
 }
 
 void ErrorControl::measure_penetration(const double penetration, const Forces &forces, const Forces &without,
@@ -209,14 +231,13 @@ void ErrorControl::measure_penetration(const double penetration, const Forces &f
       ((is_first ? penetration_slope_ : std::sqrt(last_slope * penetration_slope_)) - last_slope) *
       unmeasured_penetration_;
   unmeasured_penetration_ = 0.;
-  constexpr double little = 0.1;
-  const bool is_steady =
-      !is_first && penetration_slope_ <= 2. * last_slope && penetration_slope_ >= 0.5 * last_slope;
-  const bool is_little = error <= little * tolerances_.penetration * force;
+  const bool is_steady = !is_first && penetration_slope_ <= Rules::steady * last_slope &&
+                         penetration_slope_ >= last_slope / Rules::steady;
+  const bool is_little = error <= Rules::little * tolerances_.penetration * force;
   penetration_interval_ = is_little ? longest_interval
                           : is_steady
-                              ? std::clamp(2 * penetration_interval_, shortest_interval, longest_interval)
-                              : shortest_interval;
+                              ? std::clamp(2 * penetration_interval_, Rules::min_interval, longest_interval)
+                              : Rules::min_interval;
   until_penetration_ = penetration_interval_;
   if (tolerances_.penetration == 0. || !(error > 0.))
     return;
@@ -231,14 +252,14 @@ void ErrorControl::miss_measurement(const double h, const bool failed) {
     return;
   }
   n_failed_ = failed ? n_failed_ + 1 : 0;
-  until_measurement_ = soon;
+  until_measurement_ = Rules::soon;
   // Something may just have happened there; twice in a row it is the length; and where shorter ones fail like
   // longer ones it is neither.
   if (has_given_up()) {
     until_measurement_ = longest_interval;
     longest_step_ = std::numeric_limits<double>::infinity();
   } else if (n_failed_ > 1 && tolerances_.steps > 0.)
-    longest_step_ = std::min(longest_step_, 0.5 * h);
+    longest_step_ = std::min(longest_step_, Rules::cut * h);
 }
 
 ErrorControl::Estimate ErrorControl::estimate() const {

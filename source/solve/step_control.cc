@@ -8,8 +8,17 @@
 namespace billet {
 
 namespace {
-// Part of a step by which round-off may misplace its end.
-constexpr double slack = 1e-8;
+
+/// Rules of steps beside those that the scene sets.
+struct Rules {
+  /// Part of a step by which round-off may misplace its end.
+  static constexpr double slack = 1e-8;
+  /// Steps to go below which two halves are taken, rather than a full step and a sliver.
+  static constexpr double halves = 1.5;
+  /// Part of the step that an error of its time integration allows; the error falls with its third power.
+  static constexpr double safety = 0.8;
+};
+
 } // namespace
 
 StepControl::StepControl(const parameters::TimeStepping &parameters, const double interval,
@@ -28,20 +37,19 @@ double StepControl::target() const {
   const double target = std::min(parameters_.end_time, next_stop());
   if (interval_ == 0.)
     return target;
-  const double output = (std::floor(time_ / interval_ * (1. + slack) + slack) + 1.) * interval_;
+  const double output = (std::floor(time_ / interval_ * (1. + Rules::slack) + Rules::slack) + 1.) * interval_;
   // 100 times 0.29 is less than 29: no step of that length.
-  return output < target - slack * interval_ ? output : target;
+  return output < target - Rules::slack * interval_ ? output : target;
 }
 
 double StepControl::next_time() const {
   const double target = this->target();
   if (parameters_.control == parameters::TimeStepping::Control::fixed)
-    return end_on_grid() >= target - slack * step_ ? target : end_on_grid();
+    return end_on_grid() >= target - Rules::slack * step_ ? target : end_on_grid();
   const double remaining = target - time_;
-  if (remaining <= step_ * (1. + slack))
+  if (remaining <= step_ * (1. + Rules::slack))
     return target;
-  // Two halves rather than a full step and a sliver.
-  return time_ + (remaining < 1.5 * step_ ? 0.5 * remaining : step_);
+  return time_ + (remaining < Rules::halves * step_ ? 0.5 * remaining : step_);
 }
 
 bool StepControl::ends_at_stop() const { return next_time() >= next_stop(); }
@@ -55,7 +63,7 @@ void StepControl::accept(const unsigned int n_iterations, const double error) {
   time_ = next_time();
   ++n_steps_;
   if (parameters_.control == parameters::TimeStepping::Control::fixed) {
-    const bool was_cut = time_ < end_on_grid() - slack * step_;
+    const bool was_cut = time_ < end_on_grid() - Rules::slack * step_;
     grid_start_ = was_cut ? time_ : grid_start_;
     n_on_grid_ = was_cut ? 0 : n_on_grid_ + 1;
     return;
@@ -64,9 +72,8 @@ void StepControl::accept(const unsigned int n_iterations, const double error) {
     step_ = std::min(parameters_.largest_step, std::max(step_, taken) * parameters_.growth_factor);
   else if (n_iterations >= parameters_.many_iterations)
     step_ = std::max(parameters_.smallest_step, taken * parameters_.shrink_factor);
-  constexpr double safety = 0.8;
   if (error > 0.)
-    step_ = std::max(parameters_.smallest_step, std::min(step_, safety / std::cbrt(error) * taken));
+    step_ = std::max(parameters_.smallest_step, std::min(step_, Rules::safety / std::cbrt(error) * taken));
 }
 
 double StepControl::time_after_next() const {
@@ -86,7 +93,7 @@ bool StepControl::reject() {
   ++n_cuts_;
   const double failed = next_step();
   if (parameters_.control == parameters::TimeStepping::Control::fixed ||
-      failed <= parameters_.smallest_step * (1. + slack))
+      failed <= parameters_.smallest_step * (1. + Rules::slack))
     return false;
   step_ = std::max(parameters_.smallest_step, failed * parameters_.cut_factor);
   return true;

@@ -119,6 +119,9 @@ private:
   double allowed_rate() const;
   /// What steps of length `h` leave of the forces at the end, if each pair of them makes `slope` times 2 h².
   double left_at_the_end(double slope, double h) const;
+  /// After a measurement of steps of length `h`: whether their errors `matter` beside the target, and
+  /// `is_known` beside the noise.
+  void choose_longest_step(double h, bool matter, bool is_known);
   /// How much longer than `h` steps may be.
   double allowed_stretch(double h) const;
 

@@ -2,7 +2,7 @@
 #include "billet/solve/implicit/energy_balance.h"
 
 #include "billet/diagnostic_kinds.h"
-#include "billet/solve/implicit_motion.h"
+#include "billet/solve/implicit/implicit_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -36,17 +36,21 @@ double find_round_off_force(const Scene &scene, const Discretization &discretiza
 
 } // namespace
 
-ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discretization)
+ImplicitParts::ImplicitParts(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
       internal_(scene, discretization), contacts_(scene, discretization),
       motion_(make_motion(scene, discretization, supports_)),
       tools_(scene, discretization, supports_, contacts_, scheme()),
       removal_(scene, discretization, contacts_), stabilisation_(scene, discretization),
-      tangent_(scene, discretization, supports_, contacts_), step_(discretization),
-      raw_internal_(discretization.make_additive_vector()),
-      raw_contact_(discretization.make_additive_vector()) {
+      tangent_(scene, discretization, supports_, contacts_) {
   if (contacts_.of_bodies().empty()) // else when it is known who touches whom
     tangent_.build();
+}
+
+ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discretization)
+    : ImplicitParts(scene, discretization), step_(discretization),
+      raw_internal_(discretization.make_additive_vector()),
+      raw_contact_(discretization.make_additive_vector()) {
   scales_.round_off = find_round_off_force(scene, discretization);
   scales_.spring_round_off = contacts_.find_spring_round_off();
   state_.body_pair_loads.resize(contacts_.of_bodies().size());

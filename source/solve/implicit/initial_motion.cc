@@ -2,7 +2,7 @@
 #include "billet/solve/implicit/initial_motion.h"
 
 #include "billet/errors.h"
-#include "billet/solve/implicit_motion.h"
+#include "billet/solve/implicit/implicit_motion.h"
 
 #include <sstream>
 
@@ -61,7 +61,8 @@ void InitialMotion::accelerate() {
   const auto &tools = problem_.scene().tools();
   for (std::size_t tool = 0; tool < tools.size(); ++tool)
     if (motion_.has_mass(tool))
-      motion_.start_tool(tool, problem_.tools().exerted_load(tool), tools[tool].load(problem_.state().time));
+      motion_.tools().start(tool, problem_.tools().exerted_load(tool),
+                            tools[tool].load(problem_.state().time));
 }
 
 void InitialMotion::load(StateReader &reader, RestartReport &report) {
@@ -76,7 +77,7 @@ void InitialMotion::load(StateReader &reader, RestartReport &report) {
   const auto &tools = problem_.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i)
     if (const auto found = find_group(reader, "tool", tools[i].name()))
-      reader.in(group("tool", *found), [&] { motion_.load_tool(i, reader, report.is_exact); });
+      reader.in(group("tool", *found), [&] { motion_.tools().load(i, reader, report.is_exact); });
   if (report.is_exact) {
     motion_.update_state(state);
     return;

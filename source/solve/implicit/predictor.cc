@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/predictor.h"
 
-#include "billet/solve/implicit_motion.h"
+#include "billet/solve/implicit/implicit_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/solve/implicit/body_freedom.h"
-#include "billet/solve/implicit_motion.h"
+#include "billet/solve/implicit/implicit_motion.h"
 
 #include <algorithm>
 

@@ -5,10 +5,10 @@
 #include "billet/forces/internal_forces.h"
 #include "billet/solve/implicit/body_stabilisation.h"
 #include "billet/solve/implicit/driven_tools.h"
+#include "billet/solve/implicit/implicit_motion.h"
 #include "billet/solve/implicit/step_state.h"
 #include "billet/solve/implicit/tangent_matrix.h"
 #include "billet/solve/implicit/tool_removal.h"
-#include "billet/solve/implicit_motion.h"
 #include "billet/solve/newton.h"
 
 #include <memory>
@@ -17,19 +17,16 @@
 
 namespace billet {
 
-/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem: the sum
-/// of its parts, and the derivative of that. The state at the start of the step is never written to by
-/// evaluations.
-class ImplicitProblem final : public NonlinearProblem {
+/// Forces of an implicit scene, what they act on, and the tangent that they are assembled to; built once.
+class ImplicitParts {
 public:
-  ImplicitProblem(const Scene &scene, const Discretization &discretization);
+  ImplicitParts(const Scene &scene, const Discretization &discretization);
 
   const Scene &scene() const { return scene_; }
   const parameters::Scene &parameters() const { return scene_.parameters(); }
   const Discretization &discretization() const { return discretization_; }
   MPI_Comm communicator() const { return discretization_.communicator(); }
 
-  // Its parts:
   const Supports &supports() const { return supports_; }
   InternalForces &internal() { return internal_; }
   const InternalForces &internal() const { return internal_; }
@@ -49,6 +46,28 @@ public:
   const BodyStabilisation &stabilisation() const { return stabilisation_; }
   TangentMatrix &tangent() { return tangent_; }
   const TangentMatrix &tangent() const { return tangent_; }
+
+protected:
+  const Scene &scene_;
+  const Discretization &discretization_;
+  Supports supports_;
+  InternalForces internal_;
+  ContactSet contacts_;
+  ImplicitScheme statics_;
+  std::unique_ptr<ImplicitMotion> motion_; ///< none in statics
+  DrivenTools tools_;
+  ToolRemoval removal_;
+  ReleasedForces released_;
+  BodyStabilisation stabilisation_;
+  TangentMatrix tangent_;
+};
+
+/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem: the sum
+/// of its parts, and the derivative of that. The state at the start of the step is never written to by
+/// evaluations.
+class ImplicitProblem final : public ImplicitParts, public NonlinearProblem {
+public:
+  ImplicitProblem(const Scene &scene, const Discretization &discretization);
 
   StepState &step() { return step_; }
   const StepState &step() const { return step_; }
@@ -97,18 +116,6 @@ private:
   /// Compares the contacts with those at the last tangent. Collective.
   StatusChanges find_status_changes() const;
 
-  const Scene &scene_;
-  const Discretization &discretization_;
-  Supports supports_;
-  InternalForces internal_;
-  ContactSet contacts_;
-  ImplicitScheme statics_;
-  std::unique_ptr<ImplicitMotion> motion_; ///< none in statics
-  DrivenTools tools_;
-  ToolRemoval removal_;
-  ReleasedForces released_;
-  BodyStabilisation stabilisation_;
-  TangentMatrix tangent_;
   StepState step_;
   ForceScales scales_;
   SolutionState state_;

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_MOTION_H
+#define BILLET_SOLVE_IMPLICIT_IMPLICIT_MOTION_H
+
+#include "billet/solve/implicit/heavy_tools.h"
+#include "billet/solve/implicit/load_forces.h"
+#include "billet/solve/implicit/motion_error.h"
+#include "billet/solve/implicit/scheme.h"
+#include "billet/solve/implicit/support_rates.h"
+
+#include <vector>
+
+namespace billet {
+
+/// Implicit dynamics: velocities and accelerations of the bodies and of tools with a mass, their inertia, and
+/// loads. Of the sum of all forces F(u_{n+1}) it makes
+///   R = F_{n+1} + α_f/(1 − α_f) F_n + M [(1 − α_m) a_{n+1} + α_m a_n]/(1 − α_f),
+/// see TimeIntegrator, whatever they are: a further force needs nothing here. The state at the start of the
+/// step changes on commit() only.
+///
+/// Where supports move, velocity and acceleration along their normals are those of the prescribed
+/// displacement, by differences over a step: from (I2) they would swing between steps for ever.
+class ImplicitMotion final : public ImplicitScheme {
+public:
+  /// At time 0, with the initial velocities. Throws InputError.
+  ImplicitMotion(const Scene &scene, const Discretization &discretization, const Supports &supports);
+
+  std::string name() const override { return "implicit dynamics"; }
+  bool has_inertia() const override { return true; }
+  double mass() const override { return lumped_.l1_norm() / 3.; }
+  double wanted_accuracy() const override { return error_.wanted_accuracy(); }
+  double round_off_force() const override { return round_off_force_; }
+
+  // At the start, and where forces jump, M a = −F has to be solved:
+  void add_mass(const TangentSystem &system) const { inertia_.add_tangent(1., system); }
+  /// −F − M a of the accelerations that supports prescribe.
+  Vector driving_forces(const Vector &forces) const;
+  /// The solution, on constrained dofs as well as the homogeneous constraints have it.
+  void set_accelerations(const Vector &accelerations);
+
+  /// Once damped by (I4), steps stay so until contacts have opened.
+  void choose_contact_damping(const ForceState &start) override;
+  /// The next steps are those of (I4), in which contact can only take energy.
+  void damp_contact(const ForceState &start) override;
+  bool damps_contact() const { return damping_.is_on; }
+  double contact_weight() const override { return damping_.is_on ? integrator_.contact() : 1.; }
+  double contact_before() const override { return damping_.is_on ? 0. : 0.5; }
+  /// With (I4), before step_error() and commit(): −F_c at the end of the step. Collective.
+  void finish_contact(const Vector &contact_forces);
+
+  void start_step(double t_n, double t, const Vector &displacements,
+                  const std::vector<double> &offsets) override;
+  /// Adds what they change by at constant acceleration.
+  void extrapolate(Vector &displacements, std::vector<double> &offsets) const;
+  double add_loads(double t, const Vector &displacements, Vector &residual) override;
+  /// After add_loads(). Nothing at the start of the run.
+  double complete(const Vector &contact, Vector &residual) const override;
+  /// The system's constraints are homogeneous: accelerations of held nodes do not depend on u.
+  void add_tangent(double t, const TangentSystem &system) const override;
+  /// Error of the step's time integration as part of what is allowed, at the last add_loads(); 0 if nothing
+  /// is asked for.
+  double step_error(const Vector &displacements) const;
+
+  HeavyTools &tools() { return tools_; }
+  bool has_mass(const std::size_t tool) const override { return tools_.has_mass(tool); }
+  double tool_inertia(const std::size_t tool, const double offset) const override {
+    return tools_.residual(tool, offset, tool_step());
+  }
+  double tool_slope(const std::size_t tool) const override { return tools_.slope(tool, tool_step()); }
+  void commit_tool(const std::size_t tool, const double offset, const double exerted, const double load,
+                   EnergyLedger &energies) override {
+    tools_.commit(tool, offset, exerted, load, tool_step(), energies);
+  }
+  double remove_tool(const std::size_t tool) override { return tools_.remove(tool); }
+
+  /// The state of the last add_loads() becomes the start of the next step.
+  void commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
+              double touching, EnergyLedger &energies) override;
+  void update_state(SolutionState &state) const override;
+
+  void save(StateWriter &writer, const OwnedNodes &nodes) const override;
+  void load(const StateReader &reader, const OwnedNodes &nodes);
+  void save_tool(const std::size_t tool, StateWriter &writer) const override { tools_.save(tool, writer); }
+  /// In place of load(), at time t of another method's state: with its velocities, if it has some, else the
+  /// initial ones.
+  void begin(const StateReader &reader, const OwnedNodes &nodes, double t);
+
+private:
+  struct Rates {
+    Vector velocity, acceleration;
+  };
+  /// Steps of (I4), in which the accelerations at their end are a*.
+  struct ContactDamping {
+    bool is_on = false;
+    Vector end;      ///< c at the end of the step
+    Vector start;    ///< a_n, without what contact adds
+    Vector forces_n; ///< F_n of the residual: all forces, or with (I4) without contact
+  };
+  void set_initial_velocities();
+  void set_rates(const Vector &displacements);
+  HeavyTools::Step tool_step() const { return {integrator_, step_, damping_.is_on}; }
+  /// a_n, or with (I4) that of the other forces.
+  const Vector &start_accelerations() const { return damping_.is_on ? damping_.start : start_.acceleration; }
+  /// Those at the end of the step, all in all.
+  Vector end_accelerations() const;
+  /// c = −M⁻¹ F of these forces. Collective.
+  Vector accelerations_by(const Vector &forces) const;
+  Vector ghosted(const Vector &owned) const;
+
+  const Scene &scene_;
+  const Discretization &discretization_;
+  const Supports &supports_;
+  TimeIntegrator integrator_;
+  LocalNodes nodes_;
+  Inertia inertia_;
+  Vector lumped_; ///< row sums of the mass
+  LoadForces loads_;
+  HeavyTools tools_;
+  SupportRates held_;
+  MotionError error_;
+  double t_n_ = 0., step_ = 0.; ///< of the step that is tried; 0: none yet
+  Vector u_n_;
+  Rates start_, trial_;
+  ContactDamping damping_;
+  double round_off_force_ = 0.;
+  HeldMemory memory_{Capability::inertia};
+};
+
+} // namespace billet
+
+#endif

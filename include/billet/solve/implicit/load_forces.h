@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_LOAD_FORCES_H
+#define BILLET_SOLVE_IMPLICIT_LOAD_FORCES_H
+
+#include "billet/forces/external_loads.h"
+#include "billet/forces/inertia.h"
+#include "billet/solve/restart.h"
+
+#include <memory>
+
+namespace billet {
+
+/// Forces of the loads of a dynamic scene on owned dofs, at the start and at the end of a step.
+class LoadForces {
+public:
+  LoadForces(const Scene &scene, const Discretization &discretization, const LocalNodes &nodes,
+             const Inertia &inertia);
+
+  /// Subtracts the forces at these displacements and velocities from the residual. Returns their norm.
+  /// Collective.
+  double subtract(double t, const Vector &displacements, const Vector &velocities, Vector &residual);
+  /// After that: adds the derivatives; `damping_factor` as TimeIntegrator's.
+  void add_tangent(double t, double damping_factor, const TangentSystem &system) const;
+  /// The forces of the last subtract() are those at the start of the step.
+  void start() { forces_n_ = forces_; }
+  /// The same after a step. Returns their work, by the trapezoidal rule.
+  double commit(const Vector &increment);
+
+  void save(StateWriter &writer, const OwnedNodes &nodes) const;
+  void load(const StateReader &reader, const OwnedNodes &nodes);
+
+private:
+  NodalVectors nodal(const Vector &field) const;
+
+  const Discretization &discretization_;
+  const LocalNodes &nodes_;
+  std::unique_ptr<ExternalLoads> loads_; ///< none where there are none
+  Vector forces_n_, forces_;             ///< F
+  NodalVectors displaced_;               ///< at the last subtract()
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/implicit_motion.h"
+
+#include "billet/errors.h"
+#include "billet/usage.h"
+
+#include <deal.II/lac/solver_cg.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+Vector find_row_sums(const Discretization &discretization, const Inertia &inertia) {
+  Vector ones = discretization.make_owned_vector(), ghosted = discretization.make_ghosted_vector();
+  ones = 1.;
+  ghosted = ones;
+  return inertia.times(ghosted);
+}
+
+bool is_lumped(const Scene &scene) {
+  return scene.parameters().implicit_dynamics.mass == parameters::ImplicitDynamics::Mass::lumped;
+}
+
+} // namespace
+
+ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discretization,
+                               const Supports &supports)
+    : scene_(scene), discretization_(discretization), supports_(supports),
+      integrator_(scene.parameters().implicit_dynamics.integrator), nodes_(discretization),
+      inertia_(scene, discretization, is_lumped(scene)), lumped_(find_row_sums(discretization, inertia_)),
+      loads_(scene, discretization, nodes_, inertia_), tools_(scene), held_(scene, discretization, supports),
+      error_(scene, discretization, nodes_, inertia_, lumped_) {
+  u_n_ = start_.velocity = start_.acceleration = damping_.end = damping_.start = damping_.forces_n =
+      discretization.make_owned_vector();
+  set_initial_velocities();
+  check_before_start([&] { held_.start(0., scene.parameters().time_stepping.initial_step); });
+  supports_.homogeneous().distribute(start_.velocity);
+  start_.velocity += held_.at_start().velocity;
+  trial_ = start_;
+  constexpr std::size_t n_fields =
+      13; // displacements, velocities, accelerations, forces and rates of both ends
+  memory_.set(n_fields * discretization.owned_dofs().n_elements() * sizeof(double));
+}
+
+void ImplicitMotion::set_initial_velocities() {
+  fail_together(discretization_.communicator(), [&] {
+    check_before_start([&] {
+      for (std::size_t b = 0; b < discretization_.n_bodies(); ++b)
+        for (const auto &element : nodes_.elements(b))
+          for (const unsigned int node : element)
+            for (unsigned int i = 0; i < 3; ++i) {
+              const DofIndex dof = nodes_.dofs(node)[i];
+              if (discretization_.owned_dofs().is_element(dof))
+                start_.velocity(dof) = scene_.bodies()[b].initial_velocity[i].value(
+                    0., dealii::Point<3>(get_vector(nodes_.positions().data(), node)));
+            }
+    });
+  });
+  start_.velocity.compress(dealii::VectorOperation::insert);
+}
+
+namespace {
+
+/// x -> CᵀMC x of the dofs that are free, C the homogeneous constraints.
+struct CondensedMass {
+  const Inertia &inertia;
+  const Supports &supports;
+  Vector &ghosted;
+
+  void vmult(Vector &result, const Vector &x) const {
+    Vector all = x;
+    supports.homogeneous().distribute(all);
+    ghosted = all;
+    result = inertia.times(ghosted);
+    supports.condense(result);
+  }
+};
+
+/// Divides by the row sums.
+struct LumpedMass {
+  const Vector &row_sums;
+
+  void vmult(Vector &result, const Vector &x) const {
+    result = x;
+    Epetra_Vector &values = *result.trilinos_vector()(0);
+    values.ReciprocalMultiply(1., *row_sums.trilinos_vector()(0), values, 0.);
+  }
+};
+
+} // namespace
+
+Vector ImplicitMotion::accelerations_by(const Vector &forces) const {
+  Vector rhs = forces, result = discretization_.make_owned_vector();
+  rhs *= -1.;
+  supports_.condense(rhs);
+  const double size = rhs.l2_norm();
+  if (size == 0.)
+    return result;
+  // The mass over its row sums has eigenvalues from 1/27 to 1 in bricks: some thirty iterations.
+  constexpr double relative_tolerance = 1e-12;
+  constexpr unsigned int most_iterations = 1000;
+  dealii::SolverControl control(most_iterations, relative_tolerance * size, false, false);
+  dealii::SolverCG<Vector> solver(control);
+  Vector scratch = discretization_.make_ghosted_vector();
+  try {
+    solver.solve(CondensedMass{inertia_, supports_, scratch}, result, rhs, LumpedMass{lumped_});
+  } catch (const dealii::SolverControl::NoConvergence &) {
+    // By round-off, in bodies whose densities differ by very much: what is missing is of that size.
+  }
+  supports_.homogeneous().distribute(result);
+  return result;
+}
+
+void ImplicitMotion::choose_contact_damping(const ForceState &start) {
+  damping_.forces_n = start.supports;
+  if (damping_.is_on && start.contact.l2_norm() == 0.)
+    damping_.is_on = false;
+  else if (damping_.is_on)
+    damp_contact(start);
+}
+
+void ImplicitMotion::damp_contact(const ForceState &start) {
+  damping_.forces_n = start.supports;
+  damping_.forces_n -= start.contact;
+  damping_.is_on = true;
+  damping_.start = start_.acceleration;
+  damping_.start -= accelerations_by(start.contact);
+}
+
+void ImplicitMotion::finish_contact(const Vector &contact_forces) {
+  if (damping_.is_on)
+    damping_.end = accelerations_by(contact_forces);
+}
+
+Vector ImplicitMotion::end_accelerations() const {
+  Vector result = trial_.acceleration;
+  if (damping_.is_on)
+    result.add(1. - 1. / integrator_.gamma(), damping_.end);
+  return result;
+}
+
+Vector ImplicitMotion::driving_forces(const Vector &forces) const {
+  Vector result = inertia_.times(ghosted(held_.at_start().acceleration));
+  result += forces;
+  result *= -1.;
+  return result;
+}
+
+Vector ImplicitMotion::ghosted(const Vector &owned) const {
+  Vector result = discretization_.make_ghosted_vector();
+  result = owned;
+  return result;
+}
+
+void ImplicitMotion::set_accelerations(const Vector &accelerations) {
+  start_.acceleration = accelerations;
+  start_.acceleration += held_.at_start().acceleration;
+  loads_.start();
+}
+
+void ImplicitMotion::start_step(const double t_n, const double t, const Vector &displacements,
+                                const std::vector<double> &offsets) {
+  if (t_n_ == t_n && step_ == t - t_n)
+    return;
+  Usage::count(Capability::inertia, displacements.locally_owned_size());
+  t_n_ = t_n;
+  step_ = t - t_n;
+  u_n_ = displacements;
+  tools_.start_step(offsets);
+  held_.start_step(t_n, t);
+  // Ten times what the last bit of each displacement, or offset, makes.
+  const double last_bit = 10. * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_);
+  const double n_nodes = static_cast<double>(discretization_.dof_handler().n_dofs()) / 3.;
+  round_off_force_ = last_bit * inertia_.total() / std::sqrt(n_nodes) *
+                     std::max(displacements.linfty_norm(), step_ * start_.velocity.linfty_norm());
+  round_off_force_ += tools_.round_off_force(last_bit, step_, discretization_.radius());
+}
+
+void ImplicitMotion::extrapolate(Vector &displacements, std::vector<double> &offsets) const {
+  displacements.add(step_, start_.velocity, 0.5 * step_ * step_, start_.acceleration);
+  tools_.extrapolate(step_, offsets);
+}
+
+void ImplicitMotion::set_rates(const Vector &displacements) {
+  Vector increment = displacements;
+  increment -= u_n_;
+  const auto set = [&](const TimeIntegrator::Rate &weights, const Vector &held, Vector &rate) {
+    rate = increment;
+    rate *= weights.increment;
+    rate.add(weights.velocity, start_.velocity, weights.acceleration, start_accelerations());
+    held_.prescribe(held, rate);
+  };
+  set(integrator_.velocity(step_), held_.at_end().velocity, trial_.velocity);
+  set(integrator_.acceleration(step_), held_.at_end().acceleration, trial_.acceleration);
+}
+
+double ImplicitMotion::add_loads(const double t, const Vector &displacements, Vector &residual) {
+  if (step_ > 0.)
+    set_rates(displacements);
+  return loads_.subtract(t, displacements, trial_.velocity, residual);
+}
+
+double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
+  residual.add(contact_weight() - 1., contact);
+  if (step_ == 0.)
+    return 0.;
+  Vector weighted = trial_.acceleration;
+  weighted *= integrator_.inertia_now();
+  weighted.add(integrator_.inertia_before(), start_accelerations());
+  const Vector inertia = inertia_.times(ghosted(weighted));
+  residual += inertia;
+  if (integrator_.forces_before() != 0.)
+    residual.add(integrator_.forces_before(), damping_.forces_n);
+  return inertia.l2_norm();
+}
+
+void ImplicitMotion::add_tangent(const double t, const TangentSystem &system) const {
+  inertia_.add_tangent(integrator_.mass_factor(step_), system);
+  loads_.add_tangent(t, integrator_.damping_factor(step_), system);
+}
+
+double ImplicitMotion::step_error(const Vector &displacements) const {
+  if (!error_.is_wanted())
+    return 0.;
+  Vector change = end_accelerations();
+  change -= start_.acceleration;
+  return error_.of_step(integrator_.error_factor() * step_ * step_, change, displacements);
+}
+
+void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
+                            const double /*touching*/, EnergyLedger &energies) {
+  // With p = M Δv and the mean forces F̄, what the nodes' motions v̄·p + F̄·Δu do not cancel out is the
+  // supports' work where they prescribe the motion, and elsewhere what the integrator takes.
+  Vector change = trial_.velocity, mean_velocity = trial_.velocity;
+  change -= start_.velocity;
+  mean_velocity += start_.velocity;
+  mean_velocity *= 0.5;
+  Vector held_velocity = held_.at_start().velocity;
+  held_velocity += held_.at_end().velocity;
+  held_velocity *= 0.5;
+  const Vector impulse = inertia_.times(ghosted(change));
+  const double support_work = held_velocity * impulse + held_.change() * mean_forces;
+  energies.external += support_work;
+  energies.numerical -= mean_velocity * impulse + increment * mean_forces - support_work;
+  energies.external += loads_.commit(increment);
+  start_.velocity = trial_.velocity;
+  start_.acceleration = end_accelerations();
+  held_.commit();
+  error_.commit(displacements);
+}
+
+void ImplicitMotion::update_state(SolutionState &state) const {
+  state.velocities = ghosted(start_.velocity);
+  const Vector momenta = inertia_.times(state.velocities);
+  std::array<double, 6> own{};
+  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+    const auto &dofs = nodes_.dofs(node);
+    if (!discretization_.owned_dofs().is_element(dofs[0]))
+      continue;
+    Tensor<1, 3> x = get_vector(nodes_.positions().data(), node), p;
+    for (unsigned int i = 0; i < 3; ++i) {
+      x[i] += state.displacements(dofs[i]);
+      p[i] = momenta(dofs[i]);
+    }
+    const Tensor<1, 3> L = dealii::cross_product_3d(x, p);
+    for (unsigned int i = 0; i < 3; ++i) {
+      own[i] += p[i];
+      own[3 + i] += L[i];
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, own.data(), 6, MPI_DOUBLE, MPI_SUM, discretization_.communicator());
+  for (unsigned int i = 0; i < 3; ++i) {
+    state.momentum[i] = own[i];
+    state.angular_momentum[i] = own[3 + i];
+  }
+  state.energies.kinetic = 0.5 * (start_.velocity * momenta);
+  tools_.add_to(state);
+}
+
+void ImplicitMotion::save(StateWriter &writer, const OwnedNodes &nodes) const {
+  save_nodal(writer, "velocities", nodes, start_.velocity);
+  save_nodal(writer, "accelerations", nodes, start_.acceleration);
+  loads_.save(writer, nodes);
+  save_nodal(writer, "held velocities", nodes, held_.at_start().velocity);
+  save_nodal(writer, "held accelerations", nodes, held_.at_start().acceleration);
+  error_.save(writer);
+}
+
+void ImplicitMotion::load(const StateReader &reader, const OwnedNodes &nodes) {
+  load_nodal(reader, "velocities", nodes, start_.velocity);
+  load_nodal(reader, "accelerations", nodes, start_.acceleration);
+  loads_.load(reader, nodes);
+  SupportRates::Rates held = held_.at_start();
+  load_nodal(reader, "held velocities", nodes, held.velocity);
+  load_nodal(reader, "held accelerations", nodes, held.acceleration);
+  held_.set_start(held);
+  error_.load(reader);
+  trial_ = start_;
+}
+
+void ImplicitMotion::begin(const StateReader &reader, const OwnedNodes &nodes, const double t) {
+  if (reader.has("velocities"))
+    load_nodal(reader, "velocities", nodes, start_.velocity);
+  held_.start(t, scene_.parameters().time_stepping.initial_step);
+  supports_.homogeneous().distribute(start_.velocity);
+  start_.velocity += held_.at_start().velocity;
+  trial_.velocity = start_.velocity;
+}
+
+} // namespace billet

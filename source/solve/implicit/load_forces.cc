@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/load_forces.h"
+
+#include "billet/errors.h"
+
+#include <algorithm>
+
+namespace billet {
+
+LoadForces::LoadForces(const Scene &scene, const Discretization &discretization, const LocalNodes &nodes,
+                       const Inertia &inertia)
+    : discretization_(discretization), nodes_(nodes), forces_n_(discretization.make_owned_vector()),
+      forces_(forces_n_) {
+  if (std::any_of(scene.bodies().begin(), scene.bodies().end(),
+                  [](const Body &body) { return !body.loads.empty(); }))
+    loads_ = std::make_unique<ExternalLoads>(scene, nodes, inertia.nodal_masses(nodes));
+}
+
+NodalVectors LoadForces::nodal(const Vector &field) const {
+  NodalVectors result = nodes_.make_vectors();
+  Vector values = discretization_.make_ghosted_vector();
+  values = field;
+  for (unsigned int node = 0; node < nodes_.size(); ++node)
+    for (unsigned int i = 0; i < 3; ++i)
+      result[std::size_t{nodal_stride} * node + i] = values(nodes_.dofs(node)[i]);
+  return result;
+}
+
+double LoadForces::subtract(const double t, const Vector &displacements, const Vector &velocities,
+                            Vector &residual) {
+  if (loads_ == nullptr)
+    return 0.;
+  displaced_ = nodal(displacements);
+  const NodalVectors rates = nodal(velocities);
+  NodalVectors forces = nodes_.make_vectors();
+  fail_together(discretization_.communicator(), [&] { loads_->add_forces(t, displaced_, rates, forces); });
+  Vector sum = discretization_.make_additive_vector();
+  for (unsigned int node = 0; node < nodes_.size(); ++node)
+    sum.add(3, nodes_.dofs(node).data(), &forces[std::size_t{nodal_stride} * node]);
+  sum.compress(dealii::VectorOperation::add);
+  forces_ = sum;
+  residual -= forces_;
+  return forces_.l2_norm();
+}
+
+void LoadForces::add_tangent(const double t, const double damping_factor, const TangentSystem &system) const {
+  if (loads_ != nullptr)
+    loads_->add_tangent(t, displaced_, damping_factor, system);
+}
+
+double LoadForces::commit(const Vector &increment) {
+  if (loads_ == nullptr)
+    return 0.;
+  forces_n_ += forces_;
+  const double work = 0.5 * (forces_n_ * increment);
+  forces_n_ = forces_;
+  return work;
+}
+
+void LoadForces::save(StateWriter &writer, const OwnedNodes &nodes) const {
+  save_nodal(writer, "load forces", nodes, forces_n_);
+}
+
+void LoadForces::load(const StateReader &reader, const OwnedNodes &nodes) {
+  load_nodal(reader, "load forces", nodes, forces_n_);
+}
+
+} // namespace billet
