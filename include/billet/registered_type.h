@@ -16,6 +16,9 @@ namespace billet {
 // new kind is one file with a function that returns its RegisteredType, and one line in the table of its
 // kinds; or, outside the library, one call of TypeTable::add() before the scene is read.
 
+/// Returns a finite number. Throws std::invalid_argument.
+double parse_number(const std::string &text);
+
 /// Values that a user wrote for one thing. Every member but text() and is_set() refuses, with the place of
 /// the parameter in the scene file, what is not of its kind.
 class TypeInput {

@@ -49,7 +49,7 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
       std::vector<ElementVectors> positions;
       for (const auto &element : discretization.elements(b))
         positions.push_back(nodal_positions(element.cell));
-      blocks_.push_back(make_element_block(scene.bodies()[b].material, scene.bodies()[b].formulation));
+      blocks_.push_back(make_element_block(scene.bodies()[b].law, scene.bodies()[b].formulation));
       std::size_t offender = 0;
       const auto axes = find_thickness_axes(scene, b, discretization, positions);
       if (!blocks_.back()->initialize(positions, axes, offender)) {
@@ -60,7 +60,7 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
         throw InputError(message.str());
       }
       const Body &body = scene.bodies()[b];
-      const bool is_plastic = !std::holds_alternative<std::monostate>(body.material.hardening);
+      const bool is_plastic = body.law->has_plasticity();
       if (is_plastic)
         n_plastic_ += positions.size();
       if (body.formulation.element == ElementFormulation::Element::one_point)
@@ -84,7 +84,7 @@ bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto &elements = discretization_.elements(b);
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, nullptr))
+      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, nullptr, step_))
         return false;
       forces.add(n_element_dofs, elements[e].dofs.data(), force.data());
     }
@@ -97,12 +97,14 @@ bool InternalForces::assemble_tangent(const Vector &displacements, const Tangent
   count();
   ElementVectors force{};
   ElementMatrix tangent{};
+  PointStep step = step_;
+  step.yield_slack = yield_slack;
   dealii::FullMatrix<double> cell_matrix(n_element_dofs, n_element_dofs);
   std::vector<DofIndex> dofs(n_element_dofs);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto &elements = discretization_.elements(b);
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, &tangent, yield_slack))
+      if (!blocks_[b]->evaluate(e, gather(displacements, elements[e].dofs), force, &tangent, step))
         return false;
       std::copy(tangent.begin(), tangent.end(), &cell_matrix(0, 0));
       dofs.assign(elements[e].dofs.begin(), elements[e].dofs.end());

@@ -82,4 +82,46 @@ GradientModuli compute_trial_moduli(const MidpointIncrement &increment, const do
   return moduli;
 }
 
+bool HypoelasticPlasticity::update(const dealii::Tensor<2, 3> &F, const double J, const History &history_n,
+                                   History &history, dealii::SymmetricTensor<2, 3> &tau,
+                                   GradientModuli *moduli, const PointStep &step) const {
+  if (!elastic_law_.update(F, J, history_n, history, tau, moduli))
+    return false;
+  const double alpha_n = history_n.equivalent_plastic_strain;
+  history.equivalent_plastic_strain = alpha_n;
+  history.flow = history_n.flow;
+  const dealii::SymmetricTensor<2, 3> s = history.deviator;
+  const double q =
+      std::sqrt(1.5 * (s * s) + (step.shared != nullptr ? 6. * elastic_.shear * step.shared->energy : 0.));
+  const double yield_stress = flow_->stress(alpha_n);
+  if (q > yield_stress * (1. + step.yield_slack)) {
+    const double three_g = 3. * elastic_.shear;
+    const PlasticIncrement increment = flow_->solve(q, three_g, alpha_n, step.dt);
+    const double delta_alpha = increment.strain;
+    const double reduction = three_g * delta_alpha / q, beta = 1. - reduction;
+    history.equivalent_plastic_strain += delta_alpha;
+    flow_->advance(alpha_n, delta_alpha, step.dt, history_n.flow, history.flow);
+    history.deviator = beta * s;
+    tau -= reduction * s;
+    const double k = increment.slope / (three_g + increment.slope);
+    if (step.shared != nullptr) {
+      step.shared->share = beta;
+      step.shared->slope = three_g * (k - beta) / (q * q);
+    }
+    if (moduli != nullptr) {
+      const double factor = 1.5 * (k - beta) / (q * q);
+      for (unsigned int j = 0; j < 9; ++j) {
+        double projection = 0.; // s : A
+        for (unsigned int i = 0; i < 6; ++i)
+          projection += (i < 3 ? 1. : 2.) * s.access_raw_entry(i) * (*moduli)[i][j];
+        if (step.shared != nullptr)
+          step.shared->rate[j / 3][j % 3] = factor * projection;
+        for (unsigned int i = 0; i < 6; ++i)
+          (*moduli)[i][j] = beta * (*moduli)[i][j] + factor * projection * s.access_raw_entry(i);
+      }
+    }
+  }
+  return true;
+}
+
 } // namespace billet

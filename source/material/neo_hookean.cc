@@ -57,4 +57,80 @@ void compute_neo_hookean_moduli(const ElasticModuli &elastic, const IsochoricSta
                      (2. / 3.) * beta * ((i < 3 ? s[j] : 0.) + (j < 3 ? s[i] : 0.));
 }
 
+namespace {
+
+/// ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), k = σ_y'/(m + σ_y'), and the rates of q and m = 3 μ̄:
+///   q q̇ = (m s + 3 dev s²) : d,   ṁ = 2 s : d.
+dealii::SymmetricTensor<2, 3> compute_beta_rate(const dealii::SymmetricTensor<2, 3> &s, const double q,
+                                                const double m, const double beta, const double k,
+                                                const double delta_alpha) {
+  const dealii::Tensor<2, 3> matrix = s;
+  return ((k - beta) / q * (m * s + 3. * dealii::deviator(dealii::symmetrize(matrix * matrix))) -
+          (2. * k * delta_alpha) * s) /
+         q;
+}
+
+} // namespace
+
+bool NeoHookeanPlasticity::update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
+                                  dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli,
+                                  const PointStep &step) const {
+  IsochoricState trial;
+  if (!compute_isochoric_state(F, history_n.inverse_plastic_metric, trial))
+    return false;
+  const dealii::SymmetricTensor<2, 3> s = elastic_.shear * trial.deviator;
+  const double alpha_n = history_n.equivalent_plastic_strain;
+  const double q =
+      std::sqrt(1.5 * (s * s) + (step.shared != nullptr ? 6. * elastic_.shear * step.shared->energy : 0.));
+  const double yield_stress = flow_->stress(alpha_n);
+  double beta = 1., delta_alpha = 0.;
+  dealii::SymmetricTensor<2, 3> beta_rate;
+  if (q > yield_stress * (1. + step.yield_slack)) {
+    const double m = 3. * elastic_.shear * trial.mean;
+    const PlasticIncrement increment = flow_->solve(q, m, alpha_n, step.dt);
+    delta_alpha = increment.strain;
+    beta = 1. - m * delta_alpha / q;
+    const double k = increment.slope / (m + increment.slope);
+    if (moduli != nullptr)
+      beta_rate = compute_beta_rate(s, q, m, beta, k, delta_alpha);
+    if (step.shared != nullptr) {
+      step.shared->share = beta;
+      step.shared->slope = 3. * elastic_.shear * (k - beta) / (q * q);
+      step.shared->rate = beta_rate;
+    }
+  }
+  tau = beta * s + elastic_.bulk * std::log(trial.J) * dealii::unit_symmetric_tensor<3>();
+  if (moduli != nullptr)
+    compute_neo_hookean_moduli(elastic_, trial, beta, beta_rate, *moduli);
+
+  history = history_n;
+  if (delta_alpha > 0.) {
+    history.equivalent_plastic_strain += delta_alpha;
+    flow_->advance(alpha_n, delta_alpha, step.dt, history_n.flow, history.flow);
+    // F⁻¹ b̄_e F⁻ᵀ with b̄_e = β dev b̄_trial + x 1: a multiple of C⁻¹ is all that is added.
+    const double x = complete_unimodular(beta * trial.deviator);
+    const dealii::SymmetricTensor<2, 3> C_inverse =
+        dealii::invert(dealii::symmetrize(dealii::transpose(F) * F));
+    history.inverse_plastic_metric = beta * history_n.inverse_plastic_metric +
+                                     (x - beta * trial.mean) * std::cbrt(trial.J * trial.J) * C_inverse;
+  }
+  return true;
+}
+
+double NeoHookeanPlasticity::elastic_energy(const dealii::Tensor<2, 3> &F, const History &history) const {
+  IsochoricState state;
+  return compute_isochoric_state(F, history.inverse_plastic_metric, state)
+             ? compute_elastic_energy(elastic_, state)
+             : 0.;
+}
+
+NeoHookeanPlasticity::History
+NeoHookeanPlasticity::find_history(const dealii::Tensor<2, 3> &F,
+                                   const dealii::SymmetricTensor<2, 3> &deviator,
+                                   const double equivalent_plastic_strain) const {
+  const dealii::SymmetricTensor<2, 3> X = deviator / elastic_.shear;
+  return history_of(F, X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>(),
+                    equivalent_plastic_strain);
+}
+
 } // namespace billet

@@ -4,9 +4,9 @@
 
 namespace billet {
 
-std::unique_ptr<ElementBlock> make_assumed_strain_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_assumed_strain_block(const std::shared_ptr<const PointLaw> &law,
                                                         const ElementFormulation &formulation) {
-  return make_law_block<AssumedStrainElement<>>(material, formulation);
+  return make_law_block<AssumedStrainElement<>>(law, formulation);
 }
 
 } // namespace billet

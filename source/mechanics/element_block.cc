@@ -6,13 +6,6 @@
 namespace billet {
 
 using Element = ElementFormulation::Element;
-using Kinematics = ElementFormulation::Kinematics;
-
-bool has_symmetric_tangent(const ElementFormulation &formulation, const bool is_plastic) {
-  return formulation.kinematics != Kinematics::hypoelastic &&
-         !(is_plastic && formulation.kinematics == Kinematics::neo_hookean);
-}
-
 const char *name_of(const Element element) {
   switch (element) {
   case Element::assumed_strain:
@@ -25,45 +18,33 @@ const char *name_of(const Element element) {
   return "";
 }
 
-const char *name_of(const Kinematics kinematics) {
-  switch (kinematics) {
-  case Kinematics::hencky:
-    return "Hencky";
-  case Kinematics::neo_hookean:
-    return "neo-Hookean";
-  case Kinematics::hypoelastic:
-    return "hypoelastic";
-  }
-  return "";
-}
-
-std::string describe(const ElementFormulation &formulation) {
+std::string describe(const ElementFormulation &formulation, const PointLaw &law) {
   std::string words = std::string("implicit, ") + name_of(formulation.element) + ", ";
   if (formulation.points_through > 2)
     words += std::to_string(formulation.points_through) + " points through, ";
-  return words + name_of(formulation.kinematics);
+  return words + law.name();
 }
 
-std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_element_block(const std::shared_ptr<const PointLaw> &law,
                                                  const ElementFormulation &formulation) {
   switch (formulation.element) {
   case Element::assumed_strain:
     switch (formulation.points_through) {
     case 3:
-      return make_assumed_strain_block_3(material, formulation);
+      return make_assumed_strain_block_3(law, formulation);
     case 5:
-      return make_assumed_strain_block_5(material, formulation);
+      return make_assumed_strain_block_5(law, formulation);
     case 7:
-      return make_assumed_strain_block_7(material, formulation);
+      return make_assumed_strain_block_7(law, formulation);
     default:
-      return make_assumed_strain_block(material, formulation);
+      return make_assumed_strain_block(law, formulation);
     }
   case Element::mean_dilatation:
-    return make_mean_dilatation_block(material, formulation);
+    return make_mean_dilatation_block(law, formulation);
   case Element::one_point:
     break;
   }
-  return make_one_point_block(material, formulation);
+  return make_one_point_block(law, formulation);
 }
 
 } // namespace billet

@@ -12,30 +12,22 @@
 
 namespace billet {
 
-ElementComparison::ElementComparison(const MaterialLaw &material, const ElementFormulation &formulation)
-    : elastic_(material.elastic), formulation_(formulation) {
-  std::visit(
-      [this](const auto &hardening) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>) {
-          yield_stress_ = [hardening](const double a) { return hardening.stress(a); };
-          plastic_work_ = [hardening](const double a) { return hardening.work(a); };
-        }
-      },
-      material.hardening);
-}
+ElementComparison::ElementComparison(std::shared_ptr<const PointLaw> law,
+                                     const ElementFormulation &formulation)
+    : elastic_(law->elastic()), formulation_(formulation), law_(std::move(law)), flow_(law_->flow_stress()) {}
 
 double ElementComparison::equivalent_plastic_strain(const double elastic_deviatoric_energy) const {
   // G e:e = ½ 3G ε², ε the equivalent strain.
   const double stiffness = 3. * elastic_.shear;
   const double strain = std::sqrt(2. * elastic_deviatoric_energy / stiffness);
-  if (!yield_stress_ || stiffness * strain <= yield_stress_(0.))
+  if (flow_ == nullptr || stiffness * strain <= flow_->stress(0.))
     return 0.;
   // 3G (ε − α) = σ(α), of which the left falls faster than the right.
   double low = 0., high = strain;
   constexpr unsigned int n_bisections = 48;
   for (unsigned int i = 0; i < n_bisections; ++i) {
     const double middle = 0.5 * (low + high);
-    (stiffness * (strain - middle) > yield_stress_(middle) ? low : high) = middle;
+    (stiffness * (strain - middle) > flow_->stress(middle) ? low : high) = middle;
   }
   return low;
 }
@@ -48,7 +40,8 @@ double ElementComparison::energy(const double volumetric_strain,
     return of_volume + elastic_deviatoric_energy;
   const double stiffness = 3. * elastic_.shear;
   const double elastic_strain = std::sqrt(2. * elastic_deviatoric_energy / stiffness) - plastic_strain;
-  return of_volume + 0.5 * stiffness * elastic_strain * elastic_strain + plastic_work_(plastic_strain);
+  return of_volume + 0.5 * stiffness * elastic_strain * elastic_strain +
+         flow_->plastic_work_at_rest(plastic_strain);
 }
 
 ElementComparison::Strains ElementComparison::measure(const dealii::Tensor<2, 3> &F) const {
@@ -88,7 +81,7 @@ bool ElementComparison::add_one_point(const ElementVectors &positions, const Ele
 
 double ElementComparison::dissipation(const Strains &strains) const {
   const double plastic_strain = equivalent_plastic_strain(strains.deviatoric_energy);
-  return plastic_strain > 0. ? plastic_work_(plastic_strain) : 0.;
+  return plastic_strain > 0. ? flow_->plastic_work_at_rest(plastic_strain) : 0.;
 }
 
 double
@@ -161,7 +154,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
                                 ElementEnergies &energies) const {
   ElementEnergies own, one_point;
   double elastic = 0.;
-  const bool compares_points = yield_stress_ &&
+  const bool compares_points = flow_ != nullptr &&
                                formulation_.element == ElementFormulation::Element::assumed_strain &&
                                formulation_.points_through == AssumedStrainElement<>::points_through;
   const auto add_points = [&](const auto &element, double &sum) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mechanics/element_mass.h"
 
+#include "billet/mechanics/modal_geometry.h"
+
 #include <cmath>
 
 namespace billet {
@@ -25,6 +27,18 @@ std::array<NodalValues, n_element_points> make_shape_values() {
 const std::array<NodalValues, n_element_points> shape_values = make_shape_values();
 
 } // namespace
+
+std::array<double, n_element_nodes> compute_nodal_volumes(const ReferenceElement &reference) {
+  std::array<double, n_element_nodes> volumes{};
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    for (unsigned int q = 0; q < n_element_points; ++q) {
+      double value = reference.volumes[q];
+      for (unsigned int i = 0; i < 3; ++i)
+        value *= 0.5 * (1. + corner(a, i) * corner(q, i) / std::sqrt(3.));
+      volumes[a] += value;
+    }
+  return volumes;
+}
 
 ElementMass compute_element_mass(const ReferenceElement &element, const double density) {
   ElementMass mass{};

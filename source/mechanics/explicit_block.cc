@@ -2,6 +2,7 @@
 #include "billet/mechanics/explicit_block.h"
 
 #include "billet/material/neo_hookean.h"
+#include "billet/mechanics/elementwise_block.h"
 #include "billet/mechanics/explicit_instructions.h"
 #include "billet/mechanics/explicit_storage.h"
 
@@ -21,52 +22,25 @@ namespace billet {
 namespace {
 
 using Element = ExplicitFormulation::Element;
-using Kinematics = ExplicitFormulation::Kinematics;
-using explicit_kernels::HardeningKind;
 using Material = explicit_kernels::BasicMaterial<double>;
 
-/// Elasticity, as a hardening law that is never asked.
-struct NoHardening {
-  static double stress(const double) { return 0.; }
-  static double work(const double) { return 0.; }
-};
-
-template <class Hardening>
-double harden(const void *hardening, const double q, const double m, const double alpha,
-              double &yield_stress) {
-  const auto &law = *static_cast<const Hardening *>(hardening);
-  const double delta = solve_consistency(law, q, m, alpha);
+double harden(const void *flow, const double q, const double m, const double alpha, double &yield_stress) {
+  const auto &law = *static_cast<const FlowStress *>(flow);
+  const double delta = law.solve(q, m, alpha, 0.).strain;
   yield_stress = law.stress(alpha + delta);
   return delta;
 }
 
-// What kernels compute themselves: laws that harden, and less and less.
-
-void describe(const LinearHardening &law, Material &material) {
-  material.hardening_kind = HardeningKind::linear;
-  material.yield_stress = law.yield_stress;
-  material.hardening_modulus = law.modulus;
-}
-
-void describe(const VoceHardening &law, Material &material) {
-  material.hardening_kind =
-      law.saturation_stress >= law.yield_stress ? HardeningKind::voce : HardeningKind::other;
-  material.yield_stress = law.yield_stress;
-  material.hardening_modulus = law.modulus;
-  material.saturation_stress = law.saturation_stress;
-  material.saturation_rate = law.saturation_rate;
-}
-
-void describe(const PowerLawHardening &law, Material &material) {
-  material.hardening_kind =
-      law.exponent >= 0. && law.exponent <= 1. ? HardeningKind::power_law : HardeningKind::other;
-  material.strength = law.strength;
-  material.prestrain = law.prestrain;
-  material.exponent = law.exponent;
-}
-
-void describe(const TabulatedHardening &, Material &material) {
-  material.hardening_kind = HardeningKind::other;
+/// Numbers of the hardening law that kernels compute themselves.
+void set_hardening(const LaneHardening &form, Material &material) {
+  material.hardening_kind = form.kind;
+  material.yield_stress = form.yield_stress;
+  material.hardening_modulus = form.hardening_modulus;
+  material.saturation_stress = form.saturation_stress;
+  material.saturation_rate = form.saturation_rate;
+  material.strength = form.strength;
+  material.prestrain = form.prestrain;
+  material.exponent = form.exponent;
 }
 
 bool compute_logarithm(const double *b, double *deviator, double &mean) {
@@ -149,19 +123,19 @@ private:
 #endif
 };
 
-template <class Hardening, class Number> class Block final : public ExplicitBlock {
+/// The block of a law that kernels have.
+template <class Number> class Block final : public ExplicitBlock {
 public:
-  static constexpr bool has_plasticity = !std::is_same_v<Hardening, NoHardening>;
-  static constexpr bool is_linear = std::is_same_v<Hardening, LinearHardening>;
-
-  Block(const ElasticModuli &elastic, Hardening hardening, const double density,
+  Block(std::shared_ptr<const PointLaw> law, const LaneLaw lane_law, const double density,
         const ExplicitFormulation &formulation)
-      : formulation_(formulation), hardening_(std::move(hardening)),
-        storage_(find_kernels<Number>(formulation.instructions).n_lanes, elastic, formulation, has_plasticity,
-                 has_plasticity && !is_linear),
+      : formulation_(formulation), law_(std::move(law)), lane_law_(lane_law), flow_(law_->flow_stress()),
+        storage_(find_kernels<Number>(formulation.instructions).n_lanes, law_->elastic(), lane_law,
+                 formulation, flow_ != nullptr,
+                 flow_ != nullptr && flow_->lane_form().kind != HardeningKind::linear),
         kernel_(find_kernels<Number>(formulation.instructions)
                     .kernels[static_cast<unsigned int>(formulation.element)]
-                            [static_cast<unsigned int>(formulation.kinematics)][has_plasticity ? 1 : 0]) {
+                            [static_cast<unsigned int>(lane_law)][flow_ != nullptr ? 1 : 0]) {
+    const ElasticModuli &elastic = law_->elastic();
     material_ = {};
     material_.bulk = elastic.bulk;
     material_.shear = elastic.shear;
@@ -169,10 +143,10 @@ public:
     material_.wave_speed = std::sqrt((elastic.bulk + 4. / 3. * elastic.shear) / density);
     material_.linear_viscosity = formulation.linear_viscosity;
     material_.quadratic_viscosity = formulation.quadratic_viscosity;
-    if constexpr (has_plasticity) {
-      describe(hardening_, material_);
-      material_.hardening = &hardening_;
-      functions_.harden = &harden<Hardening>;
+    if (flow_ != nullptr) {
+      set_hardening(flow_->lane_form(), material_);
+      material_.hardening = flow_;
+      functions_.harden = &harden;
     }
     functions_.logarithm = &compute_logarithm;
   }
@@ -188,7 +162,7 @@ public:
     kernel_material_ = convert<Number>(material_, units_);
     is_fresh_ = true;
     return storage_.initialize(elements, reference_positions, units_, material_.density,
-                               hardening_.stress(0.), offender);
+                               flow_ != nullptr ? flow_->stress(0.) : 0., offender);
   }
 
   std::size_t size() const override { return storage_.size(); }
@@ -252,7 +226,8 @@ public:
       summary.cauchy_stress += w * (dev_tau + mean_tau * dealii::unit_symmetric_tensor<3>());
       summary.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
       summary.elastic_energy += w * (distortion + 0.5 * mean_tau * volumetric);
-      summary.plastic_work += w * hardening_.work(point.equivalent_plastic_strain);
+      if (flow_ != nullptr)
+        summary.plastic_work += w * flow_->plastic_work_at_rest(point.equivalent_plastic_strain);
       reference_volume += w;
       current_volume += w * point.volume_ratio;
     }
@@ -284,7 +259,7 @@ public:
 
   void set_stress(const std::size_t element, const double *displacements,
                   const ElementStress &stress) override {
-    if (!has_plasticity && formulation_.kinematics != Kinematics::hypoelastic) {
+    if (flow_ == nullptr && lane_law_ != LaneLaw::hypoelastic) {
       storage_.renew(displacements, true);
       return;
     }
@@ -302,7 +277,7 @@ public:
     std::vector<double> yield_stress;
     for (const PointStress &point : wanted) {
       states.push_back({0., 0., elastic_tensor(point.deviator), point.equivalent_plastic_strain});
-      yield_stress.push_back(hardening_.stress(point.equivalent_plastic_strain));
+      yield_stress.push_back(flow_ != nullptr ? flow_->stress(point.equivalent_plastic_strain) : 0.);
     }
     storage_.set_states(element, displacements, states, yield_stress);
   }
@@ -322,19 +297,23 @@ private:
 
   /// The inverse of compute_distortion(): a PointState's tensor from dev τ.
   dealii::SymmetricTensor<2, 3> elastic_tensor(const dealii::SymmetricTensor<2, 3> &dev_tau) const {
-    if (formulation_.kinematics == Kinematics::hypoelastic)
-      return dev_tau;
     const dealii::SymmetricTensor<2, 3> X = dev_tau / material_.shear;
-    if (formulation_.kinematics == Kinematics::hencky)
+    switch (lane_law_) {
+    case LaneLaw::hypoelastic:
+      break;
+    case LaneLaw::hencky:
       return exponential(X);
-    return X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>();
+    case LaneLaw::neo_hookean:
+      return X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>();
+    }
+    return dev_tau;
   }
 
   /// dev τ and the energy that it stores per reference volume, from a PointState's tensor.
   double compute_distortion(const dealii::SymmetricTensor<2, 3> &tensor,
                             dealii::SymmetricTensor<2, 3> &dev_tau) const {
     const double G = material_.shear;
-    if (formulation_.kinematics == Kinematics::hypoelastic) {
+    if (lane_law_ == LaneLaw::hypoelastic) {
       dev_tau = tensor;
       return tensor * tensor / (4. * G);
     }
@@ -345,7 +324,7 @@ private:
     double energy = 0.;
     for (unsigned int a = 0; a < 3; ++a) {
       const double e = state.deviatoric_log_strains[a];
-      if (formulation_.kinematics == Kinematics::hencky) {
+      if (lane_law_ == LaneLaw::hencky) {
         response.stress[a] = 2. * G * e;
         energy += G * e * e;
       } else { // ½ G (tr b̄_e − 3); Σ e = 0
@@ -358,7 +337,9 @@ private:
   }
 
   ExplicitFormulation formulation_;
-  Hardening hardening_;
+  std::shared_ptr<const PointLaw> law_;
+  LaneLaw lane_law_;
+  const FlowStress *flow_; ///< null of elastic bodies
   Material material_;
   KernelUnits units_;
   explicit_kernels::BasicMaterial<Number> kernel_material_{};
@@ -368,15 +349,6 @@ private:
   bool is_fresh_ = true; ///< no history but that of initialize()
 };
 
-template <class Hardening>
-std::unique_ptr<ExplicitBlock> make_block(const bool in_float, const ElasticModuli &elastic,
-                                          const Hardening &hardening, const double density,
-                                          const ExplicitFormulation &formulation) {
-  if (in_float)
-    return std::make_unique<Block<Hardening, float>>(elastic, hardening, density, formulation);
-  return std::make_unique<Block<Hardening, double>>(elastic, hardening, density, formulation);
-}
-
 void require(const bool holds, const char *reason) {
   if (!holds)
     throw std::invalid_argument(reason);
@@ -384,30 +356,29 @@ void require(const bool holds, const char *reason) {
 
 } // namespace
 
-std::string describe(const ExplicitFormulation &formulation) {
-  std::string words =
-      std::string("explicit, ") + name_of(formulation.element) + ", " + name_of(formulation.kinematics);
+std::string describe(const ExplicitFormulation &formulation, const PointLaw &law) {
+  std::string words = std::string("explicit, ") + name_of(formulation.element) + ", " + law.name();
   if (formulation.number_type == ExplicitFormulation::NumberType::float_precision)
     words += ", float";
   return words;
 }
 
-std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, const double density,
+std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const PointLaw> &law,
+                                                   const double density,
                                                    const ExplicitFormulation &formulation) {
-  require(material.elastic.bulk > 0. && material.elastic.shear > 0., "elastic moduli must be positive");
+  require(law->elastic().bulk > 0. && law->elastic().shear > 0., "elastic moduli must be positive");
   require(density > 0., "the density must be positive");
   require(formulation.linear_viscosity >= 0. && formulation.quadratic_viscosity >= 0.,
           "bulk viscosity must not be negative");
-  return std::visit(
-      [&](const auto &hardening) -> std::unique_ptr<ExplicitBlock> {
-        using Hardening = std::decay_t<decltype(hardening)>;
-        const bool in_float = formulation.number_type == ExplicitFormulation::NumberType::float_precision;
-        if constexpr (std::is_same_v<Hardening, std::monostate>)
-          return make_block(in_float, material.elastic, NoHardening{}, density, formulation);
-        else
-          return make_block(in_float, material.elastic, hardening, density, formulation);
-      },
-      material.hardening);
+  const bool in_float = formulation.number_type == ExplicitFormulation::NumberType::float_precision;
+  const std::optional<LaneLaw> lane_law = law->lane_law();
+  if (!lane_law) {
+    require(!in_float, "the kernels do not have this law, so that elements are computed in double");
+    return make_elementwise_block(law, density, formulation);
+  }
+  if (in_float)
+    return std::make_unique<Block<float>>(law, *lane_law, density, formulation);
+  return std::make_unique<Block<double>>(law, *lane_law, density, formulation);
 }
 
 } // namespace billet

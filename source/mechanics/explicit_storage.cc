@@ -2,6 +2,7 @@
 #include "billet/mechanics/explicit_storage.h"
 
 #include "billet/mechanics/assumed_strain_element.h"
+#include "billet/mechanics/element_mass.h"
 #include "billet/mechanics/hourglass_energy.h"
 #include "billet/mechanics/modal_geometry.h"
 
@@ -12,7 +13,6 @@ namespace billet {
 
 using dealii::Tensor;
 using Element = ExplicitFormulation::Element;
-using Kinematics = ExplicitFormulation::Kinematics;
 namespace last = explicit_kernels::last;
 namespace mean_gradient = explicit_kernels::mean_gradient;
 namespace one_point = explicit_kernels::one_point;
@@ -32,19 +32,6 @@ Tensor<2, 3> compute_inverse_jacobian(const ReferenceElement &reference, const u
       for (unsigned int i = 0; i < 3; ++i)
         result[k][i] += corner(a, k) * reference.gradients[q][a][i];
   return result;
-}
-
-/// ∫ N_a dV; the points integrate it exactly.
-std::array<double, n_element_nodes> compute_nodal_volumes(const ReferenceElement &reference) {
-  std::array<double, n_element_nodes> volumes{};
-  for (unsigned int a = 0; a < n_element_nodes; ++a)
-    for (unsigned int q = 0; q < n_element_points; ++q) {
-      double value = reference.volumes[q];
-      for (unsigned int i = 0; i < 3; ++i)
-        value *= 0.5 * (1. + corner(a, i) * corner(q, i) / std::sqrt(3.));
-      volumes[a] += value;
-    }
-  return volumes;
 }
 
 /// Largest sum of the sizes in a row, a bound of a symmetric matrix's eigenvalues.
@@ -150,10 +137,10 @@ KernelUnits choose_units(const double length, const double stress, const double 
 
 template <class Number>
 ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const ElasticModuli &elastic,
-                                         const ExplicitFormulation &formulation, const bool has_plasticity,
-                                         const bool keeps_yield_stress)
-    : n_lanes_(n_lanes), elastic_(elastic), formulation_(formulation), has_plasticity_(has_plasticity),
-      keeps_yield_stress_(keeps_yield_stress) {
+                                         const LaneLaw law, const ExplicitFormulation &formulation,
+                                         const bool has_plasticity, const bool keeps_yield_stress)
+    : n_lanes_(n_lanes), elastic_(elastic), law_(law), formulation_(formulation),
+      has_plasticity_(has_plasticity), keeps_yield_stress_(keeps_yield_stress) {
   const bool is_one_point = formulation.element == Element::one_point;
   n_tensor_ = is_rate() ? 5 : 6;
   const std::size_t n_alpha = has_plasticity ? (is_single ? 2 : 1) : 0;

@@ -4,9 +4,9 @@
 
 namespace billet {
 
-std::unique_ptr<ElementBlock> make_mean_dilatation_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_mean_dilatation_block(const std::shared_ptr<const PointLaw> &law,
                                                          const ElementFormulation &formulation) {
-  return make_law_block<MeanDilatationElement>(material, formulation);
+  return make_law_block<MeanDilatationElement>(law, formulation);
 }
 
 } // namespace billet

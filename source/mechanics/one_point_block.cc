@@ -4,9 +4,9 @@
 
 namespace billet {
 
-std::unique_ptr<ElementBlock> make_one_point_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_one_point_block(const std::shared_ptr<const PointLaw> &law,
                                                    const ElementFormulation &formulation) {
-  return make_law_block<OnePointElement>(material, formulation);
+  return make_law_block<OnePointElement>(law, formulation);
 }
 
 } // namespace billet

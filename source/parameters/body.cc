@@ -2,6 +2,9 @@
 #include "billet/parameters/body.h"
 
 #include "billet/errors.h"
+#include "billet/material/hardening.h"
+#include "billet/material/rate_factor.h"
+#include "billet/parameters/registered.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -111,140 +114,36 @@ void Mesh::parse(Reader &reader) {
 void Material::declare(ParameterHandler &prm) {
   prm.declare_entry("Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
                     "Elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
-  prm.declare_entry(
-      "Kinematics", "Hencky", Patterns::Selection("Hencky|neo-Hookean|hypoelastic"),
-      "Hencky: multiplicative plasticity with logarithmic strain; neo-Hookean: Simo's radial return, "
-      "without an eigenproblem; hypoelastic: rates of stress and the final rotation of the step (Bittencourt "
-      "& Creus 1998), whose error grows with the step.");
+  declare_selection(prm, "Kinematics", "Hencky", elasticity_types(),
+                    "Elasticity, and how it goes with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
                     "Of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
-  prm.declare_entry("Young modulus", "0", Patterns::Double(), "E > 0. [stress]");
-  prm.declare_entry("Poisson ratio", "0.3", Patterns::Double(), "-1 < nu < 0.5.");
-  prm.declare_entry("Hardening", "linear", Patterns::Selection("linear|Voce|power law|table"),
-                    "Yield stress over equivalent plastic strain e: linear: Sy + H e; Voce: Sy + (Ss - Sy)(1 "
-                    "- exp(-d e)) + H e; "
-                    "power law: K (e0 + e)^n; table: straight lines through points.");
-  prm.declare_entry("Yield stress", "0", Patterns::Double(), "Sy > 0; linear and Voce hardening. [stress]");
-  prm.declare_entry("Hardening modulus", "0", Patterns::Double(),
-                    "H >= 0; linear and Voce hardening. [stress]");
-  prm.declare_entry("Saturation stress", "0", Patterns::Double(), "Ss >= Sy; Voce hardening. [stress]");
-  prm.declare_entry("Saturation rate", "0", Patterns::Double(), "d > 0; Voce hardening.");
-  prm.declare_entry("Strength coefficient", "0", Patterns::Double(), "K > 0; power law. [stress]");
-  prm.declare_entry("Prestrain", "0", Patterns::Double(), "e0 > 0; power law.");
-  prm.declare_entry("Hardening exponent", "0", Patterns::Double(), "0 <= n <= 1; power law.");
-  prm.declare_entry("Table", "", Patterns::Anything(),
-                    "'strain : stress, strain : stress, ...': plastic strains from 0, strictly increasing; "
-                    "yield stresses > 0, "
-                    "not decreasing; constant beyond the last point. [- : stress]");
+  declare_selection(prm, "Hardening", "linear", hardening_types(),
+                    "Yield stress over equivalent plastic strain e.");
+  declare_selection(
+      prm, "Rate factor", "none", rate_factor_types(),
+      "Factor of the yield stress over the rate of plastic strain; static scenes take their time for "
+      "that of the process.");
 }
-
-namespace {
-
-/// Words for what is allowed where more would be softening.
-std::string no_softening(const std::string &allowed) {
-  return allowed +
-         ": softening would gather in one layer of elements, with an answer that the mesh makes, since "
-         "the law has no length of its own";
-}
-
-double read_hardening(const Reader &reader, const std::string &key) {
-  if (reader.number(key) < 0.)
-    reader.reject(key, no_softening("a number >= 0"));
-  return reader.number(key);
-}
-
-} // namespace
 
 void Material::parse(Reader &reader) {
-  law = reader.text("Law") == "elastic" ? Law::elastic : Law::elastoplastic;
-  const std::string how = reader.text("Kinematics");
-  kinematics = reader.located("Kinematics", how == "Hencky"        ? Kinematics::hencky
-                                            : how == "neo-Hookean" ? Kinematics::neo_hookean
-                                                                   : Kinematics::hypoelastic);
   density = reader.located("Density", reader.not_negative("Density"));
-  young_modulus = reader.positive("Young modulus");
-  poisson_ratio = reader.number("Poisson ratio");
-  if (!(poisson_ratio > -1. && poisson_ratio < 0.5))
-    reader.reject("Poisson ratio", "a number > -1 and < 0.5");
-
-  const std::string chosen = reader.text("Hardening");
-  hardening = chosen == "linear"  ? Hardening::linear
-              : chosen == "Voce"  ? Hardening::voce
-              : chosen == "table" ? Hardening::table
-                                  : Hardening::power_law;
-  // What the chosen law does not use may not be set: a forgotten switch is the usual reason.
-  std::vector<std::string> used;
-  if (law == Law::elastoplastic)
-    switch (hardening) {
-    case Hardening::linear:
-      used = {"Hardening", "Yield stress", "Hardening modulus"};
-      break;
-    case Hardening::voce:
-      used = {"Hardening", "Yield stress", "Hardening modulus", "Saturation stress", "Saturation rate"};
-      break;
-    case Hardening::power_law:
-      used = {"Hardening", "Strength coefficient", "Prestrain", "Hardening exponent"};
-      break;
-    case Hardening::table:
-      used = {"Hardening", "Table"};
-      break;
-    }
-  for (const std::string key :
-       {"Hardening", "Yield stress", "Hardening modulus", "Saturation stress", "Saturation rate",
-        "Strength coefficient", "Prestrain", "Hardening exponent", "Table"})
-    if (reader.is_set(key) && std::find(used.begin(), used.end(), key) == used.end())
-      reader.reject(key, law == Law::elastic ? "no value: the law is elastic"
-                                             : "no value: '" + chosen + "' hardening does not use it");
-  if (law == Law::elastic)
+  elasticity = make_selected(reader, "Kinematics", elasticity_types());
+  if (reader.text("Law") == "elastic") {
+    // What the law does not use may not be set: a forgotten switch is the usual reason.
+    for (const std::string key : {"Hardening", "Rate factor"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value: the law is elastic");
+    join_parameters(hardening_types()).reject_unused(reader, {}, "the law is elastic");
+    join_parameters(rate_factor_types()).reject_unused(reader, {}, "the law is elastic");
+    law = elasticity->make_elastic_law();
     return;
-
-  switch (hardening) {
-  case Hardening::linear:
-    yield_stress = reader.positive("Yield stress");
-    hardening_modulus = read_hardening(reader, "Hardening modulus");
-    break;
-  case Hardening::voce:
-    yield_stress = reader.positive("Yield stress");
-    hardening_modulus = read_hardening(reader, "Hardening modulus");
-    saturation_stress = reader.positive("Saturation stress");
-    if (saturation_stress < yield_stress)
-      reader.reject("Saturation stress", no_softening("a number not below the yield stress"));
-    saturation_rate = reader.positive("Saturation rate");
-    break;
-  case Hardening::power_law:
-    strength = reader.positive("Strength coefficient");
-    prestrain = reader.positive("Prestrain");
-    exponent = read_hardening(reader, "Hardening exponent");
-    if (exponent > 1.)
-      reader.reject("Hardening exponent", "a number from 0 to 1");
-    break;
-  case Hardening::table:
-    for (const auto &part : reader.parts("Table", ',')) {
-      const auto pair = dealii::Utilities::split_string_list(part, ':');
-      try {
-        if (pair.size() != 2)
-          throw std::invalid_argument("pair");
-        table_strains.push_back(parse_number(pair[0]));
-        table_stresses.push_back(parse_number(pair[1]));
-      } catch (const std::invalid_argument &) {
-        reader.reject("Table", "'strain : stress' pairs, separated by commas");
-      }
-      const std::size_t n = table_strains.size();
-      if (n == 1 && table_strains[0] != 0.)
-        reader.reject("Table", "a curve that starts at plastic strain 0");
-      if (!(table_stresses.back() > 0.))
-        reader.reject("Table", "yield stresses > 0");
-      if (n > 1 && !(table_strains[n - 1] > table_strains[n - 2]))
-        reader.reject("Table", "a monotonic curve: plastic strain " + pair[0] +
-                                   " does not increase on the one before");
-      if (n > 1 && !(table_stresses[n - 1] >= table_stresses[n - 2]))
-        reader.reject("Table",
-                      no_softening("a monotonic curve: stress " + pair[1] + " falls below the one before"));
-    }
-    if (table_strains.empty())
-      reader.reject("Table", "at least one 'strain : stress' pair");
-    break;
   }
+  law = elasticity->make_plastic_law(
+      make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
+                       make_selected(reader, "Rate factor", rate_factor_types())));
+  if (law == nullptr)
+    reader.reject("Law", "elastic, since '" + reader.text("Kinematics") + "' knows no plasticity");
 }
 
 void Support::declare(ParameterHandler &prm) {

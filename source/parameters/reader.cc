@@ -109,17 +109,6 @@ std::vector<double> Reader::numbers(const std::string &key) const {
   return result;
 }
 
-double parse_number(const std::string &text) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  try {
-    value = dealii::Utilities::string_to_double(text);
-  } catch (const std::exception &) { // of which deal.II throws its own kinds
-  }
-  if (!std::isfinite(value))
-    throw std::invalid_argument("'" + text + "' is not a finite number");
-  return value;
-}
-
 unsigned int parse_count(const std::string &text) {
   if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
     throw std::invalid_argument("'" + text + "' is not a whole number from 0 to 999999999");

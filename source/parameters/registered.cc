@@ -25,19 +25,23 @@ void declare_parameter(dealii::ParameterHandler &prm, const TypeParameter &param
 }
 
 void ParameterUnion::add(const std::string &type, const std::vector<TypeParameter> &parameters) {
+  ++n_types_;
   for (const TypeParameter &parameter : parameters) {
     const auto known = std::find_if(entries_.begin(), entries_.end(),
                                     [&](const Entry &entry) { return entry.parameter.key == parameter.key; });
     if (known == entries_.end())
-      entries_.push_back({parameter, type});
-    else
+      entries_.push_back({parameter, type, 1});
+    else {
       known->users += ", " + type;
+      ++known->n_users;
+    }
   }
 }
 
 void ParameterUnion::declare(dealii::ParameterHandler &prm) const {
   for (const Entry &entry : entries_)
-    declare_parameter(prm, entry.parameter, entry.users + ": " + entry.parameter.meaning);
+    declare_parameter(prm, entry.parameter,
+                      (entry.n_users == n_types_ ? "" : entry.users + ": ") + entry.parameter.meaning);
 }
 
 void ParameterUnion::reject_unused(const Reader &reader, const std::vector<TypeParameter> &used,

@@ -11,30 +11,17 @@ namespace billet {
 
 namespace {
 
-/// Whether its yield stress does not grow without end.
-bool has_limit(const parameters::Material &material) {
-  if (material.law == parameters::Material::Law::elastic)
-    return false;
-  switch (material.hardening) {
-  case parameters::Material::Hardening::table:
-    return true;
-  case parameters::Material::Hardening::power_law:
-    return material.exponent == 0.;
-  default:
-    return material.hardening_modulus == 0.;
-  }
-}
-
 /// Shear and bulk modulus as far apart as here leave Newton's method few digits.
 std::string describe_incompressibility(const parameters::Scene &parameters) {
   const double nearly = 0.49995;
-  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
-                                 [&](const auto &b) { return b.material.poisson_ratio > nearly; });
+  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const auto &b) {
+    return b.material.law->elastic().poisson_ratio() > nearly;
+  });
   if (body == parameters.bodies.end())
     return "";
   std::ostringstream text;
   text << ". Body '" << body->name
-       << "' is all but incompressible ('Poisson ratio' = " << body->material.poisson_ratio
+       << "' is all but incompressible ('Poisson ratio' = " << body->material.law->elastic().poisson_ratio()
        << "): 0.4999 differs from that by a ten-thousandth of the bulk modulus, and is easier to solve";
   return text.str();
 }
@@ -52,8 +39,11 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
     return tool.motion.control == Control::force || tool.motion.control == Control::moment;
   };
   const auto tool = std::find_if(parameters.tools.begin(), parameters.tools.end(), is_given);
-  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(),
-                                 [](const parameters::Body &b) { return has_limit(b.material); });
+  const auto body =
+      std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [](const parameters::Body &b) {
+        const FlowStress *flow = b.material.law->flow_stress();
+        return flow != nullptr && flow->is_bounded();
+      });
   const bool has_tool = tool != parameters.tools.end();
   const bool has_loads = std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
                                      [](const parameters::Body &b) { return !b.loads.empty(); });
@@ -79,13 +69,12 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
   double largest = 0.;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
-    if (std::holds_alternative<std::monostate>(body.material.hardening) ||
-        scene.parameters().bodies[b].material.kinematics.value == parameters::Material::Kinematics::hencky)
+    if (!body.law->has_plasticity() || body.law->has_exact_dissipation())
       continue;
     for (const ElementSummary &summary : solution.summarize(b))
       if (summary.equivalent_plastic_strain > 0.)
-        largest = std::max(largest, dealii::deviator(summary.cauchy_stress).norm() /
-                                        (2. * body.material.elastic.shear));
+        largest = std::max(largest,
+                           dealii::deviator(summary.cauchy_stress).norm() / (2. * body.law->elastic().shear));
   }
   return dealii::Utilities::MPI::max(largest, discretization.communicator()) > large;
 }

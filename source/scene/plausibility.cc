@@ -149,14 +149,8 @@ std::string ratio(const std::string &what, const double number) {
 
 void check_yield_stress(const Body &body, DiagnosticList &diagnostics) {
   constexpr double least = 1e-7, most = 0.1;
-  const double stress = std::visit(
-      [](const auto &hardening) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>)
-          return 0.;
-        else
-          return hardening.stress(0.);
-      },
-      body.material.hardening);
+  const FlowStress *flow = body.law->flow_stress();
+  const double stress = flow != nullptr ? flow->stress(0.) : 0.;
   const double part = stress / body.young_modulus;
   if (stress > 0. && !(part > least && part < most))
     diagnostics.push_back(
@@ -272,14 +266,8 @@ void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagno
 
 double borne_force(const Body &body, const double section) {
   constexpr double strain = 1.;
-  return section * std::visit(
-                       [&](const auto &hardening) {
-                         if constexpr (std::is_same_v<std::decay_t<decltype(hardening)>, std::monostate>)
-                           return body.young_modulus * strain;
-                         else
-                           return hardening.stress(strain);
-                       },
-                       body.material.hardening);
+  const FlowStress *flow = body.law->flow_stress();
+  return section * (flow != nullptr ? flow->stress(strain) : body.young_modulus * strain);
 }
 
 DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &mesh,

@@ -16,28 +16,6 @@ namespace billet {
 
 namespace {
 
-MaterialLaw make_material(const parameters::Material &material) {
-  MaterialLaw law{ElasticModuli::from_young_poisson(material.young_modulus, material.poisson_ratio),
-                  std::monostate()};
-  if (material.law == parameters::Material::Law::elastoplastic)
-    switch (material.hardening) {
-    case parameters::Material::Hardening::linear:
-      law.hardening = LinearHardening{material.yield_stress, material.hardening_modulus};
-      break;
-    case parameters::Material::Hardening::voce:
-      law.hardening = VoceHardening{material.yield_stress, material.saturation_stress,
-                                    material.saturation_rate, material.hardening_modulus};
-      break;
-    case parameters::Material::Hardening::power_law:
-      law.hardening = PowerLawHardening{material.strength, material.prestrain, material.exponent};
-      break;
-    case parameters::Material::Hardening::table:
-      law.hardening = TabulatedHardening(material.table_strains, material.table_stresses);
-      break;
-    }
-  return law;
-}
-
 std::string describe_solver(const parameters::Solver::LinearSolver solver, const bool unsymmetric) {
   using Kind = parameters::Solver::LinearSolver;
   const std::string direct = unsymmetric ? "MUMPS" : "MUMPS, which factorises half",
@@ -85,11 +63,10 @@ Load make_load(const parameters::Load &parameters, const std::vector<parameters:
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
   Body body;
   body.name = parameters.name;
-  body.material = make_material(parameters.material);
+  body.law = parameters.material.law;
   body.formulation = make_formulation(parameters);
-  body.young_modulus = parameters.material.young_modulus;
-  const auto moduli =
-      ElasticModuli::from_young_poisson(body.young_modulus, parameters.material.poisson_ratio);
+  body.young_modulus = parameters.material.elasticity->young_modulus();
+  const ElasticModuli &moduli = body.law->elastic();
   body.largest_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
   for (const auto &component : parameters.initial_velocity.value)
@@ -181,28 +158,22 @@ std::string describe_friction(const parameters::ContactPair &pair) {
   return text.str();
 }
 
-/// Element, unless it is the usual one, kinematics and law.
+/// Element, unless it is the usual one, elasticity and law.
 std::string describe_law(const parameters::Body &body) {
   using Type = parameters::Body::ElementType;
-  using Kinematics = parameters::Material::Kinematics;
-  const Kinematics kinematics = body.material.kinematics.value;
   return std::string(body.element.value == Type::mean_dilatation ? "mean dilatation, "
                      : body.element.value == Type::one_point     ? "one point, "
                                                                  : "") +
          (body.points_through.value > 2
               ? std::to_string(body.points_through.value) + " points through the thickness, "
               : "") +
-         (kinematics == Kinematics::hencky        ? "Hencky "
-          : kinematics == Kinematics::neo_hookean ? "neo-Hookean "
-                                                  : "hypoelastic ") +
-         (body.material.law == parameters::Material::Law::elastic ? "elasticity" : "J2 plasticity");
+         body.material.law->name() + (body.material.law->has_plasticity() ? " J2 plasticity" : " elasticity");
 }
 
 } // namespace
 
 ElementFormulation make_formulation(const parameters::Body &parameters) {
   using Type = parameters::Body::ElementType;
-  using Kinematics = parameters::Material::Kinematics;
   using Formulation = ElementFormulation;
   Formulation formulation;
   switch (parameters.element.value) {
@@ -216,10 +187,6 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
     formulation.element = Formulation::Element::one_point;
     break;
   }
-  const Kinematics kinematics = parameters.material.kinematics.value;
-  formulation.kinematics = kinematics == Kinematics::hencky        ? Formulation::Kinematics::hencky
-                           : kinematics == Kinematics::neo_hookean ? Formulation::Kinematics::neo_hookean
-                                                                   : Formulation::Kinematics::hypoelastic;
   formulation.points_through = parameters.points_through.value;
   return formulation;
 }
@@ -243,7 +210,7 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   capabilities_.contact = !pairs_.empty() || !body_pairs_.empty();
   capabilities_.body_contact = !body_pairs_.empty();
   for (const auto &body : bodies_) {
-    capabilities_.plasticity |= !std::holds_alternative<std::monostate>(body.material.hardening);
+    capabilities_.plasticity |= body.law->has_plasticity();
     for (const auto &hold : body.holds)
       capabilities_.moving_supports |= hold.value != nullptr;
     capabilities_.stabilisation |= body.formulation.element == ElementFormulation::Element::one_point;
@@ -283,10 +250,7 @@ void Scene::choose_material_tangents() {
   using Tangent = parameters::MaterialTangent;
   using Kind = parameters::Solver::LinearSolver;
   const auto &[wanted, origin] = parameters_.solver.material_tangent;
-  const auto is_symmetric = [](const Body &body) {
-    return has_symmetric_tangent(body.formulation,
-                                 !std::holds_alternative<std::monostate>(body.material.hardening));
-  };
+  const auto is_symmetric = [](const Body &body) { return body.law->has_symmetric_moduli(); };
   if (wanted != Tangent::automatic && std::all_of(bodies_.begin(), bodies_.end(), is_symmetric))
     throw InputError(origin + ": found '" + (wanted == Tangent::exact ? "exact" : "symmetrised") +
                      "', but the exact material tangent of every body is symmetric; allowed is automatic");
@@ -509,12 +473,9 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   const std::size_t n_all_pairs = pairs_.size() + body_pairs_.size();
   const bool is_explicit = parameters_.is_explicit();
   add("Plasticity", capabilities_.plasticity,
-      "history of " +
-          part(std::count_if(bodies_.begin(), bodies_.end(),
-                             [](const Body &body) {
-                               return !std::holds_alternative<std::monostate>(body.material.hardening);
-                             }),
-               bodies_.size(), "bodies"));
+      "history of " + part(std::count_if(bodies_.begin(), bodies_.end(),
+                                         [](const Body &body) { return body.law->has_plasticity(); }),
+                           bodies_.size(), "bodies"));
   add("Stabilisation", capabilities_.stabilisation,
       "hourglass modes of " + part(std::count_if(bodies_.begin(), bodies_.end(),
                                                  [](const Body &body) {

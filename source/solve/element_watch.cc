@@ -50,7 +50,7 @@ ElementEnergies energies_in(const std::vector<double> &values, const std::size_t
 ElementWatch::ElementWatch(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), energies_(scene.bodies().size()) {
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
-    comparisons_.emplace_back(scene.bodies()[b].material, scene.bodies()[b].formulation);
+    comparisons_.emplace_back(scene.bodies()[b].law, scene.bodies()[b].formulation);
     double volume = 0.;
     for (const auto &element : discretization.elements(b))
       volume += element.cell->measure();
@@ -86,7 +86,7 @@ bool ElementWatch::counts(const std::size_t body) const {
 double ElementWatch::factor_of(const std::size_t body) const {
   // The deformation theory is an estimate once a body yields: there the stiffer of both references counts.
   ElementEnergies energies = energies_[body];
-  if (!std::holds_alternative<std::monostate>(scene_.bodies()[body].material.hardening))
+  if (scene_.bodies()[body].law->has_plasticity())
     energies.accurate = std::max(energies.accurate, energies.one_point);
   return energies.used > 0. ? energies.factor() : 1.;
 }
@@ -107,7 +107,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     if (!is_doubtful(b))
       continue;
     // Where hinges yield or inertia counts less of it is left.
-    const bool has_yield = !std::holds_alternative<std::monostate>(scene_.bodies()[b].material.hardening);
+    const bool has_yield = scene_.bodies()[b].law->has_plasticity();
     std::ostringstream text;
     text.precision(3);
     text << "Elements 'Element = " << name_of(formulation.element) << "' ";

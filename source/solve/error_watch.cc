@@ -41,9 +41,8 @@ bool may_choose_penetration(const parameters::Scene &parameters) {
 bool stresses_depend_on_steps(const Scene &scene) {
   const std::vector<parameters::Body> &bodies = scene.parameters().bodies;
   return scene.capabilities().plasticity ||
-         std::any_of(bodies.begin(), bodies.end(), [](const parameters::Body &body) {
-           return body.material.kinematics.value == parameters::Material::Kinematics::hypoelastic;
-         });
+         std::any_of(bodies.begin(), bodies.end(),
+                     [](const parameters::Body &body) { return body.material.law->is_rate_form(); });
 }
 
 /// Whether a step's length is part of its answer: that of stresses, or of tractions that return to a friction

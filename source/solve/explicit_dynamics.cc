@@ -20,9 +20,7 @@ ExplicitFormulation make_formulation(const parameters::Scene &scene, const param
   using Instructions = parameters::ExplicitDynamics::Instructions;
   const auto &dynamics = scene.explicit_dynamics;
   ExplicitFormulation formulation;
-  const ElementFormulation of_body = make_formulation(body);
-  formulation.element = of_body.element;
-  formulation.kinematics = of_body.kinematics;
+  formulation.element = make_formulation(body).element;
   formulation.linear_viscosity = dynamics.linear_viscosity;
   formulation.quadratic_viscosity = dynamics.quadratic_viscosity;
   switch (dynamics.instructions) {
@@ -108,7 +106,7 @@ void ExplicitDynamics::make_blocks() {
       const auto &input = scene_.parameters().bodies[b];
       try {
         blocks_.push_back(
-            make_explicit_block(body.material, body.density, make_formulation(scene_.parameters(), input)));
+            make_explicit_block(body.law, body.density, make_formulation(scene_.parameters(), input)));
       } catch (const std::invalid_argument &error) {
         throw InputError(input.origin + ": " + error.what());
       }
@@ -120,7 +118,7 @@ void ExplicitDynamics::make_blocks() {
                 << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
         throw InputError(message.str());
       }
-      if (!std::holds_alternative<std::monostate>(body.material.hardening))
+      if (body.law->has_plasticity())
         plastic += blocks_.back()->history_memory();
       stabilised += blocks_.back()->stabilisation_memory();
     }
@@ -245,8 +243,7 @@ void ExplicitDynamics::compute_internal_forces() {
     if (n_steps_ > 0 && n_steps_ % ExplicitBlock::renewal_interval == 0)
       blocks_[b]->renew(u_.data());
     const Body &body = scene_.bodies()[b];
-    Usage::count_if(!std::holds_alternative<std::monostate>(body.material.hardening), Capability::plasticity,
-                    blocks_[b]->size());
+    Usage::count_if(body.law->has_plasticity(), Capability::plasticity, blocks_[b]->size());
     Usage::count_if(body.formulation.element == ElementFormulation::Element::one_point,
                     Capability::stabilisation, blocks_[b]->size());
     element_step_ = std::min(element_step_, result.stable_step);

@@ -134,7 +134,8 @@ void ExplicitDynamics::save(StateWriter &writer) const {
     writer.in(group("body", b), [&] {
       const ExplicitBlock &block = *blocks_[b];
       writer.write_text("formulation",
-                        describe(make_formulation(scene_.parameters(), scene_.parameters().bodies[b])));
+                        describe(make_formulation(scene_.parameters(), scene_.parameters().bodies[b]),
+                                 *scene_.bodies()[b].law));
       const std::size_t width = block.history_size();
       std::vector<double> rows(width * block.size());
       for (std::size_t e = 0; e < block.size(); ++e)
@@ -180,8 +181,9 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     reader.in(group("body", b), [&] {
       const auto &input = scene_.parameters().bodies[b];
-      report.is_exact = report.is_exact && reader.read_text("formulation") ==
-                                               describe(make_formulation(scene_.parameters(), input));
+      report.is_exact = report.is_exact &&
+                        reader.read_text("formulation") ==
+                            describe(make_formulation(scene_.parameters(), input), *scene_.bodies()[b].law);
     });
   const bool is_exact = report.is_exact; // other tools or pairs change nothing in how the rest goes on
   compare_parts(reader, scene_, report);

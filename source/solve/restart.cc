@@ -3,6 +3,7 @@
 
 #include "billet/discretization/local_nodes.h"
 #include "billet/errors.h"
+#include "billet/material/elasticity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,6 @@
 namespace billet {
 
 namespace {
-
-std::string describe(const MaterialLaw &material) {
-  static const std::array<const char *, 5> names = {
-      {"elastic", "elastoplastic with linear hardening", "elastoplastic with Voce's hardening",
-       "elastoplastic with power-law hardening", "elastoplastic with tabulated hardening"}};
-  return names.at(material.hardening.index());
-}
 
 /// Number of elements, volume, and Σ w centre with a weight in [0, 1) that belongs to the element's key, so
 /// that another numbering shows.
@@ -36,34 +30,48 @@ std::vector<double> measure(const Discretization &discretization, const std::siz
   return {own.begin(), own.end()};
 }
 
-std::optional<ElementFormulation> find_implicit_formulation(const std::string &words) {
-  ElementFormulation formulation;
-  for (const auto element : all_elements)
-    for (const auto kinematics : all_kinematics)
+/// Formulation and law that a history was computed with.
+template <class Formulation> struct StoredFormulation {
+  Formulation formulation;
+  SharedLaw law;
+};
+
+/// Elasticities that a history may have: that of the body, and those with the same constants.
+std::vector<SharedLaw> laws_like(const SharedLaw &law) {
+  std::vector<SharedLaw> laws{law};
+  for (const ElasticityType &type : elasticity_types())
+    if (SharedLaw other = make_isotropic_law(type.name, law->elastic(), law->shared_flow_stress()))
+      laws.push_back(std::move(other));
+  return laws;
+}
+
+std::optional<StoredFormulation<ElementFormulation>> find_implicit_formulation(const std::string &words,
+                                                                               const SharedLaw &law) {
+  for (const SharedLaw &candidate : laws_like(law))
+    for (const auto element : all_elements)
       for (const unsigned int points_through : all_points_through) {
+        ElementFormulation formulation;
         formulation.element = element;
-        formulation.kinematics = kinematics;
         formulation.points_through = points_through;
-        if (describe(formulation) == words)
-          return formulation;
+        if (describe(formulation, *candidate) == words)
+          return StoredFormulation<ElementFormulation>{formulation, candidate};
       }
   return {};
 }
 
-std::optional<ExplicitFormulation> find_formulation(const std::string &words) {
+std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std::string &words,
+                                                                       const SharedLaw &law) {
   using NumberType = ExplicitFormulation::NumberType;
-  ExplicitFormulation formulation;
-  formulation.instructions = InstructionSet::scalar;
-  for (const auto element : all_elements)
-    for (const auto kinematics : all_kinematics) {
-      formulation.element = element;
-      formulation.kinematics = kinematics;
+  for (const SharedLaw &candidate : laws_like(law))
+    for (const auto element : all_elements)
       for (const auto number_type : {NumberType::double_precision, NumberType::float_precision}) {
+        ExplicitFormulation formulation;
+        formulation.instructions = InstructionSet::scalar;
+        formulation.element = element;
         formulation.number_type = number_type;
-        if (describe(formulation) == words)
-          return formulation;
+        if (describe(formulation, *candidate) == words)
+          return StoredFormulation<ExplicitFormulation>{formulation, candidate};
       }
-    }
   return {};
 }
 
@@ -76,7 +84,7 @@ void save_scene(StateWriter &writer, const Scene &scene, const Discretization &d
   for (std::size_t b = 0; b < scene.bodies().size(); ++b)
     writer.in(group("body", b), [&] {
       writer.write_text("name", scene.bodies()[b].name);
-      writer.write_text("material", describe(scene.bodies()[b].material));
+      writer.write_text("material", scene.bodies()[b].law->description());
       writer.write("mesh", measure(discretization, b));
     });
 }
@@ -93,9 +101,9 @@ void check_scene(StateReader &reader, const Scene &scene, const Discretization &
       if (name != body.name)
         throw InputError("its body " + std::to_string(b + 1) + " is '" + name + "', here it is '" +
                          body.name + "'");
-      if (material != describe(body.material))
+      if (material != body.law->description())
         throw InputError("its body '" + name + "' is " + material + ", here it is " +
-                         describe(body.material));
+                         body.law->description());
       const std::vector<double> then = reader.read("mesh"), now = measure(discretization, b);
       if (then.at(0) != now[0])
         throw InputError("its body '" + name + "' has " + std::to_string(std::lround(then[0])) +
@@ -167,18 +175,18 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
                                        const Discretization &discretization, const Vector &displacements) {
   const std::string words = reader.read_text("formulation");
   const auto keys = element_keys(discretization, body);
-  const MaterialLaw &material = scene.bodies()[body].material;
+  const SharedLaw &law = scene.bodies()[body].law;
   const auto &elements = discretization.elements(body);
   std::vector<ElementStress> stresses;
   std::size_t ignored = 0;
-  if (const auto implicit = find_implicit_formulation(words)) {
-    const auto block = make_element_block(material, *implicit);
+  if (const auto implicit = find_implicit_formulation(words, law)) {
+    const auto block = make_element_block(implicit->law, implicit->formulation);
     std::vector<ElementVectors> positions;
     positions.reserve(elements.size());
     for (const auto &element : elements)
       positions.push_back(nodal_positions(element.cell));
     std::vector<ThicknessAxis> axes(elements.size());
-    if (implicit->points_through > 2)
+    if (implicit->formulation.points_through > 2)
       axes = load_thickness_axes(reader, keys);
     block->initialize(positions, axes, ignored);
     const std::size_t width = block->state_size();
@@ -193,7 +201,7 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
     }
     return stresses;
   }
-  const auto formulation = find_formulation(words);
+  const auto formulation = find_formulation(words, law);
   if (!formulation)
     throw InputError("the history of its body '" + scene.bodies()[body].name + "' is of unknown kind: '" +
                      words + "'");
@@ -202,7 +210,7 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
   for (unsigned int node = 0; node < nodes.size(); ++node)
     for (unsigned int i = 0; i < 3; ++i)
       u[std::size_t{nodal_stride} * node + i] = displacements(nodes.dofs(node)[i]);
-  const auto block = make_explicit_block(material, 1., *formulation);
+  const auto block = make_explicit_block(formulation->law, 1., formulation->formulation);
   block->initialize(nodes.elements(body), nodes.positions().data(), ignored);
   const std::size_t width = block->history_size();
   const std::vector<double> rows = reader.read_rows("history", width, keys);

@@ -29,29 +29,14 @@ Stretches principal_stretches(const dealii::Tensor<2, 3> &F) {
           std::sqrt(std::max(0., squares[2]))};
 }
 
-using Kinematics = parameters::Material::Kinematics;
-
-double stiffness_of(const Kinematics kinematics, const ElasticModuli &elastic, const Stretches &stretches) {
-  switch (kinematics) {
-  case Kinematics::hencky:
-    return least_wave_stiffness(HenckyElasticity(elastic), elastic.shear, stretches);
-  case Kinematics::neo_hookean:
-    return least_wave_stiffness(NeoHookeanElasticity(elastic), elastic.shear, stretches);
-  case Kinematics::hypoelastic:
-    break;
-  }
-  return least_wave_stiffness_of_rates(elastic, stretches);
-}
-
 } // namespace
 
 StabilityWatch::StabilityWatch(const Scene &scene, const Discretization &discretization)
     : discretization_(discretization) {
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
-    if (std::holds_alternative<std::monostate>(body.material.hardening))
-      bodies_.push_back({b, body.name, body.material.elastic,
-                         scene.parameters().bodies[b].material.kinematics.value, false});
+    if (body.law->least_wave_stiffness({1., 1., 1.}))
+      bodies_.push_back({b, body.name, body.law, false});
   }
 }
 
@@ -72,7 +57,7 @@ DiagnosticList StabilityWatch::check(const double time, const Vector &displaceme
         Diagnostic(diagnostic::unstable_law, text.str())
             .body(watched.name)
             .time(time)
-            .advice(stiffness_of(Kinematics::neo_hookean, watched.elastic, stretches) > 0.
+            .advice(NeoHookeanElasticity(watched.law->elastic()).least_wave_stiffness(stretches) > 0.
                         ? "Choose 'Kinematics = neo-Hookean', which is stable there, or reduce "
                           "the strains"
                         : ""));
@@ -91,7 +76,7 @@ StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,
         principal_stretches((J + middle_jacobian(gather(displacements, element.dofs))) * dealii::invert(J));
     if (stretches[2] > surely_above && stretches[0] < surely_below)
       continue;
-    const double stiffness = stiffness_of(watched.kinematics, watched.elastic, stretches);
+    const double stiffness = watched.law->least_wave_stiffness(stretches).value_or(1.);
     if (stiffness < weakest.stiffness)
       weakest = {stiffness, stretches};
   }

@@ -51,7 +51,7 @@ StickSprings::StickSprings(const Scene &scene, const Discretization &discretizat
     : communicator_(discretization.communicator()) {
   const std::vector<double> thicknesses = body_thicknesses(discretization);
   const auto flexibility = [&](const std::size_t body) {
-    return thicknesses[body] / scene.bodies()[body].material.elastic.shear;
+    return thicknesses[body] / scene.bodies()[body].law->elastic().shear;
   };
   for (const auto &pair : scene.pairs())
     pairs_.push_back({pair.input->friction_coefficient, 1. / flexibility(pair.body)});

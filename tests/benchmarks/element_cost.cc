@@ -24,7 +24,7 @@ int main(int argc, char *argv[]) {
   const MaterialLaw material{ElasticModuli::from_young_poisson(2e5, 0.3), LinearHardening{700., 300.}};
   for (const auto element : all_elements)
     for (const auto kinematics : all_kinematics) {
-      ElementFormulation formulation;
+      LawFormulation formulation;
       formulation.element = element;
       formulation.kinematics = kinematics;
       const auto block = make_element_block(material, formulation);

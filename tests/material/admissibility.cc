@@ -71,7 +71,7 @@ int main() {
 
   test_law("elastic", HenckyElasticity(steel));
   for_each_hardening([](const std::string &name, const auto &hardening) {
-    test_law(name, HenckyPlasticity(steel, hardening));
+    test_law(name, HenckyPlasticity(steel, make_hardening(hardening)));
   });
   return exit_code();
 }

@@ -85,9 +85,9 @@ void test_simple_shear() {
 /// = what the strain q/3G leaves over.
 void test_stretch() {
   const HypoelasticElasticity elastic(steel);
-  const HypoelasticPlasticity<LinearHardening> plastic(steel, perfect);
+  const HypoelasticPlasticity plastic(steel, make_hardening(perfect));
   HypoelasticElasticity::History elastic_n, elastic_history;
-  HypoelasticPlasticity<LinearHardening>::History plastic_n, plastic_history;
+  HypoelasticPlasticity::History plastic_n, plastic_history;
   SymmetricTensor<2, 3> tau, plastic_tau;
   Tensor<1, 3> strain;
   std::array<double, 3> last = {1., 1., 1.};
@@ -168,7 +168,7 @@ int main() {
   test_rotations("elastic", elastic);
   test_moduli("elastic", elastic, 0.1);
   for_each_hardening([](const std::string &name, const auto &hardening) {
-    const HypoelasticPlasticity<std::decay_t<decltype(hardening)>> law(steel, hardening);
+    const HypoelasticPlasticity law(steel, make_hardening(hardening));
     test_rotations(name, law);
     test_moduli(name, law, 0.1);
   });

@@ -62,7 +62,7 @@ int main() {
   test_rotations("elastic, 40 %", elastic, large, 1e-12);
   test_moduli("elastic", elastic, {}, 0.3);
   for_each_hardening([&](const std::string &name, const auto &hardening) {
-    const HenckyPlasticity law(steel, hardening);
+    const HenckyPlasticity law(steel, make_hardening(hardening));
     test_rotations(name + ", 5 %", law, moderate, 1e-12);
     test_rotations(name + ", 40 %", law, large, 1e-12);
     test_moduli(name + ", elastic", law, work(law), 1e-4);

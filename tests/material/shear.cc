@@ -98,9 +98,9 @@ double simple_shear_error(const Law &law, const YieldStress &yield_stress, const
 /// there with an error of first order in the step, which extrapolation removes.
 void test_steady_simple_shear() {
   const double G = 100., s = 30.;
-  const HenckyPlasticity law(ElasticModuli{250., G}, LinearHardening{s * std::sqrt(3.), 0.});
+  const HenckyPlasticity law(ElasticModuli{250., G}, make_hardening(LinearHardening{s * std::sqrt(3.), 0.}));
   const auto run = [&](const unsigned int steps_per_unit) {
-    HenckyPlasticity<LinearHardening>::History history_n, history;
+    HenckyPlasticity::History history_n, history;
     SymmetricTensor<2, 3> tau;
     double rate = 0.;
     for (unsigned int step = 1; step <= 8 * steps_per_unit; ++step) {
@@ -128,7 +128,7 @@ int main() {
   check("elastic, simple shear", error.value(), 1e-10);
 
   for_each_hardening([&](const std::string &name, const auto &hardening) {
-    const HenckyPlasticity law(steel, hardening);
+    const HenckyPlasticity law(steel, make_hardening(hardening));
     const auto yield_stress = [&](const double alpha) { return hardening.stress(alpha); };
     test_fixed_axes(name + ", fixed axes", law, yield_stress, 0.);
     test_fixed_axes(name + ", growing rotation", law, yield_stress, 1.3);

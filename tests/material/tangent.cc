@@ -75,8 +75,8 @@ int main() {
   elastic_properties.check_all("elastic");
 
   for_each_hardening([](const std::string &name, const auto &hardening) {
-    using Law = HenckyPlasticity<std::decay_t<decltype(hardening)>>;
-    const Law law(steel, hardening);
+    using Law = HenckyPlasticity;
+    const Law law(steel, make_hardening(hardening));
     Properties properties;
     const typename Law::History fresh, worked = work(law);
     for (const auto &[label, history_n] :

@@ -30,8 +30,8 @@ double one_sided_error(const Law &law, const State<Law> &state, const double sid
 
 int main() {
   for_each_hardening([](const std::string &name, const auto &hardening) {
-    using Law = HenckyPlasticity<std::decay_t<decltype(hardening)>>;
-    const Law law(steel, hardening);
+    using Law = HenckyPlasticity;
+    const Law law(steel, make_hardening(hardening));
     const typename Law::History fresh, worked = work(law);
     for (const auto &[label, history_n] :
          {std::pair(name + ", fresh, ", fresh), std::pair(name + ", worked, ", worked)}) {

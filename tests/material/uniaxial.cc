@@ -118,7 +118,7 @@ int main() {
     test_path("elastic, to log strain 1" + steps, elastic, never, {1.}, n_steps);
     test_path("elastic, to log strain -1" + steps, elastic, never, {-1.}, n_steps);
     for_each_hardening([&](const std::string &name, const auto &hardening) {
-      const HenckyPlasticity law(steel, hardening);
+      const HenckyPlasticity law(steel, make_hardening(hardening));
       const auto yield_stress = [&](const double alpha) { return hardening.stress(alpha); };
       test_path(name + ", elastic range" + steps, law, yield_stress, {2e-4, -1e-4, 3e-4}, n_steps);
       test_path(name + ", to log strain 1" + steps, law, yield_stress, {1.}, n_steps);

@@ -114,8 +114,7 @@ double continuum_instability(const ModuliOf &moduli_of, const unsigned int most_
 class Block {
 public:
   /// Inner nodes are moved at random by up to `moved` of an edge.
-  Block(const MaterialLaw &law, const ElementFormulation &formulation, const unsigned int n,
-        const double moved)
+  Block(const MaterialLaw &law, const LawFormulation &formulation, const unsigned int n, const double moved)
       : n_(n) {
     Random random;
     std::map<std::pair<unsigned int, unsigned int>, Tensor<1, 3>> places;
@@ -190,7 +189,7 @@ private:
 };
 
 /// The stretch at which the first negative eigenvalue of an elastic block appears; 0 if none does.
-double first_instability(const ElementFormulation &formulation, const unsigned int n, const double moved) {
+double first_instability(const LawFormulation &formulation, const unsigned int n, const double moved) {
   Block block(elastic_law(), formulation, n, moved);
   const auto is_unstable = [&](const double pressed) {
     return block.n_negative(press(elastic_stretch(pressed), pressed)) > 0;
@@ -212,8 +211,8 @@ std::string moved_by(const double moved) {
 }
 
 void check_elastic_blocks() {
-  ElementFormulation formulation;
-  formulation.kinematics = ElementFormulation::Kinematics::neo_hookean;
+  LawFormulation formulation;
+  formulation.kinematics = LawFormulation::Kinematics::neo_hookean;
   const double exact = continuum_instability(elastic_moduli, 8);
   check("a half space wrinkles at a stretch of 0.5437, a block a little later",
         exact > 0.542 && exact < 0.5437);
@@ -234,8 +233,8 @@ void check_elastic_blocks() {
 }
 
 void check_plastic_blocks() {
-  ElementFormulation formulation;
-  formulation.kinematics = ElementFormulation::Kinematics::hencky;
+  LawFormulation formulation;
+  formulation.kinematics = LawFormulation::Kinematics::hencky;
   constexpr unsigned int n = 8;
   constexpr double step = 0.005, tangent_step = 1e-6, lowest = 0.25;
   check("a plastic continuum is stable to a quarter of its height",

@@ -2,12 +2,16 @@
 // The comparison of elements: closed forms of bending of one brick, agreement where nothing bends, rigid
 // rotation, and the deformation theory's energy.
 #include "billet/mechanics/element_comparison.h"
+
+#include "../sample_formulations.h"
 #include "../testing.h"
 
 #include <cmath>
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::LawFormulation;
+using billet::testing::MaterialLaw;
 using Element = ElementFormulation::Element;
 
 namespace {
@@ -41,10 +45,10 @@ template <class Function> ElementVectors move(const ElementVectors &x, const Fun
 
 ElementEnergies compare(const MaterialLaw &law, const Element element, const ElementVectors &x,
                         const ElementVectors &u) {
-  ElementFormulation formulation;
+  LawFormulation formulation;
   formulation.element = element;
   ElementEnergies energies;
-  if (!ElementComparison(law, formulation).compare(x, u, energies))
+  if (!ElementComparison(make_law(law, formulation.kinematics), formulation).compare(x, u, energies))
     energies.used = std::nan("");
   return energies;
 }
@@ -183,7 +187,7 @@ int main() {
     const double yield = 2., modulus = 50.;
     MaterialLaw plastic = law;
     plastic.hardening = LinearHardening{yield, modulus};
-    const ElementComparison comparison(plastic, {});
+    const ElementComparison comparison(make_law(plastic, LawFormulation().kinematics), {});
     const double stiffness = 3. * law.elastic.shear;
     const auto energy = [&](const double strain) {
       return comparison.energy(0., 0.5 * stiffness * strain * strain);

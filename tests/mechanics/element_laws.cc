@@ -34,11 +34,11 @@ struct Errors {
   }
 };
 
-void test_tangent(const ElementFormulation &formulation, const Case &test, Errors &errors) {
+void test_tangent(const LawFormulation &formulation, const Case &test, Errors &errors) {
   const std::string name = name_of(formulation) + ", " + test.name;
   const NodalTensor X = distorted_cube();
   const auto make = [&](const bool is_symmetrised) {
-    ElementFormulation chosen = formulation;
+    LawFormulation chosen = formulation;
     chosen.is_symmetrised = is_symmetrised;
     auto block = make_block(test.material, X, chosen);
     for (const NodalTensor &u : test.history) {
@@ -56,7 +56,7 @@ void test_tangent(const ElementFormulation &formulation, const Case &test, Error
         (matrix - compute_difference(*block, test.u, test.step)).norm() / matrix.norm(), test.tolerance);
 
   const double asymmetry = (matrix - transpose(matrix)).norm() / matrix.norm();
-  const bool is_plastic = test.material.hardening.index() != 0;
+  const bool is_plastic = test.material.is_plastic();
   if (has_symmetric_tangent(formulation, is_plastic))
     errors.symmetry.add(asymmetry);
   else {
@@ -70,7 +70,7 @@ void test_tangent(const ElementFormulation &formulation, const Case &test, Error
     for (unsigned int a = 0; a < n_element_nodes; ++a)
       translation[3 * a + i] = 1.;
     rigid.add(multiply(K, translation).norm() / matrix.norm());
-    if (formulation.kinematics == ElementFormulation::Kinematics::hypoelastic)
+    if (formulation.kinematics == LawFormulation::Kinematics::hypoelastic)
       continue; // a rotation on top of another deformation turns its stress but for the error of the step
     Tensor<2, 3> spin;
     spin[i][(i + 1) % 3] = -1.;
@@ -84,7 +84,7 @@ void test_tangent(const ElementFormulation &formulation, const Case &test, Error
 }
 
 /// Undeformed: six rigid body modes, no hourglass mode.
-void test_modes(const ElementFormulation &formulation, const std::string &shape, const NodalTensor &X) {
+void test_modes(const LawFormulation &formulation, const std::string &shape, const NodalTensor &X) {
   ElementMatrix K;
   compute_force(*make_block({steel, linear}, X, formulation), NodalTensor(), &K);
   dealii::LAPACKFullMatrix<double> matrix(n_element_dofs);
@@ -104,7 +104,7 @@ void test_modes(const ElementFormulation &formulation, const std::string &shape,
 
 /// A cube of eight elements, distorted inside, under uniform F: the forces on the middle node cancel, and
 /// each element reports the same stress.
-void test_patch(const ElementFormulation &formulation) {
+void test_patch(const LawFormulation &formulation) {
   Random random;
   std::array<Tensor<1, 3>, 27> points;
   for (unsigned int p = 0; p < 27; ++p) {
@@ -142,7 +142,7 @@ void test_patch(const ElementFormulation &formulation) {
 }
 
 int main() {
-  for_each_formulation([](const ElementFormulation &formulation) {
+  for_each_formulation([](const LawFormulation &formulation) {
     Random random;
     const NodalTensor X = distorted_cube();
     Errors errors;

@@ -155,7 +155,7 @@ void test_rotation(const std::string &name, const MaterialLaw &material, const d
 
 int main() {
   test_uniform_element("elastic", elastic_material, HenckyElasticity(steel));
-  test_uniform_element("plastic", plastic_material, HenckyPlasticity(steel, linear));
+  test_uniform_element("plastic", plastic_material, HenckyPlasticity(steel, make_hardening(linear)));
   for (const auto &[name, material] :
        {std::pair("elastic", elastic_material), std::pair("plastic", plastic_material)}) {
     test_patch(name, material);

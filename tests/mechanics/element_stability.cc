@@ -44,13 +44,13 @@ Tensor<2, 3> stretch(const double x, const double y, const double z) {
   return F;
 }
 
-double elastic(const ElementFormulation &formulation, const Tensor<2, 3> &F) {
+double elastic(const LawFormulation &formulation, const Tensor<2, 3> &F) {
   const auto block = make_block({steel, {}}, cube(), formulation);
   return least_eigenvalue(*block, displace(F, cube()));
 }
 
 /// In the middle of ideal flow along a path of 50 small steps; the tangent is that of the next one.
-double flowing(const ElementFormulation &formulation, const Tensor<2, 3> &rate) {
+double flowing(const LawFormulation &formulation, const Tensor<2, 3> &rate) {
   constexpr unsigned int n_steps = 50;
   const auto block = make_block({steel, LinearHardening{300., 0.}}, cube(), formulation);
   for (unsigned int step = 1; step <= n_steps; ++step) {
@@ -63,8 +63,8 @@ double flowing(const ElementFormulation &formulation, const Tensor<2, 3> &rate) 
 } // namespace
 
 int main() {
-  ElementFormulation formulation;
-  formulation.kinematics = ElementFormulation::Kinematics::neo_hookean;
+  LawFormulation formulation;
+  formulation.kinematics = LawFormulation::Kinematics::neo_hookean;
   Tensor<2, 3> sheared = unit, shear_rate;
   sheared[0][1] = 2.;
   shear_rate[0][1] = 1.;
@@ -85,10 +85,10 @@ int main() {
     const std::string name = billet::name_of(element);
     for (const auto &[state, F] : states)
       check(name + ", elastic, " + state, elastic(formulation, F) > 0.);
-    formulation.kinematics = ElementFormulation::Kinematics::hencky;
+    formulation.kinematics = LawFormulation::Kinematics::hencky;
     for (const auto &[state, rate] : rates)
       check(name + ", ideal flow, " + state, flowing(formulation, rate) > 0.);
-    formulation.kinematics = ElementFormulation::Kinematics::neo_hookean;
+    formulation.kinematics = LawFormulation::Kinematics::neo_hookean;
   }
   formulation.element = ElementFormulation::Element::mean_dilatation;
   check("mean dilatation buckles, pressed to 0.4", elastic(formulation, stretch(1.2, 1.2, 0.4)) < -0.1);

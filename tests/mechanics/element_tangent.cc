@@ -44,14 +44,14 @@ void test_matrix(const std::string &name, ElementBlock &block, const NodalTensor
 
 /// Number of Gauss points that a step from the virgin state makes plastic.
 unsigned int count_plastic(const NodalTensor &X, const NodalTensor &u) {
-  const HenckyPlasticity law(steel, linear);
+  const HenckyPlasticity law(steel, make_hardening(linear));
   ReferenceElement element;
   MeanDilatationKinematics kinematics;
   AssertThrow(compute_reference_element(to_array(X), element), dealii::ExcInternalError());
   AssertThrow(compute_kinematics(element, to_array(u), kinematics), dealii::ExcInternalError());
   unsigned int n = 0;
   for (const Tensor<2, 3> &F : kinematics.F_bar) {
-    HenckyPlasticity<LinearHardening>::History history;
+    HenckyPlasticity::History history;
     SymmetricTensor<2, 3> tau;
     AssertThrow(law.update(F, {}, history, tau, nullptr), dealii::ExcInternalError());
     n += history.equivalent_plastic_strain > 0. ? 1 : 0;

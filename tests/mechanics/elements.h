@@ -2,6 +2,7 @@
 #ifndef BILLET_TESTS_MECHANICS_ELEMENTS_H
 #define BILLET_TESTS_MECHANICS_ELEMENTS_H
 
+#include "../sample_formulations.h"
 #include "../sample_laws.h"
 #include "../testing.h"
 
@@ -90,15 +91,16 @@ inline NodalTensor distorted_cube() {
 /// Displacements of the uniform deformation gradient F.
 inline NodalTensor displace(const Tensor<2, 3> &F, const NodalTensor &X) { return transform(F - unit, X); }
 
-inline std::string name_of(const ElementFormulation &formulation) {
-  return describe(formulation).substr(std::string("implicit, ").size());
+inline std::string name_of(const LawFormulation &formulation) {
+  const SharedLaw law = make_law({{1., 1.}, {}}, formulation.kinematics);
+  return describe(formulation, *law).substr(std::string("implicit, ").size());
 }
 
 /// Calls run(formulation) for every element and kinematics.
 template <class Function> void for_each_formulation(const Function &run) {
   for (const auto element : all_elements)
     for (const auto kinematics : all_kinematics) {
-      ElementFormulation formulation;
+      LawFormulation formulation;
       formulation.element = element;
       formulation.kinematics = kinematics;
       run(formulation);
@@ -106,7 +108,7 @@ template <class Function> void for_each_formulation(const Function &run) {
 }
 
 inline std::unique_ptr<ElementBlock> make_block(const MaterialLaw &material, const NodalTensor &X,
-                                                const ElementFormulation &formulation = {}) {
+                                                const LawFormulation &formulation = {}) {
   auto block = make_element_block(material, formulation);
   std::size_t offender = 0;
   AssertThrow(block->initialize({to_array(X)}, offender), dealii::ExcInternalError());

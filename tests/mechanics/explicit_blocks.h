@@ -11,7 +11,6 @@
 /// Explicit blocks as the tests use them: meshes with nodal vectors at stride 4.
 namespace billet::testing {
 
-using Formulation = ExplicitFormulation;
 using NodalArray = dealii::AlignedVector<double>;
 
 constexpr double density = 7.8e-9; ///< t/mm³
@@ -123,11 +122,16 @@ private:
 inline Formulation make_formulation(const Formulation::Element element,
                                     const Formulation::Kinematics kinematics,
                                     const InstructionSet instructions = InstructionSet::automatic) {
-  return {element, kinematics, 0., 0., instructions};
+  Formulation formulation;
+  formulation.element = element;
+  formulation.kinematics = kinematics;
+  formulation.linear_viscosity = formulation.quadratic_viscosity = 0.;
+  formulation.instructions = instructions;
+  return formulation;
 }
 
 inline std::string name_of(const Formulation &formulation) {
-  return std::string(billet::name_of(formulation.element)) + ", " + billet::name_of(formulation.kinematics);
+  return std::string(billet::name_of(formulation.element)) + ", " + name_of(formulation.kinematics);
 }
 
 /// Calls run(formulation) for every kernel.

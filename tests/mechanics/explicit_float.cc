@@ -203,10 +203,11 @@ void test_units(const Formulation &formulation) {
       MaterialLaw law = material;
       law.elastic.bulk *= stress;
       law.elastic.shear *= stress;
-      auto &hardening = std::get<VoceHardening>(law.hardening);
+      VoceHardening hardening = voce;
       hardening.yield_stress *= stress;
       hardening.saturation_stress *= stress;
       hardening.modulus *= stress;
+      law.hardening = hardening;
       const double dt = path.dt * length / std::sqrt(stress); // of the same density
       Body same(mesh, material, in_float(with_viscosity(formulation))),
           other(scaled, law, in_float(with_viscosity(formulation)));

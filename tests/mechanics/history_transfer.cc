@@ -69,7 +69,7 @@ int main() {
     check(testing::name_of(formulation) + ", history given to another",
           (twin.advance(1.01 * u, 1.) - f).norm(), 0.);
   });
-  testing::for_each_formulation([&](const ElementFormulation &formulation) {
+  testing::for_each_formulation([&](const LawFormulation &formulation) {
     const auto block = testing::make_block(material, X, formulation);
     for (unsigned int i = 1; i <= 50; ++i) {
       testing::compute_force(*block, i / 50. * u);
@@ -101,7 +101,7 @@ int main() {
       if (has_one)
         check(to + ", no hourglass energy", body.result().hourglass_energy, 1e-9);
       else if (formulation.kinematics != testing::Formulation::Kinematics::hypoelastic) {
-        ElementFormulation twin;
+        LawFormulation twin;
         twin.element = formulation.element;
         const auto reference = testing::make_block(material, X, twin);
         reference->set_stress(0, testing::to_array(u), wanted);
@@ -111,7 +111,7 @@ int main() {
     });
 
     testing::WorstError hourglass_energy, twin_error;
-    testing::for_each_formulation([&, &from = name, &wanted = stress](const ElementFormulation &formulation) {
+    testing::for_each_formulation([&, &from = name, &wanted = stress](const LawFormulation &formulation) {
       const auto block = testing::make_block(material, X, formulation);
       block->set_stress(0, testing::to_array(u), wanted);
       const bool has_one = formulation.element == ElementFormulation::Element::one_point;

@@ -65,8 +65,7 @@ struct Assembly {
 
 /// Cube without friction to 0.4 of its height. Yield in Kirchhoff stress, |τ| = σ_y + H α, with
 /// α = |ln 0.4| − |τ|/E; lateral log strain ν |τ|/E + α/2; Cauchy stress τ/J, ln J = −(1 − 2ν) |τ|/E.
-void test_upsetting(const unsigned int n_steps, const ElementFormulation &formulation,
-                    const double tolerance) {
+void test_upsetting(const unsigned int n_steps, const LawFormulation &formulation, const double tolerance) {
   const NodalTensor X = cube();
   Assembly cube_on_planes;
   cube_on_planes.block = make_block({steel, linear}, X, formulation);
@@ -110,7 +109,7 @@ void test_upsetting(const unsigned int n_steps, const ElementFormulation &formul
 /// Sector of angle φ and thickness 1 in plane strain, one element in angle, nodes at `radii`; the unknowns
 /// are the radial displacements, numbered from the outside so that the inner one comes last.
 Assembly make_sector(const MaterialLaw &material, const std::vector<double> &radii, const double phi,
-                     const ElementFormulation &formulation) {
+                     const LawFormulation &formulation) {
   Assembly sector;
   std::vector<ElementVectors> positions;
   const std::size_t n = radii.size() - 1;
@@ -141,7 +140,7 @@ Assembly make_sector(const MaterialLaw &material, const std::vector<double> &rad
 /// (Lamé, plane strain): u(a) = p a (1 + ν) ((1 − 2ν) a² + b²) / (E (b² − a²)). The radii are those of
 /// MacNeal & Harder (1985), each interval divided `refinement` times. The pressure on the inner facet, a
 /// chord, works on u(a) with p a sin φ.
-double cylinder_error(const double nu, const unsigned int refinement, const ElementFormulation &formulation) {
+double cylinder_error(const double nu, const unsigned int refinement, const LawFormulation &formulation) {
   const std::vector<double> coarse = {3., 3.5, 4.2, 5.2, 6.75, 9.};
   std::vector<double> radii = {coarse[0]};
   for (std::size_t i = 1; i < coarse.size(); ++i)
@@ -159,7 +158,7 @@ double cylinder_error(const double nu, const unsigned int refinement, const Elem
 
 /// Relative error of the limit pressure (2/√3) σ_y ln(b/a) of a cylinder with b = 2 a, perfectly plastic,
 /// whose inner radius is driven far beyond yield at strains so small that its shape stays.
-double limit_load_error(const double nu, const ElementFormulation &formulation, const unsigned int n = 8) {
+double limit_load_error(const double nu, const LawFormulation &formulation, const unsigned int n = 8) {
   constexpr unsigned int n_steps = 10;
   const double E = 2e5, yield_stress = 2., phi = 0.05;
   std::vector<double> radii;
@@ -179,13 +178,13 @@ double limit_load_error(const double nu, const ElementFormulation &formulation, 
 
 int main() {
   using Element = ElementFormulation::Element;
-  for_each_formulation([](const ElementFormulation &formulation) {
+  for_each_formulation([](const LawFormulation &formulation) {
     const std::string name = name_of(formulation) + ", ";
     // The closed form is the Hencky law's; that of midpoint strains has an error of second order in the step.
-    if (formulation.kinematics == ElementFormulation::Kinematics::hencky)
+    if (formulation.kinematics == LawFormulation::Kinematics::hencky)
       for (const unsigned int n_steps : {5, 50})
         test_upsetting(n_steps, formulation, 1e-10);
-    else if (formulation.kinematics == ElementFormulation::Kinematics::hypoelastic)
+    else if (formulation.kinematics == LawFormulation::Kinematics::hypoelastic)
       test_upsetting(200, formulation, 1e-4);
     check(name + "thick cylinder, Poisson's ratio 0.3", cylinder_error(0.3, 1, formulation), 0.02);
     for (const auto &[ratio, nu] :

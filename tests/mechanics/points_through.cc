@@ -11,24 +11,22 @@ using namespace billet::testing;
 const std::vector<unsigned int> more_points = {3, 5, 7};
 
 std::unique_ptr<ElementBlock> make_layers(const MaterialLaw &material, const NodalTensor &X,
-                                          const ElementFormulation &formulation,
-                                          const ThicknessAxis &axis = {}) {
+                                          const LawFormulation &formulation, const ThicknessAxis &axis = {}) {
   auto block = make_element_block(material, formulation);
   std::size_t offender = 0;
   AssertThrow(block->initialize({to_array(X)}, {axis}, offender), dealii::ExcInternalError());
   return block;
 }
 
-ElementFormulation
-with_points(const unsigned int n,
-            const ElementFormulation::Kinematics kinematics = ElementFormulation::Kinematics::hencky) {
-  ElementFormulation formulation;
+LawFormulation with_points(const unsigned int n,
+                           const LawFormulation::Kinematics kinematics = LawFormulation::Kinematics::hencky) {
+  LawFormulation formulation;
   formulation.points_through = n;
   formulation.kinematics = kinematics;
   return formulation;
 }
 
-void test_tangent(const ElementFormulation &formulation) {
+void test_tangent(const LawFormulation &formulation) {
   const std::string name = name_of(formulation);
   const NodalTensor X = distorted_cube();
   WorstError elastic_error, plastic_error, mixed_error, symmetry, rigid, balance, same;
@@ -36,7 +34,7 @@ void test_tangent(const ElementFormulation &formulation) {
   const auto deform = [&](const double uniform, const double nodal) {
     // Rates see the middle of a step, which a large rotation loses.
     const Tensor<2, 3> rotation =
-        formulation.kinematics == ElementFormulation::Kinematics::hypoelastic ? unit : random.rotation();
+        formulation.kinematics == LawFormulation::Kinematics::hypoelastic ? unit : random.rotation();
     return displace(rotation * (unit + random.tensor(uniform)), X) + random_nodal(random, nodal);
   };
   const auto add = [&](ElementBlock &block, const NodalTensor &u, const double step, const bool is_plastic,
@@ -85,14 +83,14 @@ void test_tangent(const ElementFormulation &formulation) {
 
 /// Uniform deformation gives the forces of two points; so do small elastic strains of a box, whatever its
 /// axis.
-void test_patch_and_elasticity(const ElementFormulation &formulation) {
+void test_patch_and_elasticity(const LawFormulation &formulation) {
   const std::string name = name_of(formulation);
   Random random;
   Tensor<2, 3> edges;
   for (unsigned int i = 0; i < 3; ++i)
     edges[i][i] = 1. + 0.4 * i;
   const NodalTensor X = distorted_cube(), box = transform(random.rotation() * edges, cube());
-  ElementFormulation twin = formulation;
+  LawFormulation twin = formulation;
   twin.points_through = 2;
   WorstError patch, elastic, matrices, energies;
   for (unsigned int code = 0; code < 6; ++code) {
@@ -127,8 +125,8 @@ void test_patch_and_elasticity(const ElementFormulation &formulation) {
 /// M_p = σ t²/4 where it is free across, 2/√3 of it in plane strain, at these multiples of the curvature at
 /// first yield.
 std::vector<double> bend(const unsigned int n, const bool is_plane_strain,
-                         const std::vector<double> &multiples,
-                         const ElementFormulation::Kinematics kinematics, double &pressure_error) {
+                         const std::vector<double> &multiples, const LawFormulation::Kinematics kinematics,
+                         double &pressure_error) {
   constexpr double yield = 0.7;
   const double limit = (is_plane_strain ? 2. / std::sqrt(3.) : 1.) * yield / 4.;
   const double first = 2. * (is_plane_strain ? yield / std::sqrt(1. - poisson + poisson * poisson) : yield) *
@@ -172,7 +170,7 @@ std::vector<double> bend(const unsigned int n, const bool is_plane_strain,
 }
 
 /// The more points the closer, through all of the curve.
-void test_bending(const ElementFormulation::Kinematics kinematics) {
+void test_bending(const LawFormulation::Kinematics kinematics) {
   const std::string name = name_of(with_points(2, kinematics));
   const std::vector<double> multiples = {1.5, 2., 3., 5., 20.};
   const std::vector<double> tolerances = {0.16, 0.115, 0.035, 0.0135};
@@ -195,7 +193,7 @@ void test_bending(const ElementFormulation::Kinematics kinematics) {
 }
 
 /// States go to other numbers of points and keep their means; a brick has the stress that it was given.
-void test_transfer(const ElementFormulation::Kinematics kinematics) {
+void test_transfer(const LawFormulation::Kinematics kinematics) {
   const std::string name = name_of(with_points(2, kinematics));
   Random random;
   const NodalTensor X = distorted_cube(), u = random_nodal(random, 0.1);

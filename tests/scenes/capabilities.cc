@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a scene does not require is neither stored nor solved for: doubles of history, and the kind of matrix,
 // of the billet with one thing after another taken away.
+#include "materials.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -38,7 +39,7 @@ int main(int argc, char *argv[]) {
   check("and an unsymmetric matrix", !all.has_symmetric_matrix);
 
   parameters::Scene elastic = full;
-  elastic.bodies[0].material.law = parameters::Material::Law::elastic;
+  testing::make_elastic(elastic.bodies[0].material);
   check("without plasticity: no history of elements",
         count(elastic).of_elements == 0 && !count(elastic).capabilities.plasticity);
 

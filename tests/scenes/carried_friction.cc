@@ -2,6 +2,7 @@
 // A block that sticks to a plane keeps its tractions, in the frame of the plane, while both turn by 360° and
 // move: about the plane's normal (which the print of Bittencourt & Creus' frame misses) and about an axis in
 // the plane. A full cycle of sticking shear leaves no traction at any node.
+#include "materials.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -54,8 +55,8 @@ void carry(parameters::Scene parameters, const std::string &name, const Tensor<1
 /// Sheared to one side, to the other and back while it sticks, an elastic block keeps the tractions that it
 /// was pressed with, at every node; across the normal those are none if it does not widen.
 void cycle(parameters::Scene parameters, const double poisson_ratio) {
-  parameters.bodies[0].material.law = parameters::Material::Law::elastic;
-  parameters.bodies[0].material.poisson_ratio = poisson_ratio;
+  testing::make_elastic(parameters.bodies[0].material);
+  testing::set_poisson_ratio(parameters.bodies[0].material, poisson_ratio);
   parameters.amplitudes[0].times = {0., 0.25};
   parameters.time_stepping.end_time = 1.;
   parameters.bodies[0].supports[0].displacement.value = {"0.001*sin(2*pi*max(0, t - 0.25)/0.75)", "0",

@@ -2,6 +2,7 @@
 // Nodes that slide from patch to patch of a curved tool keep frame and history of their friction: a cylinder
 // as a whole, as its sectors and as Coons patches, over which a block is pulled, which turns under it, or
 // both, gives the same forces and nodal tractions.
+#include "materials.h"
 #include "scene_run.h"
 
 #include "../geometry/make_surface.h"
@@ -124,7 +125,7 @@ int main(int argc, char *argv[]) {
                              Motion{"sliding and turning, with more friction", "0.4*max(0, t - 0.25)",
                                     "-0.15*max(0, t - 0.25)", 0.4}}) {
     parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
-    scene.bodies[0].material.law = parameters::Material::Law::elastic;
+    testing::make_elastic(scene.bodies[0].material);
     scene.bodies[0].supports[0].displacement.value = {motion.pull, "0.3*(" + motion.pull + ")",
                                                       "-0.09*min(1, 4*t)"};
     scene.tools[0].motion.rotation_axis = Tensor<1, 3>({0., 1., 0.});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The billet between elastic dies: its force comes to that of rigid dies as they grow stiff. Dies that leave
 // unload it elastically, and nothing touches any more.
+#include "materials.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -28,7 +29,7 @@ parameters::Scene read_scene(const double ratio) {
   for (auto &body : parameters.bodies)
     if (body.name == "die") {
       body.mesh.arguments = "5, 5, 2 : 0, 0, 15 : 20, 20, 25 : true";
-      body.material.young_modulus = ratio * 200e3;
+      testing::set_young_modulus(body.material, ratio * 200e3);
     }
   return parameters;
 }

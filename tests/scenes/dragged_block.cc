@@ -2,6 +2,7 @@
 // A block held at its top, pressed onto a tool, with sliding friction: pulled over a plane; on a cylinder
 // that turns under it; on a plane that turns under it. At every node the friction is μ p, and against the
 // velocity of the node relative to the tool, as near as a step of finite length tells.
+#include "materials.h"
 #include "scene_run.h"
 
 #include "../geometry/make_surface.h"
@@ -69,7 +70,8 @@ parameters::Scene make_scene(const testing::SurfacePart &part, const Tensor<1, 3
   parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
   const std::string press = std::to_string(-0.02) + "*min(t, 1)";
   scene.bodies[0].supports[0].displacement.value = {dealii::Utilities::to_string(pull) + "*t", "0", press};
-  scene.bodies[0].material.yield_stress = 1e6;
+  testing::set_hardening(scene.bodies[0].material,
+                         LinearHardening{1e6, testing::linear_hardening(scene.bodies[0].material).modulus});
   auto &tool = scene.tools[0];
   tool.surface = testing::make_surface(part.shape, part.lines);
   tool.motion.rotation_axis = axis;

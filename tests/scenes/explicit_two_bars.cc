@@ -3,6 +3,7 @@
 // match and that do not, in one pass and in two, at soft and at stiff penalties. Bars of different stiffness:
 // penalties by the stiffer and in series.
 #include "explicit_run.h"
+#include "materials.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -64,8 +65,8 @@ void test(const double penalty, const unsigned int across, const bool two_passes
 void test_unequal(const std::string &name, const parameters::ContactPair::PenaltyOf penalty_of,
                   const double unit) {
   parameters::Scene scene = testing::read_test_scene("two_bars.prm");
-  const double young_modulus = scene.bodies[0].material.young_modulus;
-  scene.bodies[1].material.young_modulus = 4. * young_modulus;
+  const double young_modulus = testing::young_modulus(scene.bodies[0].material);
+  testing::set_young_modulus(scene.bodies[1].material, 4. * young_modulus);
   scene.pairs[0].penalty_of = penalty_of;
   scene.time_stepping.end_time = 40e-6; // the right front comes back 50 µs after the blow
   testing::ExplicitRun bars(scene);

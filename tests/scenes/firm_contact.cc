@@ -2,6 +2,7 @@
 // What contact with automatic tolerances takes of the forces, against a closed form and tight augmentation.
 #include "billet/solve/stick_softness.h"
 #include "explicit_run.h"
+#include "materials.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -90,7 +91,7 @@ void check_confinement() {
   check("a confined block that is hardly compressible bears what it should, implicitly",
         std::abs(drag(parameters)[2] / exact(0.4999) - 1.), allowed);
   parameters.time_stepping.scheme = parameters::TimeStepping::Scheme::explicit_dynamics;
-  parameters.bodies[0].material.poisson_ratio = 0.499;
+  testing::set_poisson_ratio(parameters.bodies[0].material, 0.499);
   parameters.bodies[0].material.density.value = 10.;
   testing::ExplicitRun run(parameters);
   const double end = parameters.time_stepping.end_time;

@@ -3,6 +3,7 @@
 // met ends each step at that travel; a die that stops at a force stops where the run had that force; a platen
 // that a moment turns ends at the angle of a run with given angle; after the die is taken away a frictionless
 // billet springs back to the plastic strain of the closed form, and no force is left.
+#include "materials.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -139,7 +140,8 @@ int main(int argc, char *argv[]) {
   parameters::Scene held = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
   held.amplitudes.push_back(make_amplitude("load", {0., 1., 2.}, {0., 1., 0.}));
   held.bodies[0].supports.clear();
-  held.bodies[0].material.yield_stress = 1e6;
+  testing::set_hardening(held.bodies[0].material,
+                         LinearHardening{1e6, testing::linear_hardening(held.bodies[0].material).modulus});
   held.tools[0].motion.translation.value = {"0", "0", "0"};
   held.tools[0].motion.rotation_angle.value = "0";
   held.tools.push_back(held.tools[0]);

@@ -3,6 +3,7 @@
 // are not.
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "materials.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -23,7 +24,8 @@ std::array<unsigned int, 3> count(const std::string &scene, const double factor,
   auto parameters = testing::read_shipped_scene(scene);
   parameters.pairs[0].penalty_unit = parameters::ContactPair::PenaltyUnit::factor;
   parameters.pairs[0].normal_penalty = parameters.pairs[0].tangential_penalty = factor;
-  parameters.bodies[0].material.young_modulus *= modulus_ratio;
+  testing::set_young_modulus(parameters.bodies[0].material,
+                             modulus_ratio * testing::young_modulus(parameters.bodies[0].material));
   parameters.time_stepping.end_time = scene == "billet_upsetting.prm" ? 0.2 : 1.;
   parameters.solver.force_tolerance = force_tolerance;
   SceneRun run(parameters);

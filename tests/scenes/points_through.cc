@@ -2,6 +2,7 @@
 // Springback of a perfectly plastic strip with 2 to 7 points through its one brick against the closed form;
 // it continues from a checkpoint to the last bit, also on other ranks, and from other numbers of points.
 
+#include "materials.h"
 #include "restart_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -114,7 +115,7 @@ int main(int argc, char *argv[]) {
   testing::test_going_on<testing::ImplicitSolutionRun>(
       "Five points", scene, {0.8, 1.4},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
-  scene.bodies[0].material.kinematics.value = parameters::Material::Kinematics::hypoelastic;
+  testing::set_elasticity(scene.bodies[0].material, "hypoelastic");
   testing::test_going_on<testing::ImplicitSolutionRun>(
       "Five points, hypoelastic", scene, {0.8},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });

@@ -2,6 +2,7 @@
 // Runs that stop and go on, through a file: the rest is that of the run without interruption, bit by bit on
 // as many ranks, to 1e-8 on others. A press with friction, plasticity, a tool with a force, one that stops,
 // one that is taken away; an impact with all that an explicit scene may have; a ring that touches itself.
+#include "materials.h"
 #include "restart_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -29,7 +30,7 @@ int main(int argc, char *argv[]) {
     parameters::Scene scene = testing::read_test_scene("restart_press.prm");
     scene.solver.force_tolerance = 1e-11;
     scene.bodies[0].element.value = parameters::Body::ElementType::one_point;
-    scene.bodies[0].material.kinematics.value = parameters::Material::Kinematics::hypoelastic;
+    testing::set_elasticity(scene.bodies[0].material, "hypoelastic");
     for (auto &pair : scene.pairs)
       pair.penetration_tolerance = 0.; // whether to augment once more may hang on round-off, and so on ranks
     testing::set_fixed_steps(scene, 25);

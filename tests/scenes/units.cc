@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // mm-N-MPa and m-N-Pa give the same steps, the same iterations and the same forces.
+#include "materials.h"
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>
@@ -38,9 +39,11 @@ int main(int argc, char *argv[]) {
     parameters::Scene in_m = in_mm;
     auto &body = in_m.bodies[0];
     body.mesh.scale = 1e-3;
-    body.material.young_modulus *= 1e6;
-    body.material.yield_stress *= 1e6;
-    body.material.hardening_modulus *= 1e6;
+    LinearHardening hardening = testing::linear_hardening(body.material);
+    hardening.yield_stress *= 1e6;
+    hardening.modulus *= 1e6;
+    testing::set_young_modulus(body.material, 1e6 * testing::young_modulus(body.material));
+    testing::set_hardening(body.material, hardening);
     in_m.tools[0].surface =
         testing::make_plane(dealii::Tensor<1, 3>({0., 0., 15e-3}), dealii::Tensor<1, 3>({0., 0., -1.}));
     in_m.tools[0].motion.translation.value[2] = "-9.6e-3*t";

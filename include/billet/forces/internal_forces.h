@@ -20,11 +20,14 @@ public:
   /// Throws InputError, on all ranks, if an element is inverted in the undeformed mesh.
   InternalForces(const Scene &scene, const Discretization &discretization);
 
+  /// Begins a step of this length [time]; of zero where the state at the start is to be evaluated.
+  void start_step(const double dt) { step_.dt = dt; }
+
   /// Adds the forces [force] to `forces` (additive vector). False if an element on this rank is not
   /// admissible.
   bool assemble_forces(const Vector &displacements, Vector &forces);
 
-  /// Adds the tangent [force/length]. False as above. `yield_slack`: see HenckyPlasticity::update().
+  /// Adds the tangent [force/length]. False as above. `yield_slack`: see PointStep.
   bool assemble_tangent(const Vector &displacements, const TangentSystem &system, double yield_slack = 0.);
 
   /// The state of the last assembly becomes the start of the next step.
@@ -58,6 +61,7 @@ private:
   void count() const;
 
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
+  PointStep step_;
   std::size_t n_plastic_ = 0, n_stabilised_ = 0;      ///< elements
   HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
 };

@@ -3,6 +3,8 @@
 #define BILLET_MATERIAL_ELASTIC_H
 
 #include "billet/material/hencky.h"
+#include "billet/material/point_law.h"
+#include "billet/material/stability.h"
 
 namespace billet {
 
@@ -20,15 +22,15 @@ class HenckyElasticity {
 public:
   struct History {};
   using Moduli = SpatialModuli;
-  static constexpr bool has_plasticity = false, has_history = false, is_rate_form = false,
-                        has_symmetric_moduli = true;
-  static constexpr unsigned int n_history = 0;
+  static constexpr bool has_plasticity = false, is_rate_form = false, has_symmetric_moduli = true,
+                        has_exact_dissipation = true;
+  static constexpr LaneLaw lane_law = LaneLaw::hencky;
 
   explicit HenckyElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 
   /// Stress (and, if `moduli` is given, tangent) at deformation gradient F; see HenckyPlasticity::update().
   bool update(const dealii::Tensor<2, 3> &F, const History &, History &, dealii::SymmetricTensor<2, 3> &tau,
-              SpatialModuli *moduli, double = 0.) const {
+              SpatialModuli *moduli, const PointStep & = {}) const {
     PrincipalElasticState state;
     PrincipalResponse response;
     if (!respond(F, state, response))
@@ -45,8 +47,10 @@ public:
     return respond(F, state, response) ? compute_elastic_energy(elastic_, state) : 0.;
   }
 
-  static double plastic_work(const History &) { return 0.; }
-  static double equivalent_plastic_strain(const History &) { return 0.; }
+  const ElasticModuli &elastic() const { return elastic_; }
+  double least_wave_stiffness(const Stretches &stretches) const {
+    return billet::least_wave_stiffness(*this, elastic_.shear, stretches);
+  }
 
 private:
   bool respond(const dealii::Tensor<2, 3> &F, PrincipalElasticState &state,

@@ -2,27 +2,69 @@
 #ifndef BILLET_MATERIAL_HARDENING_H
 #define BILLET_MATERIAL_HARDENING_H
 
-#include <algorithm>
-#include <cmath>
+#include "billet/material/flow_stress.h"
+#include "billet/registered_type.h"
+
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace billet {
 
-// Isotropic hardening laws: yield stress over equivalent plastic strain, both in the sense of von Mises.
-// Each law is a small value type with
-//   stress(a)   yield stress at equivalent plastic strain a >= 0        [stress]
-//   slope(a)    its derivative, from the right where it has a kink      [stress]
-//   work(a)     plastic work per reference volume up to a, ∫ stress     [stress]
-// A new law is one more such type and an alternative of MaterialLaw.
+/// Isotropic hardening: the flow stress depends on the equivalent plastic strain alone.
+class HardeningLaw : public FlowStress {
+public:
+  /// Returns the derivative of stress(), from the right where it has a kink [stress].
+  virtual double slope(double alpha) const = 0;
+  /// Returns ∫ stress from 0 to α [stress].
+  virtual double work(double alpha) const = 0;
+  double plastic_work(const double alpha, const State &) const final { return work(alpha); }
+  double plastic_work_at_rest(const double alpha) const final { return work(alpha); }
+};
+
+/// A hardening law from a value type with
+///   stress(a), slope(a), work(a)   as above, a ≥ 0
+///   is_bounded(), description()    as in FlowStress
+/// and, where it has one, lane_form().
+template <class Law> class Hardening final : public HardeningLaw {
+public:
+  explicit Hardening(Law law) : law_(std::move(law)) {}
+
+  std::string description() const override { return law_.description(); }
+  double stress(const double alpha) const override { return law_.stress(alpha); }
+  double slope(const double alpha) const override { return law_.slope(alpha); }
+  double work(const double alpha) const override { return law_.work(alpha); }
+  PlasticIncrement solve(const double q, const double m, const double alpha_n, double) const override {
+    const double delta = q > law_.stress(alpha_n) ? solve_consistency(law_, q, m, alpha_n) : 0.;
+    return {delta, law_.slope(alpha_n + delta)};
+  }
+  bool is_bounded() const override { return law_.is_bounded(); }
+  LaneHardening lane_form() const override { return find_lane_form(law_, 0); }
+
+private:
+  template <class L> static auto find_lane_form(const L &law, int) -> decltype(law.lane_form()) {
+    return law.lane_form();
+  }
+  template <class L> static LaneHardening find_lane_form(const L &, long) { return {}; }
+
+  Law law_;
+};
+
+template <class Law> std::shared_ptr<const HardeningLaw> make_hardening(Law law) {
+  return std::make_shared<const Hardening<Law>>(std::move(law));
+}
 
 /// σ_y + H a. H = 0 is perfect plasticity.
 struct LinearHardening {
   double yield_stress;
   double modulus;
 
+  static std::string description() { return "linear hardening"; }
   double stress(const double a) const { return yield_stress + modulus * a; }
   double slope(const double) const { return modulus; }
   double work(const double a) const { return (yield_stress + 0.5 * modulus * a) * a; }
+  bool is_bounded() const { return modulus == 0.; }
+  LaneHardening lane_form() const;
 };
 
 /// Voce's saturation with a linear part: σ_y + (σ_∞ − σ_y)(1 − exp(−δ a)) + H a.
@@ -32,6 +74,7 @@ struct VoceHardening {
   double saturation_rate;
   double modulus;
 
+  static std::string description() { return "Voce's hardening"; }
   double stress(const double a) const {
     return yield_stress - (saturation_stress - yield_stress) * std::expm1(-saturation_rate * a) + modulus * a;
   }
@@ -42,6 +85,8 @@ struct VoceHardening {
     return (saturation_stress + 0.5 * modulus * a) * a +
            (saturation_stress - yield_stress) / saturation_rate * std::expm1(-saturation_rate * a);
   }
+  bool is_bounded() const { return modulus == 0.; }
+  LaneHardening lane_form() const;
 };
 
 /// Swift's power law K (ε0 + a)^n. ε0 > 0 keeps the initial slope finite.
@@ -50,46 +95,47 @@ struct PowerLawHardening {
   double prestrain;
   double exponent;
 
+  static std::string description() { return "power-law hardening"; }
   double stress(const double a) const { return strength * std::pow(prestrain + a, exponent); }
   double slope(const double a) const { return strength * exponent * std::pow(prestrain + a, exponent - 1.); }
   double work(const double a) const {
     return strength / (exponent + 1.) *
            (std::pow(prestrain + a, exponent + 1.) - std::pow(prestrain, exponent + 1.));
   }
+  bool is_bounded() const { return exponent == 0.; }
+  LaneHardening lane_form() const;
 };
 
 /// Straight lines through (strain, stress) points; constant beyond the last one. The strains start at 0 and
 /// increase strictly.
 class TabulatedHardening {
 public:
-  TabulatedHardening(std::vector<double> strains, std::vector<double> stresses)
-      : strains_(std::move(strains)), stresses_(std::move(stresses)), works_(strains_.size(), 0.) {
-    for (std::size_t i = 1; i < strains_.size(); ++i)
-      works_[i] = works_[i - 1] + 0.5 * (stresses_[i] + stresses_[i - 1]) * (strains_[i] - strains_[i - 1]);
-  }
+  TabulatedHardening(std::vector<double> strains, std::vector<double> stresses);
 
-  double stress(const double a) const {
-    const std::size_t i = segment(a);
-    return stresses_[i] + slope_of(i) * (a - strains_[i]);
-  }
-  double slope(const double a) const { return slope_of(segment(a)); }
-  double work(const double a) const {
-    const std::size_t i = segment(a);
-    const double da = a - strains_[i];
-    return works_[i] + (stresses_[i] + 0.5 * slope_of(i) * da) * da;
-  }
+  static std::string description() { return "tabulated hardening"; }
+  double stress(double a) const;
+  double slope(double a) const;
+  double work(double a) const;
+  static bool is_bounded() { return true; }
 
 private:
-  std::size_t segment(const double a) const {
-    const auto second = strains_.begin() + 1;
-    return static_cast<std::size_t>(std::upper_bound(second, strains_.end(), a) - second);
-  }
-  double slope_of(const std::size_t i) const {
-    return i + 1 < strains_.size() ? (stresses_[i + 1] - stresses_[i]) / (strains_[i + 1] - strains_[i]) : 0.;
-  }
+  std::size_t segment(double a) const;
+  double slope_of(std::size_t segment) const;
 
   std::vector<double> strains_, stresses_, works_;
 };
+
+/// Hardening laws that a scene file can name. A new one is a file in source/material/ with a function that
+/// returns its type, and its name in the table of hardening.cc.
+using HardeningType = RegisteredType<std::shared_ptr<const HardeningLaw>>;
+TypeTable<std::shared_ptr<const HardeningLaw>> &hardening_types();
+
+/// Words for what is allowed where more would be softening.
+std::string no_softening(const std::string &allowed);
+/// Returns a number that must not be negative, since that would be softening.
+double read_hardening(const TypeInput &input, const std::string &key);
+/// Parameter of several hardening laws.
+extern const TypeParameter yield_stress_parameter, hardening_modulus_parameter;
 
 } // namespace billet
 

@@ -2,26 +2,9 @@
 #ifndef BILLET_MATERIAL_HENCKY_H
 #define BILLET_MATERIAL_HENCKY_H
 
-#include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/base/tensor.h>
-
-#include <array>
+#include "billet/material/moduli.h"
 
 namespace billet {
-
-/// Bulk and shear modulus of an isotropic solid [stress].
-struct ElasticModuli {
-  double bulk;
-  double shear;
-
-  static ElasticModuli from_young_poisson(const double young, const double poisson) {
-    return {young / (3. * (1. - 2. * poisson)), young / (2. * (1. + poisson))};
-  }
-};
-
-/// Tangent moduli c of the Lie derivative of the Kirchhoff stress, L_v τ = c : d, as a 6 × 6 matrix that maps
-/// (d11, d22, d33, 2 d12, 2 d13, 2 d23) onto (τ11, τ22, τ33, τ12, τ13, τ23) [stress].
-using SpatialModuli = std::array<std::array<double, 6>, 6>;
 
 /// Elastic left Cauchy-Green tensor in its principal frame.
 struct PrincipalElasticState {

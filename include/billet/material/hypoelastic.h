@@ -6,11 +6,6 @@
 
 namespace billet {
 
-/// Derivative of a stress by the velocity gradient, δτ = A : L with L = δF F⁻¹, where a law has no moduli in
-/// the sense of SpatialModuli: rows τ11, τ22, τ33, τ12, τ13, τ23, columns L11, L12, L13, L21, ... L33
-/// [stress].
-using GradientModuli = std::array<std::array<double, 9>, 6>;
-
 /// The increment of a step from F_n to F: ΔL = (F − F_n) F_m⁻¹ with F_m in the middle of the step, and the
 /// rotation R = (1 − W/2)⁻¹ (1 + W/2), W = skew ΔL (Hughes & Winget 1980).
 struct MidpointIncrement {
@@ -43,15 +38,16 @@ public:
     dealii::SymmetricTensor<2, 3> deviator;                      ///< dev τ [stress]
   };
   using Moduli = GradientModuli;
-  static constexpr bool has_plasticity = false, has_history = true, is_rate_form = true,
-                        has_symmetric_moduli = false;
+  static constexpr bool has_plasticity = false, is_rate_form = true, has_symmetric_moduli = false,
+                        has_exact_dissipation = false;
+  static constexpr LaneLaw lane_law = LaneLaw::hypoelastic;
 
   explicit HypoelasticElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 
   /// As HenckyPlasticity::update(), but for the volume ratio J of the pressure κ ln J, which is given: in an
   /// element with mean dilatation F is not that of F̄. `moduli`: of dev τ alone.
   bool update(const dealii::Tensor<2, 3> &F, const double J, const History &history_n, History &history,
-              dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, double = 0.) const {
+              dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const PointStep & = {}) const {
     MidpointIncrement increment;
     if (!(J > 0.) || !compute_increment(history_n.F, F, increment))
       return false;
@@ -74,7 +70,7 @@ public:
     return {F, deviator};
   }
 
-  static constexpr unsigned int n_history = 15;
+  static std::vector<StateField> fields() { return {{"deformation gradient", 9}, {"deviator", 6}}; }
   static void store(const History &history, double *numbers) {
     for (unsigned int i = 0; i < 9; ++i)
       numbers[i] = history.F[i / 3][i % 3];
@@ -90,8 +86,10 @@ public:
     return history;
   }
 
-  static double plastic_work(const History &) { return 0.; }
-  static double equivalent_plastic_strain(const History &) { return 0.; }
+  const ElasticModuli &elastic() const { return elastic_; }
+  double least_wave_stiffness(const Stretches &stretches) const {
+    return least_wave_stiffness_of_rates(elastic_, stretches);
+  }
 
 private:
   ElasticModuli elastic_;
@@ -99,58 +97,24 @@ private:
 
 /// The same with J2 plasticity: q − 3 G Δα = σ_y(α + Δα), the deviator scaled by β = σ_y/q. Yields in
 /// Kirchhoff stress.
-template <class Hardening> class HypoelasticPlasticity {
+class HypoelasticPlasticity {
 public:
   struct History : HypoelasticElasticity::History {
     double equivalent_plastic_strain = 0.; ///< α
+    FlowStress::State flow{};
   };
   using Moduli = GradientModuli;
-  static constexpr bool has_plasticity = true, has_history = true, is_rate_form = true,
-                        has_symmetric_moduli = false;
+  static constexpr bool has_plasticity = true, is_rate_form = true, has_symmetric_moduli = false,
+                        has_exact_dissipation = false;
+  static constexpr LaneLaw lane_law = LaneLaw::hypoelastic;
 
-  HypoelasticPlasticity(const ElasticModuli &elastic, Hardening hardening)
-      : elastic_law_(elastic), elastic_(elastic), hardening_(std::move(hardening)) {}
+  HypoelasticPlasticity(const ElasticModuli &elastic, std::shared_ptr<const FlowStress> flow)
+      : elastic_law_(elastic), elastic_(elastic), flow_(std::move(flow)) {}
 
-  /// See HypoelasticElasticity::update() and, for `yield_slack`, HenckyPlasticity::update(). With s the trial
-  /// deviator, dev τ = β s: the moduli are β A + s ⊗ (k − β)/q ∂q, k = σ_y'/(3 G + σ_y'), ∂q = 3/2 s : A/q.
-  bool update(const dealii::Tensor<2, 3> &F, const double J, const History &history_n, History &history,
-              dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const double yield_slack = 0.,
-              SharedYield *shared = nullptr) const {
-    if (!elastic_law_.update(F, J, history_n, history, tau, moduli))
-      return false;
-    const double alpha_n = history_n.equivalent_plastic_strain;
-    history.equivalent_plastic_strain = alpha_n;
-    const dealii::SymmetricTensor<2, 3> s = history.deviator;
-    const double q =
-        std::sqrt(1.5 * (s * s) + (shared != nullptr ? 6. * elastic_.shear * shared->energy : 0.));
-    const double yield_stress = hardening_.stress(alpha_n);
-    if (q > yield_stress * (1. + yield_slack)) {
-      const double three_g = 3. * elastic_.shear;
-      const double delta_alpha = q > yield_stress ? solve_consistency(hardening_, q, three_g, alpha_n) : 0.;
-      const double reduction = three_g * delta_alpha / q, beta = 1. - reduction;
-      history.equivalent_plastic_strain += delta_alpha;
-      history.deviator = beta * s;
-      tau -= reduction * s;
-      const double slope = hardening_.slope(alpha_n + delta_alpha), k = slope / (three_g + slope);
-      if (shared != nullptr) {
-        shared->share = beta;
-        shared->slope = three_g * (k - beta) / (q * q);
-      }
-      if (moduli != nullptr) {
-        const double factor = 1.5 * (k - beta) / (q * q);
-        for (unsigned int j = 0; j < 9; ++j) {
-          double projection = 0.; // s : A
-          for (unsigned int i = 0; i < 6; ++i)
-            projection += (i < 3 ? 1. : 2.) * s.access_raw_entry(i) * (*moduli)[i][j];
-          if (shared != nullptr)
-            shared->rate[j / 3][j % 3] = factor * projection;
-          for (unsigned int i = 0; i < 6; ++i)
-            (*moduli)[i][j] = beta * (*moduli)[i][j] + factor * projection * s.access_raw_entry(i);
-        }
-      }
-    }
-    return true;
-  }
+  /// See HypoelasticElasticity::update(). With s the trial deviator, dev τ = β s: the moduli are
+  /// β A + s ⊗ (k − β)/q ∂q, k = σ_y'/(3 G + σ_y'), ∂q = 3/2 s : A/q.
+  bool update(const dealii::Tensor<2, 3> &F, double J, const History &history_n, History &history,
+              dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const PointStep &step = {}) const;
 
   double elastic_energy(const double J, const History &history) const {
     return elastic_law_.elastic_energy(J, history);
@@ -158,29 +122,39 @@ public:
 
   static History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                               const double equivalent_plastic_strain) {
-    return {{F, deviator}, equivalent_plastic_strain};
+    return {{F, deviator}, equivalent_plastic_strain, {}};
   }
 
-  static constexpr unsigned int n_history = HypoelasticElasticity::n_history + 1;
-  static void store(const History &history, double *numbers) {
-    HypoelasticElasticity::store(history, numbers);
-    numbers[n_history - 1] = history.equivalent_plastic_strain;
+  std::vector<StateField> fields() const {
+    std::vector<StateField> result = HypoelasticElasticity::fields();
+    result.push_back({"equivalent plastic strain", 1});
+    result.push_back({"flow stress", flow_->n_state()});
+    return result;
   }
-  static History restore(const double *numbers) {
-    return {HypoelasticElasticity::restore(numbers), numbers[n_history - 1]};
+  void store(const History &history, double *numbers) const {
+    HypoelasticElasticity::store(history, numbers);
+    numbers[15] = history.equivalent_plastic_strain;
+    std::copy_n(history.flow.begin(), flow_->n_state(), numbers + 16);
+  }
+  History restore(const double *numbers) const {
+    History history{HypoelasticElasticity::restore(numbers), numbers[15], {}};
+    std::copy_n(numbers + 16, flow_->n_state(), history.flow.begin());
+    return history;
   }
 
   double plastic_work(const History &history) const {
-    return hardening_.work(history.equivalent_plastic_strain);
+    return flow_->plastic_work(history.equivalent_plastic_strain, history.flow);
   }
   static double equivalent_plastic_strain(const History &history) {
     return history.equivalent_plastic_strain;
   }
+  const std::shared_ptr<const FlowStress> &flow_stress() const { return flow_; }
+  const ElasticModuli &elastic() const { return elastic_; }
 
 private:
   HypoelasticElasticity elastic_law_;
   ElasticModuli elastic_;
-  Hardening hardening_;
+  std::shared_ptr<const FlowStress> flow_;
 };
 
 } // namespace billet

@@ -37,15 +37,15 @@ class NeoHookeanElasticity {
 public:
   struct History {};
   using Moduli = SpatialModuli;
-  static constexpr bool has_plasticity = false, has_history = false, is_rate_form = false,
-                        has_symmetric_moduli = true;
-  static constexpr unsigned int n_history = 0;
+  static constexpr bool has_plasticity = false, is_rate_form = false, has_symmetric_moduli = true,
+                        has_exact_dissipation = true;
+  static constexpr LaneLaw lane_law = LaneLaw::neo_hookean;
 
   explicit NeoHookeanElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 
   /// See HenckyPlasticity::update().
   bool update(const dealii::Tensor<2, 3> &F, const History &, History &, dealii::SymmetricTensor<2, 3> &tau,
-              SpatialModuli *moduli, double = 0.) const {
+              SpatialModuli *moduli, const PointStep & = {}) const {
     IsochoricState state;
     if (!compute_isochoric_state(F, dealii::unit_symmetric_tensor<3>(), state))
       return false;
@@ -63,8 +63,10 @@ public:
                : 0.;
   }
 
-  static double plastic_work(const History &) { return 0.; }
-  static double equivalent_plastic_strain(const History &) { return 0.; }
+  const ElasticModuli &elastic() const { return elastic_; }
+  double least_wave_stiffness(const Stretches &stretches) const {
+    return billet::least_wave_stiffness(*this, elastic_.shear, stretches);
+  }
 
 private:
   ElasticModuli elastic_;
@@ -74,93 +76,24 @@ private:
 /// eigenproblem: the return is q − G tr b̄_e Δα = σ_y, radial in dev b̄_e. Where the box keeps tr b̄_e the
 /// return here keeps det b̄_e = 1, so that plastic flow has no volume and a state that stands still stays.
 /// Yields in Kirchhoff stress.
-template <class Hardening> class NeoHookeanPlasticity : public MultiplicativePlasticity {
+class NeoHookeanPlasticity : public MultiplicativePlasticity {
 public:
-  using Moduli = SpatialModuli;
-  static constexpr bool has_plasticity = true, has_history = true, is_rate_form = false,
-                        has_symmetric_moduli = false;
+  static constexpr bool has_symmetric_moduli = false, has_exact_dissipation = false;
+  static constexpr LaneLaw lane_law = LaneLaw::neo_hookean;
 
-  NeoHookeanPlasticity(const ElasticModuli &elastic, Hardening hardening)
-      : elastic_(elastic), hardening_(std::move(hardening)) {}
+  NeoHookeanPlasticity(const ElasticModuli &elastic, std::shared_ptr<const FlowStress> flow)
+      : MultiplicativePlasticity(elastic, std::move(flow)) {}
 
   /// See HenckyPlasticity::update(). The moduli are exact, and unsymmetric by the order of the elastic strain
   /// where the point yields: their s ⊗ ∂β is.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
-              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli, const double yield_slack = 0.,
-              SharedYield *shared = nullptr) const {
-    IsochoricState trial;
-    if (!compute_isochoric_state(F, history_n.inverse_plastic_metric, trial))
-      return false;
-    const dealii::SymmetricTensor<2, 3> s = elastic_.shear * trial.deviator;
-    const double alpha_n = history_n.equivalent_plastic_strain;
-    const double q =
-        std::sqrt(1.5 * (s * s) + (shared != nullptr ? 6. * elastic_.shear * shared->energy : 0.));
-    const double yield_stress = hardening_.stress(alpha_n);
-    double beta = 1., delta_alpha = 0.;
-    dealii::SymmetricTensor<2, 3> beta_rate;
-    if (q > yield_stress * (1. + yield_slack)) {
-      const double m = 3. * elastic_.shear * trial.mean;
-      delta_alpha = q > yield_stress ? solve_consistency(hardening_, q, m, alpha_n) : 0.;
-      beta = 1. - m * delta_alpha / q;
-      const double slope = hardening_.slope(alpha_n + delta_alpha), k = slope / (m + slope);
-      if (moduli != nullptr)
-        beta_rate = compute_beta_rate(s, q, m, beta, k, delta_alpha);
-      if (shared != nullptr) {
-        shared->share = beta;
-        shared->slope = 3. * elastic_.shear * (k - beta) / (q * q);
-        shared->rate = beta_rate;
-      }
-    }
-    tau = beta * s + elastic_.bulk * std::log(trial.J) * dealii::unit_symmetric_tensor<3>();
-    if (moduli != nullptr)
-      compute_neo_hookean_moduli(elastic_, trial, beta, beta_rate, *moduli);
+              dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli, const PointStep &step = {}) const;
 
-    history = history_n;
-    if (delta_alpha > 0.) {
-      history.equivalent_plastic_strain += delta_alpha;
-      // F⁻¹ b̄_e F⁻ᵀ with b̄_e = β dev b̄_trial + x 1: a multiple of C⁻¹ is all that is added.
-      const double x = complete_unimodular(beta * trial.deviator);
-      const dealii::SymmetricTensor<2, 3> C_inverse =
-          dealii::invert(dealii::symmetrize(dealii::transpose(F) * F));
-      history.inverse_plastic_metric = beta * history_n.inverse_plastic_metric +
-                                       (x - beta * trial.mean) * std::cbrt(trial.J * trial.J) * C_inverse;
-    }
-    return true;
-  }
-
-  double elastic_energy(const dealii::Tensor<2, 3> &F, const History &history) const {
-    IsochoricState state;
-    return compute_isochoric_state(F, history.inverse_plastic_metric, state)
-               ? compute_elastic_energy(elastic_, state)
-               : 0.;
-  }
+  double elastic_energy(const dealii::Tensor<2, 3> &F, const History &history) const;
 
   /// See HenckyPlasticity::find_history(); b̄_e = dev τ/G + x 1, det b̄_e = 1.
   History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
-                       const double equivalent_plastic_strain) const {
-    const dealii::SymmetricTensor<2, 3> X = deviator / elastic_.shear;
-    return history_of(F, X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>(),
-                      equivalent_plastic_strain);
-  }
-
-  double plastic_work(const History &history) const {
-    return hardening_.work(history.equivalent_plastic_strain);
-  }
-
-private:
-  /// ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), k = σ_y'/(m + σ_y'), and the rates of q and m = 3 μ̄:
-  ///   q q̇ = (m s + 3 dev s²) : d,   ṁ = 2 s : d.
-  static dealii::SymmetricTensor<2, 3> compute_beta_rate(const dealii::SymmetricTensor<2, 3> &s,
-                                                         const double q, const double m, const double beta,
-                                                         const double k, const double delta_alpha) {
-    const dealii::Tensor<2, 3> matrix = s;
-    return ((k - beta) / q * (m * s + 3. * dealii::deviator(dealii::symmetrize(matrix * matrix))) -
-            (2. * k * delta_alpha) * s) /
-           q;
-  }
-
-  ElasticModuli elastic_;
-  Hardening hardening_;
+                       double equivalent_plastic_strain) const;
 };
 
 } // namespace billet

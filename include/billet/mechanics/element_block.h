@@ -2,40 +2,25 @@
 #ifndef BILLET_MECHANICS_ELEMENT_BLOCK_H
 #define BILLET_MECHANICS_ELEMENT_BLOCK_H
 
-#include "billet/material/hardening.h"
+#include "billet/material/point_law.h"
 #include "billet/mechanics/mean_dilatation.h"
 #include "billet/mechanics/thickness.h"
 
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace billet {
 
-/// What a body is made of. The law is chosen by the alternative it holds; std::monostate means elastic.
-struct MaterialLaw {
-  ElasticModuli elastic;
-  std::variant<std::monostate, LinearHardening, VoceHardening, PowerLawHardening, TabulatedHardening>
-      hardening;
-};
-
-/// How the elements of a body are computed in static scenes and implicit dynamics.
+/// How the elements of a body are computed.
 struct ElementFormulation {
   enum class Element {
     assumed_strain,  ///< points without parasitic shear, see AssumedStrainElement
     mean_dilatation, ///< 2 × 2 × 2 points, F̄ of MeanDilatationKinematics: locks in bending
     one_point        ///< mean gradient with physical stabilisation, see OnePointElement
   };
-  /// All share the volumetric law κ ln J (Kirchhoff) and the yield condition in Kirchhoff stress.
-  enum class Kinematics {
-    hencky,      ///< F = F_e F_p, stress linear in the elastic logarithmic strain: HenckyPlasticity
-    neo_hookean, ///< F = F_e F_p, dev τ = G dev b̄_e: NeoHookeanPlasticity
-    hypoelastic  ///< rate form, midpoint strain increments and the final rotation: HypoelasticPlasticity
-  };
 
   Element element = Element::assumed_strain;
-  Kinematics kinematics = Kinematics::hencky;
   unsigned int points_through = 2; ///< of assumed strains, through the thickness: one of all_points_through
   bool is_symmetrised = false; ///< the symmetric part of an unsymmetric tangent, see has_symmetric_tangent()
 };
@@ -43,20 +28,12 @@ struct ElementFormulation {
 inline constexpr std::array all_elements = {ElementFormulation::Element::assumed_strain,
                                             ElementFormulation::Element::mean_dilatation,
                                             ElementFormulation::Element::one_point};
-inline constexpr std::array all_kinematics = {ElementFormulation::Kinematics::hencky,
-                                              ElementFormulation::Kinematics::neo_hookean,
-                                              ElementFormulation::Kinematics::hypoelastic};
 
-/// As scenes call them.
+/// As scenes call it.
 const char *name_of(ElementFormulation::Element element);
-const char *name_of(ElementFormulation::Kinematics kinematics);
 
-/// Whether the exact tangent of a body is symmetric: not with the hypoelastic law, nor, where `is_plastic`,
-/// with the neo-Hookean law.
-bool has_symmetric_tangent(const ElementFormulation &formulation, bool is_plastic);
-
-/// What a history means: element, points through the thickness unless two, and kinematics in words.
-std::string describe(const ElementFormulation &formulation);
+/// What a history means: element, points through the thickness unless two, and elasticity in words.
+std::string describe(const ElementFormulation &formulation, const PointLaw &law);
 
 /// Averages and integrals over one element, for output.
 struct ElementSummary {
@@ -65,6 +42,7 @@ struct ElementSummary {
   double elastic_energy = 0.;                  ///< integral [energy]
   double plastic_work = 0.;                    ///< integral [energy]
   double hourglass_energy = 0.;                ///< stored in the stabilisation [energy]
+  double stiffness_bound = 0.; ///< maximum over the points of PointLaw::bound_stiffness() [stress]
 };
 
 /// Whose history: that at the start of the step, or that of the last evaluate().
@@ -93,9 +71,9 @@ public:
   virtual std::size_t size() const = 0;
 
   /// Overwrites `force` [force] and, if given, `matrix` [force/length]. False if the state is not admissible
-  /// (det F ≤ 0, not finite): the step has to be cut. `yield_slack`: see HenckyPlasticity::update().
+  /// (det F ≤ 0, not finite): the step has to be cut.
   virtual bool evaluate(std::size_t element, const ElementVectors &displacements, ElementVectors &force,
-                        ElementMatrix *matrix, double yield_slack = 0.) = 0;
+                        ElementMatrix *matrix, const PointStep &step = {}) = 0;
 
   virtual void commit() = 0;
 
@@ -125,8 +103,8 @@ public:
                           const ElementStress &stress) = 0;
 };
 
-/// Every element goes with every kinematics and hardening.
-std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material,
+/// Every element goes with every law.
+std::unique_ptr<ElementBlock> make_element_block(const std::shared_ptr<const PointLaw> &law,
                                                  const ElementFormulation &formulation = {});
 
 } // namespace billet

@@ -4,7 +4,7 @@
 
 #include "billet/mechanics/element_block.h"
 
-#include <functional>
+#include <memory>
 
 namespace billet {
 
@@ -38,7 +38,7 @@ struct ElementEnergies {
 class ElementComparison {
 public:
   /// `formulation`: of its element alone.
-  ElementComparison(const MaterialLaw &material, const ElementFormulation &formulation);
+  ElementComparison(std::shared_ptr<const PointLaw> law, const ElementFormulation &formulation);
 
   /// False, and `energies` is left alone, if an element is inside out.
   bool compare(const ElementVectors &positions, const ElementVectors &displacements,
@@ -71,7 +71,8 @@ private:
 
   ElasticModuli elastic_;
   ElementFormulation formulation_;
-  std::function<double(double)> yield_stress_, plastic_work_; ///< none of elastic bodies
+  std::shared_ptr<const PointLaw> law_;
+  const FlowStress *flow_; ///< null of elastic bodies
 };
 
 } // namespace billet

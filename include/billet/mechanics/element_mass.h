@@ -9,6 +9,9 @@ namespace billet {
 /// Row-major 8 × 8, the same for each of the three directions [mass].
 using ElementMass = std::array<double, std::size_t{n_element_nodes} * n_element_nodes>;
 
+/// Returns ∫ N_a dV of each node [length³]; the points integrate it exactly.
+std::array<double, n_element_nodes> compute_nodal_volumes(const ReferenceElement &element);
+
 /// The consistent mass matrix ρ ∫ N_a N_b dV of the undeformed element, by its 2 × 2 × 2 points: exact for
 /// parallelepipeds; its row sums ρ ∫ N_a dV are exact for every trilinear hexahedron.
 ElementMass compute_element_mass(const ReferenceElement &element, double density);

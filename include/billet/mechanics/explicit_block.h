@@ -25,12 +25,10 @@ bool is_available(InstructionSet instructions);
 /// How the elements of a body are computed in explicit dynamics.
 struct ExplicitFormulation {
   using Element = ElementFormulation::Element;
-  using Kinematics = ElementFormulation::Kinematics;
   /// What elements are computed with; nodal vectors and all sums are double.
   enum class NumberType { double_precision, float_precision };
 
   Element element = Element::assumed_strain;
-  Kinematics kinematics = Kinematics::hencky;
   double linear_viscosity = 0.06;   ///< c_1 of the bulk viscosity ρ L (c_1 c |d| + c_2² L d²); ≥ 0
   double quadratic_viscosity = 1.2; ///< c_2 of it, acts in compression only; ≥ 0
   InstructionSet instructions = InstructionSet::automatic;
@@ -116,12 +114,13 @@ public:
   virtual void set_stress(std::size_t element, const double *displacements, const ElementStress &stress) = 0;
 };
 
-/// What a history means: element, kinematics and type of number in words.
-std::string describe(const ExplicitFormulation &formulation);
+/// What a history means: element, elasticity and type of number in words.
+std::string describe(const ExplicitFormulation &formulation, const PointLaw &law);
 
 /// `density` is per reference volume. Throws std::invalid_argument, with the reason, for an instruction set
-/// that is not available and for numbers out of range. Every element goes with every kinematics.
-std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, double density,
+/// that is not available and for numbers out of range. Every element goes with every law: where the kernels
+/// do not have the law, elements are computed one by one, by ElementwiseBlock, which is in double alone.
+std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const PointLaw> &law, double density,
                                                    const ExplicitFormulation &formulation);
 
 } // namespace billet

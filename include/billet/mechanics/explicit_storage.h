@@ -39,8 +39,8 @@ struct PointState {
 /// `Number`: double or float.
 template <class Number> class ExplicitStorage {
 public:
-  ExplicitStorage(unsigned int n_lanes, const ElasticModuli &elastic, const ExplicitFormulation &formulation,
-                  bool has_plasticity, bool keeps_yield_stress);
+  ExplicitStorage(unsigned int n_lanes, const ElasticModuli &elastic, LaneLaw law,
+                  const ExplicitFormulation &formulation, bool has_plasticity, bool keeps_yield_stress);
 
   /// See ExplicitBlock::initialize(). `yield_stress`: the initial one, used if it is kept.
   /// Numbers are stored in `units`, in which kernels count; all arguments and results are in the user's.
@@ -128,12 +128,13 @@ private:
   void set_alpha(std::size_t element, std::size_t &k, double alpha);
   /// Units of the numbers of an element's history.
   void set_history_units();
-  bool is_rate() const { return formulation_.kinematics == ElementFormulation::Kinematics::hypoelastic; }
+  bool is_rate() const { return law_ == LaneLaw::hypoelastic; }
   void initialize_point(std::size_t element, std::size_t first, const dealii::Tensor<2, 3> &inverse_jacobian,
                         double yield_stress);
 
   unsigned int n_lanes_;
   ElasticModuli elastic_;
+  LaneLaw law_;
   ExplicitFormulation formulation_;
   bool has_plasticity_, keeps_yield_stress_;
   KernelUnits units_;

@@ -2,8 +2,6 @@
 #ifndef BILLET_MECHANICS_LAW_BLOCK_H
 #define BILLET_MECHANICS_LAW_BLOCK_H
 
-#include "billet/material/hypoelastic.h"
-#include "billet/material/neo_hookean.h"
 #include "billet/mechanics/element_block.h"
 #include "billet/mechanics/point_tangent.h"
 
@@ -15,17 +13,31 @@
 
 namespace billet {
 
-/// The ElementBlock of one element and one law. Elements: AssumedStrainElement,
-/// MeanDilatationElement, OnePointElement.
-template <class Element, class Law> class LawBlock final : public ElementBlock {
+/// What an element does with the moduli of a law.
+template <class LawClass, bool symmetric> struct LawForm {
+  using Law = LawClass;
+  using Moduli = typename Law::Moduli;
+  static constexpr bool is_rate_form = std::is_same_v<Law, RateLaw>, has_symmetric_moduli = symmetric;
+};
+using SymmetricForm = LawForm<SpatialLaw, true>;
+using UnsymmetricForm = LawForm<SpatialLaw, false>;
+using RateForm = LawForm<RateLaw, false>;
+
+/// The ElementBlock of one element and any law of this form. Elements: AssumedStrainElement,
+/// MeanDilatationElement, OnePointElement. `has_flow`: whether a stabilised element yields with its point and
+/// keeps a history of its own.
+template <class Element, class Form, bool has_flow> class LawBlock final : public ElementBlock {
 public:
-  LawBlock(Law law, const ElasticModuli &elastic, const ElementFormulation &formulation)
-      : law_(std::move(law)), element_(elastic, formulation) {
+  using Law = typename Form::Law;
+
+  LawBlock(std::shared_ptr<const PointLaw> law, const ElementFormulation &formulation)
+      : shared_law_(std::move(law)), law_(dynamic_cast<const Law &>(*shared_law_)), n_state_(law_.n_state()),
+        element_(law_.elastic(), formulation), scratch_(n_state_) {
     if constexpr (Element::is_stabilised) {
       if (formulation.is_symmetrised)
         finish_ = [](ElementMatrix &matrix) { symmetrise(matrix); };
     } else {
-      if constexpr (Law::has_symmetric_moduli)
+      if constexpr (Form::has_symmetric_moduli)
         compute_tangent_ = [](const Element &, const Reference &reference, const Kinematics &kinematics,
                               const Stresses &tau, const Moduli &moduli, ElementMatrix &matrix) {
           Element::compute_symmetric_tangent(reference, kinematics, tau, moduli, matrix);
@@ -49,7 +61,12 @@ public:
     }
     if constexpr (is_layered)
       axes_ = axes;
-    history_n_.assign(keeps_history ? elements_.size() : 1, ElementHistory{});
+    state_n_.resize(elements_.size() * n_points * n_state_);
+    for (std::size_t point = 0; point < elements_.size() * n_points; ++point)
+      law_.initialize(state_n_.data() + point * n_state_);
+    state_ = state_n_;
+    if constexpr (keeps_element_history)
+      history_n_.assign(elements_.size(), {});
     history_ = history_n_;
     return true;
   }
@@ -59,31 +76,28 @@ public:
   std::vector<ThicknessAxis> thickness_axes() const override { return axes_; }
 
   bool evaluate(const std::size_t element, const ElementVectors &displacements, ElementVectors &force,
-                ElementMatrix *matrix, const double yield_slack) override {
+                ElementMatrix *matrix, const PointStep &step) override {
     const Reference &reference = elements_[element];
     Kinematics kinematics;
     if (!Element::compute(reference, displacements, kinematics))
       return false;
-    const ElementHistory &history_n = history_at(history_n_, element);
-    ElementHistory &history = history_at(history_, element);
     Stresses tau;
     Moduli moduli;
     force.fill(0.);
     if constexpr (Element::is_stabilised) {
       typename Element::Stabilisation stabilisation;
-      typename Law::Moduli *const wanted = matrix != nullptr ? moduli.data() : nullptr;
+      PointStep step_of_point = step;
       if constexpr (keeps_element_history) {
-        stabilisation = element_.stabilise(reference, kinematics, history_n.element);
+        stabilisation = element_.stabilise(reference, kinematics, history_n_[element]);
         stabilisation.yield.energy = stabilisation.energy / reference.volume;
-        if (!update(reference, kinematics, 0, history_n.points[0], history.points[0], tau[0], wanted,
-                    yield_slack, &stabilisation.yield))
-          return false;
-        history.element = Element::flow(stabilisation, history_n.element);
-      } else {
+        step_of_point.shared = &stabilisation.yield;
+      } else
         stabilisation = element_.stabilise(reference, kinematics, {});
-        if (!update(reference, kinematics, 0, history_n.points[0], history.points[0], tau[0], wanted))
-          return false;
-      }
+      if (!update(reference, kinematics, 0, step_of_point, state_of(state_n_, element),
+                  state_of(state_, element), tau[0], matrix != nullptr ? moduli.data() : nullptr))
+        return false;
+      if constexpr (keeps_element_history)
+        history_[element] = Element::flow(stabilisation, history_n_[element]);
       Element::add_force(reference, kinematics, tau[0], stabilisation, force);
       if (matrix != nullptr) {
         element_.compute_tangent(reference, kinematics, tau[0], moduli[0], stabilisation, *matrix);
@@ -92,51 +106,50 @@ public:
     } else {
       if constexpr (is_layered) {
         const auto update_all = [&] {
-          return update_points(reference, kinematics, history_n, history, tau, nullptr, yield_slack);
+          return update_points(reference, kinematics, element, step, tau, nullptr);
         };
-        if (!balance_thinning(reference, history_n.element, kinematics, tau, update_all))
+        if (!balance_thinning(reference, history_n_[element], kinematics, tau, update_all))
           return false;
-        history.element = {kinematics.thinning, kinematics.stretch};
-        if (matrix != nullptr &&
-            !update_points(reference, kinematics, history_n, history, tau, &moduli, yield_slack))
+        history_[element] = {kinematics.thinning, kinematics.stretch};
+        if (matrix != nullptr && !update_points(reference, kinematics, element, step, tau, &moduli))
           return false;
-      } else if (!update_points(reference, kinematics, history_n, history, tau,
-                                matrix != nullptr ? &moduli : nullptr, yield_slack))
+      } else if (!update_points(reference, kinematics, element, step, tau,
+                                matrix != nullptr ? &moduli : nullptr))
         return false;
-      Element::template add_force<Law::is_rate_form>(reference, kinematics, tau, force);
+      Element::template add_force<Form::is_rate_form>(reference, kinematics, tau, force);
       if (matrix != nullptr)
         compute_tangent_(element_, reference, kinematics, tau, moduli, *matrix);
     }
     return true;
   }
 
-  void commit() override { history_n_ = history_; }
+  void commit() override {
+    state_n_ = state_;
+    history_n_ = history_;
+  }
 
   ElementSummary summarize(const std::size_t element, const ElementVectors &displacements,
                            const Beat beat) const override {
     ElementSummary summary;
     const Reference &reference = elements_[element];
-    const ElementHistory &histories = history_at(beat == Beat::committed ? history_n_ : history_, element);
     Kinematics kinematics;
-    if (!compute_at(reference, displacements, histories, kinematics))
+    if (!compute_at(element, displacements, beat, kinematics))
       return summary;
     double reference_volume = 0.;
     for (unsigned int q = 0; q < n_points; ++q) {
-      const auto &history = histories.points[q];
+      const double *state = state_of(beat == Beat::committed ? state_n_ : state_, element, q);
       const double w = Element::reference_volume(reference, q);
-      typename Law::History ignored;
       dealii::SymmetricTensor<2, 3> tau;
-      if (!update(reference, kinematics, q, history, ignored, tau, nullptr))
+      if (!update(reference, kinematics, q, {}, state, scratch_.data(), tau, nullptr))
         continue;
       summary.cauchy_stress += w * tau; // σ J w = τ w
-      summary.equivalent_plastic_strain += w * law_.equivalent_plastic_strain(history);
-      summary.plastic_work += w * law_.plastic_work(history);
-      if constexpr (Law::is_rate_form)
-        summary.elastic_energy += Element::template weight<true>(reference, kinematics, q) *
-                                  law_.elastic_energy(Element::volume_ratio(kinematics, q), history);
-      else
-        summary.elastic_energy +=
-            w * law_.elastic_energy(Element::template deformation<false>(reference, kinematics, q), history);
+      summary.stiffness_bound = std::max(summary.stiffness_bound, law_.bound_stiffness(tau));
+      summary.equivalent_plastic_strain += w * law_.equivalent_plastic_strain(state);
+      summary.plastic_work += w * law_.dissipated_energy(state);
+      summary.elastic_energy +=
+          Element::template weight<Form::is_rate_form>(reference, kinematics, q) *
+          law_.stored_energy(Element::template deformation<Form::is_rate_form>(reference, kinematics, q),
+                             Element::volume_ratio(kinematics, q), state);
       reference_volume += w;
     }
     summary.cauchy_stress /= Element::current_volume(kinematics);
@@ -145,7 +158,10 @@ public:
       summary.elastic_energy += Element::thinning_energy(reference, kinematics);
     if constexpr (Element::is_stabilised) {
       if constexpr (keeps_element_history)
-        summary.hourglass_energy = element_.stabilise(reference, kinematics, histories.element).energy;
+        summary.hourglass_energy =
+            element_
+                .stabilise(reference, kinematics, (beat == Beat::committed ? history_n_ : history_)[element])
+                .energy;
       else
         summary.hourglass_energy = element_.stabilise(reference, kinematics, {}).energy;
     }
@@ -158,21 +174,20 @@ public:
     if constexpr (is_layered) {
       LayerSummaries layers;
       const Reference &reference = elements_[element];
-      const ElementHistory &histories = history_at(history_n_, element);
       Kinematics kinematics;
-      if (!compute_at(reference, displacements, histories, kinematics))
+      if (!compute_at(element, displacements, Beat::committed, kinematics))
         return layers;
       const std::array<unsigned int, layer_names.size()> firsts = {0, n_points / 2 - 2, n_points - 4};
       for (std::size_t layer = 0; layer < firsts.size(); ++layer) {
         LayerSummary &summary = layers[layer];
         for (unsigned int q = firsts[layer]; q < firsts[layer] + 4; ++q) {
-          typename Law::History ignored;
+          const double *state = state_of(state_n_, element, q);
           dealii::SymmetricTensor<2, 3> tau;
-          if (!update(reference, kinematics, q, histories.points[q], ignored, tau, nullptr))
+          if (!update(reference, kinematics, q, {}, state, scratch_.data(), tau, nullptr))
             continue;
           tau -= Element::varying_pressure(reference, kinematics, q) * dealii::unit_symmetric_tensor<3>();
           summary.cauchy_stress += tau / (4. * Element::volume_ratio(kinematics, q));
-          summary.equivalent_plastic_strain += 0.25 * law_.equivalent_plastic_strain(histories.points[q]);
+          summary.equivalent_plastic_strain += 0.25 * law_.equivalent_plastic_strain(state);
         }
       }
       return layers;
@@ -180,51 +195,35 @@ public:
       return {};
   }
 
-  std::size_t history_size() const override {
-    return keeps_history ? 2 * sizeof(ElementHistory) / sizeof(double) : 0;
-  }
+  std::size_t history_size() const override { return 2 * state_size(); }
 
-  std::size_t state_size() const override {
-    return (Law::has_history ? n_points * Law::n_history : 0) + n_element_history;
-  }
+  std::size_t state_size() const override { return n_points * n_state_ + n_element_history; }
 
   void get_state(const std::size_t element, double *state) const override {
-    const ElementHistory &history = history_at(history_n_, element);
-    if constexpr (Law::has_history)
-      for (const auto &point : history.points) {
-        Law::store(point, state);
-        state += Law::n_history;
-      }
+    state = std::copy_n(state_of(state_n_, element), n_points * n_state_, state);
     if constexpr (keeps_element_history)
-      Element::store(history.element, state);
+      Element::store(history_n_[element], state);
   }
 
   void set_state(const std::size_t element, const double *state) override {
-    ElementHistory &history = history_at(history_n_, element);
-    if constexpr (Law::has_history)
-      for (auto &point : history.points) {
-        point = Law::restore(state);
-        state += Law::n_history;
-      }
+    for (double *own : {state_of(state_n_, element), state_of(state_, element)})
+      std::copy_n(state, n_points * n_state_, own);
     if constexpr (keeps_element_history)
-      history.element = Element::restore(state);
-    history_at(history_, element) = history;
+      history_[element] = history_n_[element] = Element::restore(state + n_points * n_state_);
   }
 
   ElementStress compute_stress(const std::size_t element,
                                const ElementVectors &displacements) const override {
     ElementStress stress(points_through, axis(element));
     const Reference &reference = elements_[element];
-    const ElementHistory &histories = history_at(history_n_, element);
     Kinematics kinematics;
-    if (!compute_at(reference, displacements, histories, kinematics))
+    if (!compute_at(element, displacements, Beat::committed, kinematics))
       return stress;
     for (unsigned int q = 0; q < n_points; ++q) {
-      typename Law::History ignored;
-      const auto &history = histories.points[q];
-      if (update(reference, kinematics, q, history, ignored, stress[q].deviator, nullptr))
+      const double *state = state_of(state_n_, element, q);
+      if (update(reference, kinematics, q, {}, state, scratch_.data(), stress[q].deviator, nullptr))
         stress[q].deviator = dealii::deviator(stress[q].deviator);
-      stress[q].equivalent_plastic_strain = law_.equivalent_plastic_strain(history);
+      stress[q].equivalent_plastic_strain = law_.equivalent_plastic_strain(state);
     }
     std::fill(stress.begin() + n_points, stress.end(), stress[n_points - 1]);
     return stress;
@@ -234,28 +233,24 @@ public:
                   const ElementStress &given) override {
     const Reference &reference = elements_[element];
     Kinematics kinematics;
-    if (!keeps_history || !Element::compute(reference, displacements, kinematics))
+    if (state_size() == 0 || !Element::compute(reference, displacements, kinematics))
       return;
     const ElementStress stress = given.transfer(points_through, axis(element));
-    ElementHistory &history = history_at(history_n_, element);
     if constexpr (is_layered) {
       Stresses tau;
       const auto update_all = [&] {
         for (unsigned int q = 0; q < n_points; ++q)
-          if constexpr (Law::has_history)
+          if (n_state_ > 0)
             tau[q] = stress[q].deviator;
-          else {
-            typename Law::History ignored;
-            if (!update(reference, kinematics, q, {}, ignored, tau[q], nullptr))
-              return false;
-          }
+          else if (!update(reference, kinematics, q, {}, nullptr, nullptr, tau[q], nullptr))
+            return false;
         return true;
       };
-      if (!balance_thinning(reference, typename Element::History{}, kinematics, tau, update_all))
+      if (!balance_thinning(reference, ElementHistory(), kinematics, tau, update_all))
         return;
-      history.element = {kinematics.thinning, kinematics.stretch};
+      history_n_[element] = {kinematics.thinning, kinematics.stretch};
     }
-    if constexpr (Law::has_history) {
+    if (n_state_ > 0) {
       const unsigned int n_shared = static_cast<unsigned int>(stress.size()) / n_points;
       for (unsigned int q = 0; q < n_points; ++q) {
         PointStress mean;
@@ -263,14 +258,17 @@ public:
           mean.deviator += stress[p].deviator / n_shared;
           mean.equivalent_plastic_strain += stress[p].equivalent_plastic_strain / n_shared;
         }
-        history.points[q] =
-            law_.find_history(Element::template deformation<Law::is_rate_form>(reference, kinematics, q),
-                              mean.deviator, mean.equivalent_plastic_strain);
+        double *state = state_of(state_n_, element, q);
+        law_.initialize(state);
+        law_.set_stress(Element::template deformation<Form::is_rate_form>(reference, kinematics, q),
+                        mean.deviator, mean.equivalent_plastic_strain, state);
       }
     }
     if constexpr (Element::is_stabilised && keeps_element_history)
-      history.element = Element::find_history(reference, kinematics);
-    history_at(history_, element) = history;
+      history_n_[element] = Element::find_history(reference, kinematics);
+    std::copy_n(state_of(state_n_, element), n_points * n_state_, state_of(state_, element));
+    if constexpr (keeps_element_history)
+      history_[element] = history_n_[element];
   }
 
 private:
@@ -282,8 +280,7 @@ private:
     else
       return 2U;
   }();
-  static constexpr bool keeps_element_history = is_layered || (Element::is_stabilised && Law::has_plasticity);
-  static constexpr bool keeps_history = Law::has_history || keeps_element_history;
+  static constexpr bool keeps_element_history = is_layered || (Element::is_stabilised && has_flow);
   static constexpr std::size_t n_element_history = [] {
     if constexpr (keeps_element_history)
       return std::size_t{Element::n_history};
@@ -292,14 +289,19 @@ private:
   using Reference = typename Element::Reference;
   using Kinematics = typename Element::Kinematics;
   using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
-  using Moduli = std::array<typename Law::Moduli, n_points>;
-  struct Points {
-    std::array<typename Law::History, n_points> points;
-  };
-  template <class E> struct PointsAndElement : Points { typename E::History element; };
-  template <class E, bool keeps> struct ChosenHistory { using Type = Points; };
-  template <class E> struct ChosenHistory<E, true> { using Type = PointsAndElement<E>; };
+  using Moduli = std::array<typename Form::Moduli, n_points>;
+  struct NoHistory {};
+  template <class E, bool keeps> struct ChosenHistory { using Type = NoHistory; };
+  template <class E> struct ChosenHistory<E, true> { using Type = typename E::History; };
   using ElementHistory = typename ChosenHistory<Element, keeps_element_history>::Type;
+
+  const double *state_of(const std::vector<double> &states, const std::size_t element,
+                         const std::size_t q = 0) const {
+    return states.data() + (element * n_points + q) * n_state_;
+  }
+  double *state_of(std::vector<double> &states, const std::size_t element, const std::size_t q = 0) const {
+    return states.data() + (element * n_points + q) * n_state_;
+  }
 
   ThicknessAxis axis([[maybe_unused]] const std::size_t element) const {
     if constexpr (is_layered)
@@ -308,24 +310,24 @@ private:
       return {};
   }
 
-  /// At a history that belongs to the displacements.
-  bool compute_at(const Reference &reference, const ElementVectors &displacements,
-                  [[maybe_unused]] const ElementHistory &history, Kinematics &kinematics) const {
-    if (!Element::compute(reference, displacements, kinematics))
+  /// At the history of a beat, to which the displacements belong.
+  bool compute_at(const std::size_t element, const ElementVectors &displacements,
+                  [[maybe_unused]] const Beat beat, Kinematics &kinematics) const {
+    if (!Element::compute(elements_[element], displacements, kinematics))
       return false;
     if constexpr (is_layered)
-      return Element::set_thinning(history.element.thinning, kinematics);
+      return Element::set_thinning((beat == Beat::committed ? history_n_ : history_)[element].thinning,
+                                   kinematics);
     else
       return true;
   }
 
   /// Updates all points; returns false if a state is not admissible.
-  bool update_points(const Reference &reference, const Kinematics &kinematics,
-                     const ElementHistory &history_n, ElementHistory &history, Stresses &tau, Moduli *moduli,
-                     const double yield_slack) const {
+  bool update_points(const Reference &reference, const Kinematics &kinematics, const std::size_t element,
+                     const PointStep &step, Stresses &tau, Moduli *moduli) {
     for (unsigned int q = 0; q < n_points; ++q)
-      if (!update(reference, kinematics, q, history_n.points[q], history.points[q], tau[q],
-                  moduli != nullptr ? &(*moduli)[q] : nullptr, yield_slack))
+      if (!update(reference, kinematics, q, step, state_of(state_n_, element, q),
+                  state_of(state_, element, q), tau[q], moduli != nullptr ? &(*moduli)[q] : nullptr))
         return false;
     return true;
   }
@@ -362,16 +364,11 @@ private:
     return false;
   }
 
-  /// `more`: the yield slack and, of plastic laws, what is shared with the stabilisation.
-  template <class... More>
   bool update(const Reference &reference, const Kinematics &kinematics, const unsigned int q,
-              const typename Law::History &history_n, typename Law::History &history,
-              dealii::SymmetricTensor<2, 3> &tau, typename Law::Moduli *moduli, More... more) const {
-    const auto &F = Element::template deformation<Law::is_rate_form>(reference, kinematics, q);
-    if constexpr (Law::is_rate_form)
-      return law_.update(F, Element::volume_ratio(kinematics, q), history_n, history, tau, moduli, more...);
-    else
-      return law_.update(F, history_n, history, tau, moduli, more...);
+              const PointStep &step, const double *state_n, double *state, dealii::SymmetricTensor<2, 3> &tau,
+              typename Form::Moduli *moduli) const {
+    return law_.update(Element::template deformation<Form::is_rate_form>(reference, kinematics, q),
+                       Element::volume_ratio(kinematics, q), step, state_n, state, tau, moduli);
   }
 
   template <bool is_symmetrised>
@@ -381,72 +378,51 @@ private:
     element.template compute_tangent<is_symmetrised>(reference, kinematics, tau, moduli, matrix);
   }
 
-  // A law without history keeps a single dummy for all elements.
-  static ElementHistory &history_at(std::vector<ElementHistory> &histories, const std::size_t element) {
-    return histories[keeps_history ? element : 0];
-  }
-  static const ElementHistory &history_at(const std::vector<ElementHistory> &histories,
-                                          const std::size_t element) {
-    return histories[keeps_history ? element : 0];
-  }
-
-  Law law_;
+  std::shared_ptr<const PointLaw> shared_law_;
+  const Law &law_;
+  std::size_t n_state_; ///< of a point
   Element element_;
   // Chosen once: how the matrix is made, or what becomes of it.
   void (*finish_)(ElementMatrix &) = [](ElementMatrix &) {};
   void (*compute_tangent_)(const Element &, const Reference &, const Kinematics &, const Stresses &,
                            const Moduli &, ElementMatrix &) = nullptr;
   std::vector<Reference> elements_;
-  std::vector<ThicknessAxis> axes_; ///< with more than two points through the thickness
-  std::vector<ElementHistory> history_n_, history_;
+  std::vector<ThicknessAxis> axes_;                 ///< with more than two points through the thickness
+  std::vector<double> state_n_, state_;             ///< of the points
+  std::vector<ElementHistory> history_n_, history_; ///< of the elements
+  mutable std::vector<double> scratch_;             ///< a state that is thrown away
 };
 
-/// The block of this element, with the law that material and formulation name.
+/// The block of this element with any law.
 template <class Element>
-std::unique_ptr<ElementBlock> make_law_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_law_block(const std::shared_ptr<const PointLaw> &law,
                                              const ElementFormulation &formulation) {
-  const auto make = [&](auto law) -> std::unique_ptr<ElementBlock> {
-    return std::make_unique<LawBlock<Element, decltype(law)>>(std::move(law), material.elastic, formulation);
+  const auto make = [&](auto form) -> std::unique_ptr<ElementBlock> {
+    using Form = decltype(form);
+    if constexpr (Element::is_stabilised)
+      if (law->has_plasticity())
+        return std::make_unique<LawBlock<Element, Form, true>>(law, formulation);
+    return std::make_unique<LawBlock<Element, Form, false>>(law, formulation);
   };
-  using Kinematics = ElementFormulation::Kinematics;
-  return std::visit(
-      [&](const auto &hardening) -> std::unique_ptr<ElementBlock> {
-        using Hardening = std::decay_t<decltype(hardening)>;
-        if constexpr (std::is_same_v<Hardening, std::monostate>)
-          switch (formulation.kinematics) {
-          case Kinematics::hencky:
-            return make(HenckyElasticity(material.elastic));
-          case Kinematics::neo_hookean:
-            return make(NeoHookeanElasticity(material.elastic));
-          case Kinematics::hypoelastic:
-            return make(HypoelasticElasticity(material.elastic));
-          }
-        else
-          switch (formulation.kinematics) {
-          case Kinematics::hencky:
-            return make(HenckyPlasticity<Hardening>(material.elastic, hardening));
-          case Kinematics::neo_hookean:
-            return make(NeoHookeanPlasticity<Hardening>(material.elastic, hardening));
-          case Kinematics::hypoelastic:
-            return make(HypoelasticPlasticity<Hardening>(material.elastic, hardening));
-          }
-        return nullptr;
-      },
-      material.hardening);
+  if (law->is_rate_form())
+    return make(RateForm());
+  if (law->has_symmetric_moduli())
+    return make(SymmetricForm());
+  return make(UnsymmetricForm());
 }
 
 // Each in a file of its own, for the sake of compilation.
-std::unique_ptr<ElementBlock> make_mean_dilatation_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_mean_dilatation_block(const std::shared_ptr<const PointLaw> &law,
                                                          const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_assumed_strain_block(const std::shared_ptr<const PointLaw> &law,
                                                         const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block_3(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_assumed_strain_block_3(const std::shared_ptr<const PointLaw> &law,
                                                           const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block_5(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_assumed_strain_block_5(const std::shared_ptr<const PointLaw> &law,
                                                           const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block_7(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_assumed_strain_block_7(const std::shared_ptr<const PointLaw> &law,
                                                           const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_one_point_block(const MaterialLaw &material,
+std::unique_ptr<ElementBlock> make_one_point_block(const std::shared_ptr<const PointLaw> &law,
                                                    const ElementFormulation &formulation);
 
 } // namespace billet

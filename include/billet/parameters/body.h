@@ -2,9 +2,11 @@
 #ifndef BILLET_PARAMETERS_BODY_H
 #define BILLET_PARAMETERS_BODY_H
 
+#include "billet/material/elasticity.h"
 #include "billet/parameters/reader.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 
 namespace billet::parameters {
@@ -35,26 +37,9 @@ struct Mesh {
 
 /// Subsection Material.
 struct Material {
-  enum class Law { elastic, elastoplastic };
-  enum class Hardening { linear, voce, power_law, table };
-
-  /// How large rotations and stretches enter.
-  enum class Kinematics { hencky, neo_hookean, hypoelastic };
-
-  Law law;
-  Located<Kinematics> kinematics;
   Located<double> density; ///< 0: not given
-  double young_modulus;
-  double poisson_ratio;
-  Hardening hardening = Hardening::linear;
-  double yield_stress = 0.;
-  double hardening_modulus = 0.;
-  double saturation_stress = 0.;
-  double saturation_rate = 0.;
-  double strength = 0.;
-  double prestrain = 0.;
-  double exponent = 0.;
-  std::vector<double> table_strains, table_stresses;
+  std::shared_ptr<const Elasticity> elasticity;
+  std::shared_ptr<const PointLaw> law;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

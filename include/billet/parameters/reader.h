@@ -25,9 +25,6 @@ constexpr double largest_number = 1e60, smallest_number = 1e-60;
 /// A whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
 unsigned int parse_count(const std::string &text);
 
-/// A finite number. Throws std::invalid_argument.
-double parse_number(const std::string &text);
-
 /// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
 /// InputError with file, line, parameter, what was found and what is allowed.
 class Reader : public TypeInput {

@@ -16,7 +16,8 @@ namespace billet::parameters {
 void declare_parameter(dealii::ParameterHandler &prm, const TypeParameter &parameter,
                        const std::string &meaning);
 
-/// Joins the parameters of all types. Each meaning begins with the names of the types that use it.
+/// Joins the parameters of all types. A meaning begins with the names of the types that use it, unless all
+/// do.
 class ParameterUnion {
 public:
   void add(const std::string &type, const std::vector<TypeParameter> &parameters);
@@ -29,8 +30,10 @@ private:
   struct Entry {
     TypeParameter parameter;
     std::string users;
+    unsigned int n_users;
   };
   std::vector<Entry> entries_;
+  unsigned int n_types_ = 0;
 };
 
 template <class Product> ParameterUnion join_parameters(const TypeTable<Product> &table) {

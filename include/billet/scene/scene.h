@@ -44,13 +44,13 @@ struct Load {
   dealii::Tensor<1, 3> vector; ///< unit, where the direction is one
 };
 
-/// Element and kinematics of a body.
+/// Element of a body.
 ElementFormulation make_formulation(const parameters::Body &parameters);
 
 /// What a body is made of and how it is held; its mesh is elsewhere.
 struct Body {
   std::string name;
-  MaterialLaw material;
+  std::shared_ptr<const PointLaw> law;
   ElementFormulation formulation; ///< of implicit scenes
   double young_modulus;
   double largest_modulus; ///< of a strain that is held sideways, K + 4/3 G [stress]

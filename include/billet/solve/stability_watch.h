@@ -30,8 +30,7 @@ private:
   struct Watched {
     std::size_t body;
     std::string name;
-    ElasticModuli elastic;
-    parameters::Material::Kinematics kinematics;
+    std::shared_ptr<const PointLaw> law;
     bool is_unstable;
   };
   struct Weakest {

@@ -204,6 +204,7 @@ double ImplicitProblem::find_free_part(const bool is_thorough) {
 void ImplicitProblem::start_step(const double t) {
   step_.time = t;
   step_.duration = t - state_.time;
+  internal_.start_step(step_.duration);
   stabilisation_.start_step(step_.duration);
   const bool is_static = !scheme().has_inertia();
   for (const auto &contact : contacts_.of_bodies())
@@ -228,6 +229,7 @@ void ImplicitProblem::start_at_rest() {
   for (const auto &contact : contacts_.of_bodies())
     contact->start_step(state_.time, state_.time);
   step_.duration = 0.;
+  internal_.start_step(0.);
 }
 
 void ImplicitProblem::evaluate_start() {

@@ -48,7 +48,7 @@ void ImplicitSolution::save(StateWriter &writer) const {
 
 void ImplicitSolution::save_body(const std::size_t body, StateWriter &writer) const {
   const ElementFormulation &formulation = problem_.scene().bodies()[body].formulation;
-  writer.write_text("formulation", describe(formulation));
+  writer.write_text("formulation", describe(formulation, *problem_.scene().bodies()[body].law));
   const ElementBlock &block = problem_.internal().block(body);
   const std::vector<std::uint64_t> keys = element_keys(problem_.discretization(), body);
   if (formulation.points_through > 2)
@@ -119,7 +119,8 @@ void ImplicitSolution::load_body(const std::size_t body, StateReader &reader, Re
   reader.in(group("body", body), [&] {
     ElementBlock &block = problem_.internal().block(body);
     const ElementFormulation &formulation = problem_.scene().bodies()[body].formulation;
-    bool is_same = reader.read_text("formulation") == describe(formulation);
+    bool is_same =
+        reader.read_text("formulation") == describe(formulation, *problem_.scene().bodies()[body].law);
     if (is_same && formulation.points_through > 2)
       is_same = problem_.on_all_ranks(load_thickness_axes(reader, element_keys(discretization, body)) ==
                                       block.thickness_axes());

@@ -2,6 +2,8 @@
 #ifndef BILLET_MECHANICS_EXPLICIT_KERNEL_H
 #define BILLET_MECHANICS_EXPLICIT_KERNEL_H
 
+#include "billet/material/lane_forms.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -18,10 +20,6 @@ struct LaneFunctions {
   /// dev ln b and tr ln b / 3 of a symmetric b (11, 22, 33, 12, 13, 23); false if b is not positive definite.
   bool (*logarithm)(const double *b, double *deviator, double &mean);
 };
-
-/// The laws that kernels know themselves, and `other`, for which LaneFunctions are asked. σ_y(α) must be
-/// concave but for `other`.
-enum class HardeningKind { linear, voce, power_law, other };
 
 /// Constants of the body, in the units of its numbers. `Number` is what kernels compute with.
 template <class Number> struct BasicMaterial {
@@ -119,7 +117,7 @@ constexpr unsigned int thinning = shear + 6;
 constexpr unsigned int modes = thinning + 3; ///< of the reference positions, in float
 } // namespace assumed_strain
 
-/// Index by element (assumed_strain, mean_dilatation, one_point), kinematics, and whether there is
+/// Index by element (assumed_strain, mean_dilatation, one_point), law (as LaneLaw), and whether there is
 /// plasticity.
 template <class Number> struct KernelTable {
   unsigned int n_lanes;

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MATERIAL_FLOW_STRESS_H
+#define BILLET_MATERIAL_FLOW_STRESS_H
+
+#include "billet/material/lane_forms.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+namespace billet {
+
+/// Plastic strain of a step and the flow stress at its end.
+struct PlasticIncrement {
+  double strain = 0.; ///< Δα ≥ 0
+  double slope = 0.;  ///< derivative of the flow stress by Δα there [stress]
+};
+
+/// Solves q − m Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0. Newton,
+/// kept inside a shrinking bracket: hardening laws with kinks or steep starts cannot throw it off. Ends at
+/// round-off. `law` has stress(α) and slope(α).
+template <class Law>
+double solve_consistency(const Law &law, const double q, const double m, const double alpha_n) {
+  double low = 0., high = q / m;
+  double delta = 0.;
+  const double tolerance = 4. * std::numeric_limits<double>::epsilon() * q;
+  for (unsigned int i = 0; i < 200; ++i) {
+    const double f = q - m * delta - law.stress(alpha_n + delta);
+    if (std::abs(f) <= tolerance)
+      break;
+    (f > 0. ? low : high) = delta;
+    double next = delta + f / (m + law.slope(alpha_n + delta));
+    if (!(next > low && next < high))
+      next = 0.5 * (low + high);
+    if (next == delta)
+      break;
+    delta = next;
+  }
+  return delta;
+}
+
+/// Flow stress of J2 plasticity, in the sense of von Mises [stress]. A point keeps the equivalent plastic
+/// strain α and, where the flow stress depends on more than α, n_state() more numbers, which begin at zero.
+class FlowStress {
+public:
+  static constexpr std::size_t max_state = 4;
+  using State = std::array<double, max_state>;
+
+  virtual ~FlowStress() = default;
+
+  /// Words for messages and checkpoints, such as "linear hardening".
+  virtual std::string description() const = 0;
+
+  /// Returns the stress at which a point begins to yield.
+  virtual double stress(double alpha) const = 0;
+
+  /// Returns the Δα with q − m Δα = flow stress at the end of a step of dt [time]; zero, with the slope at
+  /// α_n, where q does not exceed stress(α_n).
+  virtual PlasticIncrement solve(double q, double m, double alpha_n, double dt) const = 0;
+
+  virtual std::size_t n_state() const { return 0; }
+  /// Overwrites `state` with that at the end of a step.
+  virtual void advance(double alpha_n, double delta_alpha, double dt, const State &state_n,
+                       State &state) const {
+    (void)alpha_n, (void)delta_alpha, (void)dt, (void)state_n, (void)state;
+  }
+  /// Returns the plastic work per reference volume up to a state [stress].
+  virtual double plastic_work(double alpha, const State &state) const = 0;
+
+  /// Returns the same of a point that has flowed at rest.
+  virtual double plastic_work_at_rest(double alpha) const = 0;
+
+  /// Whether the flow stress stays below a limit, however far a point flows.
+  virtual bool is_bounded() const = 0;
+
+  /// How kernels compute it for several elements at once; by default one lane at a time.
+  virtual LaneHardening lane_form() const { return {}; }
+  /// Whether it depends on α alone, so that kernels need no other state.
+  bool depends_on_strain_alone() const { return n_state() == 0; }
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MATERIAL_LANE_FORMS_H
+#define BILLET_MATERIAL_LANE_FORMS_H
+
+namespace billet {
+
+/// Hardening laws that the explicit kernels compute themselves, for several elements at once, and `other`,
+/// which they ask one lane at a time. σ_y(α) is concave but for `other`.
+enum class HardeningKind { linear, voce, power_law, other };
+
+/// Laws that the explicit kernels compute themselves, for several elements at once.
+enum class LaneLaw { hencky, neo_hookean, hypoelastic };
+
+/// A hardening law as plain numbers, in the user's units.
+struct LaneHardening {
+  HardeningKind kind = HardeningKind::other;
+  double yield_stress = 0., hardening_modulus = 0.;    ///< linear; Voce
+  double saturation_stress = 0., saturation_rate = 0.; ///< Voce
+  double prestrain = 0., exponent = 0., strength = 0.; ///< power law
+};
+
+} // namespace billet
+
+#endif

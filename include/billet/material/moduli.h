@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MATERIAL_MODULI_H
+#define BILLET_MATERIAL_MODULI_H
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+
+namespace billet {
+
+/// Bulk and shear modulus of an isotropic solid [stress].
+struct ElasticModuli {
+  double bulk;
+  double shear;
+
+  static ElasticModuli from_young_poisson(const double young, const double poisson) {
+    return {young / (3. * (1. - 2. * poisson)), young / (2. * (1. + poisson))};
+  }
+  double poisson_ratio() const { return (3. * bulk - 2. * shear) / (6. * bulk + 2. * shear); }
+};
+
+/// Tangent moduli c of the Lie derivative of the Kirchhoff stress, L_v τ = c : d, as a 6 × 6 matrix that maps
+/// (d11, d22, d33, 2 d12, 2 d13, 2 d23) onto (τ11, τ22, τ33, τ12, τ13, τ23) [stress].
+using SpatialModuli = std::array<std::array<double, 6>, 6>;
+
+/// Derivative of a stress by the velocity gradient, δτ = A : L with L = δF F⁻¹, where a law has no moduli in
+/// the sense of SpatialModuli: rows τ11, τ22, τ33, τ12, τ13, τ23, columns L11, L12, L13, L21, ... L33
+/// [stress].
+using GradientModuli = std::array<std::array<double, 9>, 6>;
+
+} // namespace billet
+
+#endif

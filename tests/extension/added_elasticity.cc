@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// An elastic law that the library does not know, with a volumetric part of its own, registered here and named
+// by a scene: uniaxial tension with every element and scheme against the closed form; the tangent by the
+// number of Newton iterations.
+
+#include "pulled_cube.h"
+
+#include "billet/material/elasticity.h"
+#include "billet/material/law_adapter.h"
+#include "billet/material/neo_hookean.h"
+
+using namespace billet;
+using billet::testing::check;
+
+namespace {
+
+/// ψ = ½ κ (J − 1)² + ½ G (tr b̄ − 3).
+class QuadraticVolumeElasticity {
+public:
+  struct History {};
+  using Moduli = SpatialModuli;
+  static constexpr bool has_plasticity = false, is_rate_form = false, has_symmetric_moduli = true,
+                        has_exact_dissipation = true;
+
+  explicit QuadraticVolumeElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
+
+  bool update(const dealii::Tensor<2, 3> &F, const History &, History &, dealii::SymmetricTensor<2, 3> &tau,
+              SpatialModuli *moduli, const PointStep & = {}) const {
+    IsochoricState state;
+    if (!compute_isochoric_state(F, dealii::unit_symmetric_tensor<3>(), state))
+      return false;
+    const double J = state.J, pressure = elastic_.bulk * J * (J - 1.),
+                 slope = elastic_.bulk * J * (2. * J - 1.);
+    tau = elastic_.shear * state.deviator + pressure * dealii::unit_symmetric_tensor<3>();
+    if (moduli != nullptr) {
+      compute_neo_hookean_moduli({0., elastic_.shear}, state, 1., {}, *moduli);
+      for (unsigned int i = 0; i < 6; ++i)
+        for (unsigned int j = 0; j < 6; ++j)
+          (*moduli)[i][j] += (i < 3 && j < 3 ? slope : 0.) - (i == j ? (i < 3 ? 2. : 1.) * pressure : 0.);
+    }
+    return true;
+  }
+  double elastic_energy(const dealii::Tensor<2, 3> &F, const History &) const {
+    IsochoricState state;
+    if (!compute_isochoric_state(F, dealii::unit_symmetric_tensor<3>(), state))
+      return 0.;
+    return compute_elastic_energy({0., elastic_.shear}, state) +
+           0.5 * elastic_.bulk * (state.J - 1.) * (state.J - 1.);
+  }
+  const ElasticModuli &elastic() const { return elastic_; }
+  double least_wave_stiffness(const Stretches &stretches) const {
+    return billet::least_wave_stiffness(*this, elastic_.shear, stretches);
+  }
+
+private:
+  ElasticModuli elastic_;
+};
+
+SharedLaw make_law(const ElasticModuli &moduli, SharedFlow flow) {
+  if (flow != nullptr)
+    return nullptr;
+  return std::make_shared<const LawAdapter<QuadraticVolumeElasticity>>("quadratic volume",
+                                                                       QuadraticVolumeElasticity(moduli));
+}
+
+std::string material(const double poisson) {
+  return "set Law = elastic\nset Kinematics = quadratic volume\nset Young modulus = 200e3\nset Poisson ratio "
+         "= " +
+         std::to_string(poisson);
+}
+
+/// Stored energy of uniaxial tension, the lateral stretch by bisection of the lateral stress.
+double exact_energy(const double poisson, const double stretch) {
+  const QuadraticVolumeElasticity law(ElasticModuli::from_young_poisson(testing::cube_young, poisson));
+  double low = 0.3, high = 1.5;
+  dealii::Tensor<2, 3> F;
+  F[2][2] = stretch;
+  QuadraticVolumeElasticity::History none;
+  dealii::SymmetricTensor<2, 3> tau;
+  for (unsigned int i = 0; i < 100; ++i) {
+    F[0][0] = F[1][1] = 0.5 * (low + high);
+    law.update(F, none, none, tau, nullptr);
+    (tau[0][0] > 0. ? high : low) = F[0][0];
+  }
+  return law.elastic_energy(F, none);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  elasticity_types().add(isotropic_elasticity_type("quadratic volume", "pressure linear in J", &make_law));
+  for (const std::string element : testing::all_element_names)
+    for (const double poisson : {0.1, 0.4}) {
+      const std::string name = element + ", Poisson ratio " + std::to_string(poisson).substr(0, 3);
+      const double exact = exact_energy(poisson, 1.8);
+      const auto found = testing::pull(element, material(poisson), 1.8, 1., 8);
+      check(name + ", energy", std::abs(found.elastic / exact - 1.), 1e-9);
+      check(name + ", at most seven Newton iterations a step", found.n_iterations <= 56);
+      check(name + ", explicit",
+            std::abs(testing::pull_explicitly(element, material(poisson), 1.8, 2e-3).elastic / exact - 1.),
+            1e-2);
+    }
+  return testing::exit_code();
+}
