@@ -47,6 +47,8 @@ public:
     return compute_elastic_energy({0., elastic_.shear}, state) +
            0.5 * elastic_.bulk * (state.J - 1.) * (state.J - 1.);
   }
+  static double plastic_work(const History &) { return 0.; }
+  static double equivalent_plastic_strain(const History &) { return 0.; }
   const ElasticModuli &elastic() const { return elastic_; }
   double least_wave_stiffness(const Stretches &stretches) const {
     return billet::least_wave_stiffness(*this, elastic_.shear, stretches);
@@ -98,7 +100,7 @@ int main(int argc, char *argv[]) {
       check(name + ", energy", std::abs(found.elastic / exact - 1.), 1e-9);
       check(name + ", at most seven Newton iterations a step", found.n_iterations <= 56);
       check(name + ", explicit",
-            std::abs(testing::pull_explicitly(element, material(poisson), 1.8, 2e-3).elastic / exact - 1.),
+            std::abs(testing::pull_explicitly(element, material(poisson), 1.8, 2e-4).elastic / exact - 1.),
             1e-2);
     }
   return testing::exit_code();

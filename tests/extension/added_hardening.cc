@@ -61,14 +61,15 @@ double exact_plastic_strain(const double strain) {
 }
 
 void test_tension() {
-  constexpr double stretch = 1.3, duration = 2e-3; // some fifty times the slowest vibration
+  constexpr double stretch = 1.3, duration = 2e-4; // some 200 times the slowest vibration
   const double alpha = exact_plastic_strain(std::log(stretch)), stress = sample.stress(alpha),
                elastic = 0.5 * stress * stress / testing::cube_young, plastic = sample.work(alpha);
   for (const std::string element : testing::all_element_names) {
     for (const std::string elasticity : {"Hencky", "neo-Hookean", "hypoelastic"}) {
-      const auto found = testing::pull(element, material(elasticity), stretch, 1., 20);
-      // The others differ from Hencky's law by the order of the elastic strain.
-      const double allowed = elasticity == "Hencky" ? 1e-9 : 5e-3;
+      // The return of Hencky's law is exact in tension, those of the others by the order of the step.
+      const bool is_exact = elasticity == "Hencky";
+      const auto found = testing::pull(element, material(elasticity), stretch, 1., is_exact ? 20 : 200);
+      const double allowed = is_exact ? 1e-9 : 3e-3;
       check(element + ", " + elasticity + ", elastic energy", std::abs(found.elastic / elastic - 1.),
             2. * allowed);
       check(element + ", " + elasticity + ", plastic work", std::abs(found.plastic / plastic - 1.), allowed);

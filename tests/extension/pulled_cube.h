@@ -52,11 +52,12 @@ inline parameters::Scene read_pulled_cube(const std::string &element, const std:
   text << "end\n"
           "subsection Output\n"
           "  set Format = none\n"
-          "end\n"
-          "subsection Solver\n"
-          "  set Force tolerance = 1e-9\n"
-          "  set Energy tolerance = 1e-14\n"
           "end\n";
+  if (!is_explicit)
+    text << "subsection Solver\n"
+            "  set Force tolerance = 1e-9\n"
+            "  set Energy tolerance = 1e-14\n"
+            "end\n";
   text.close();
   return parameters::Scene::read(file);
 }

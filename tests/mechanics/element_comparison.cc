@@ -19,7 +19,7 @@ namespace {
 constexpr double young = 1000.;
 
 MaterialLaw elastic(const double poisson) {
-  return {ElasticModuli::from_young_poisson(young, poisson), std::monostate{}};
+  return {ElasticModuli::from_young_poisson(young, poisson), {}};
 }
 
 /// A box, its edges along x sheared by `skew` of the height.

@@ -6,6 +6,8 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::LawFormulation;
+using billet::testing::MaterialLaw;
 using billet::testing::NodalTensor;
 
 namespace {
@@ -75,7 +77,8 @@ int main() {
       testing::compute_force(*block, i / 50. * u);
       block->commit();
     }
-    sources.emplace_back(describe(formulation), block->compute_stress(0, testing::to_array(u)));
+    sources.emplace_back("implicit, " + testing::name_of(formulation),
+                         block->compute_stress(0, testing::to_array(u)));
   });
   bool all_yield = true;
   for (const auto &[name, stress] : sources)
@@ -115,7 +118,7 @@ int main() {
       const auto block = testing::make_block(material, X, formulation);
       block->set_stress(0, testing::to_array(u), wanted);
       const bool has_one = formulation.element == ElementFormulation::Element::one_point;
-      const std::string to = from + " to " + describe(formulation);
+      const std::string to = from + " to " + "implicit, " + testing::name_of(formulation);
       check(to, distance(block->compute_stress(0, testing::to_array(u)), has_one ? mean_of(wanted) : wanted),
             1e-9);
       hourglass_energy.add(block->summarize(0, testing::to_array(u)).hourglass_energy);

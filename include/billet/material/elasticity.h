@@ -42,7 +42,8 @@ SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow = n
 SharedLaw make_isotropic_law(const std::string &name, const ElasticModuli &elastic, SharedFlow flow);
 
 /// Elasticity of one of these laws. Throws std::invalid_argument for another name.
-std::shared_ptr<const Elasticity> make_isotropic_elasticity(const std::string &name, double young, double poisson);
+std::shared_ptr<const Elasticity> make_isotropic_elasticity(const std::string &name, double young,
+                                                            double poisson);
 
 /// Type of such a law, whose parameters are Young's modulus and Poisson's ratio.
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,

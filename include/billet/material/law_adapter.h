@@ -15,11 +15,11 @@ namespace billet {
 ///   Moduli, has_plasticity, is_rate_form, has_symmetric_moduli, has_exact_dissipation
 ///   History                        its state, with default values of the undeformed point
 ///   fields(), store(), restore()   names of that state, and the state as numbers; none if History is empty
-///   update(), elastic_energy(), elastic()
+///   update(), elastic_energy(), plastic_work(), equivalent_plastic_strain(), elastic()
 ///   find_history()                 unless History is empty
 ///   least_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
-///   flow_stress(), plastic_work(), equivalent_plastic_strain()   with plasticity
+///   flow_stress()                  with plasticity
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
 public:
   using History = typename Law::History;
@@ -76,17 +76,9 @@ public:
     else
       return law_.elastic_energy(F, restore(state));
   }
-  double dissipated_energy([[maybe_unused]] const double *state) const override {
-    if constexpr (Law::has_plasticity)
-      return law_.plastic_work(restore(state));
-    else
-      return 0.;
-  }
-  double equivalent_plastic_strain([[maybe_unused]] const double *state) const override {
-    if constexpr (Law::has_plasticity)
-      return law_.equivalent_plastic_strain(restore(state));
-    else
-      return 0.;
+  double dissipated_energy(const double *state) const override { return law_.plastic_work(restore(state)); }
+  double equivalent_plastic_strain(const double *state) const override {
+    return law_.equivalent_plastic_strain(restore(state));
   }
 
   void set_stress([[maybe_unused]] const dealii::Tensor<2, 3> &F,
