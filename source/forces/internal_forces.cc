@@ -63,7 +63,7 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
       const bool is_plastic = body.law->has_plasticity();
       if (is_plastic)
         n_plastic_ += positions.size();
-      if (body.formulation.element == ElementFormulation::Element::one_point)
+      if (body.formulation.element.is_stabilised())
         n_stabilised_ += positions.size();
       if (is_plastic)
         plastic_bytes += blocks_.back()->history_size() * positions.size() * sizeof(double);

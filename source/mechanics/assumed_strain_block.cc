@@ -4,9 +4,41 @@
 
 namespace billet {
 
-std::unique_ptr<ElementBlock> make_assumed_strain_block(const std::shared_ptr<const PointLaw> &law,
-                                                        const ElementFormulation &formulation) {
-  return make_law_block<AssumedStrainElement<>>(law, formulation);
+ElementType assumed_strain_type();
+// Each in a file of its own, for the sake of compilation.
+std::unique_ptr<ElementBlock> make_assumed_strain_block_3(const std::shared_ptr<const PointLaw> &law,
+                                                          const ElementFormulation &formulation);
+std::unique_ptr<ElementBlock> make_assumed_strain_block_5(const std::shared_ptr<const PointLaw> &law,
+                                                          const ElementFormulation &formulation);
+std::unique_ptr<ElementBlock> make_assumed_strain_block_7(const std::shared_ptr<const PointLaw> &law,
+                                                          const ElementFormulation &formulation);
+
+namespace {
+
+std::unique_ptr<ElementBlock> make_block(const std::shared_ptr<const PointLaw> &law,
+                                         const ElementFormulation &formulation) {
+  switch (formulation.points_through) { // one of all_points_through
+  case 3:
+    return make_assumed_strain_block_3(law, formulation);
+  case 5:
+    return make_assumed_strain_block_5(law, formulation);
+  case 7:
+    return make_assumed_strain_block_7(law, formulation);
+  default:
+    return make_law_block<AssumedStrainElement<>>(law, formulation);
+  }
+}
+
+constexpr ElementKind kind = {"assumed strain", &make_block, false, true, LaneElement::assumed_strain};
+
+} // namespace
+
+const BrickElement BrickElement::assumed_strain(kind);
+
+ElementType assumed_strain_type() {
+  return make_element_type(
+      BrickElement::assumed_strain,
+      "eight points, right in bending with one brick through a thickness and in plastic flow");
 }
 
 } // namespace billet

@@ -5,6 +5,9 @@
 namespace billet {
 
 std::unique_ptr<ElementBlock> make_assumed_strain_block_7(const std::shared_ptr<const PointLaw> &law,
+                                                          const ElementFormulation &formulation);
+
+std::unique_ptr<ElementBlock> make_assumed_strain_block_7(const std::shared_ptr<const PointLaw> &law,
                                                           const ElementFormulation &formulation) {
   return make_law_block<AssumedStrainElement<7>>(law, formulation);
 }

@@ -187,18 +187,13 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
   // A body that yields stores less of all its strains.
   own.tapered = elastic > 0. ? own.accurate * energy_of_taper(positions, displacements) / elastic : 0.;
   own.one_point = one_point.used;
-  switch (formulation_.element) {
-  case ElementFormulation::Element::assumed_strain:
-    own.used = own.accurate;
-    break;
-  case ElementFormulation::Element::mean_dilatation:
+  if (formulation_.element == BrickElement::mean_dilatation) {
     if (!add_points(MeanDilatationElement(elastic_, formulation_), own.used))
       return false;
-    break;
-  case ElementFormulation::Element::one_point:
+  } else if (formulation_.element == BrickElement::one_point)
     own += one_point;
-    break;
-  }
+  else
+    own.used = own.accurate; // also of elements that are not known here, which nothing is said of
   if (!std::isfinite(own.used + own.one_point + own.accurate + own.tapered + own.plastic_within))
     return false;
   energies += own;

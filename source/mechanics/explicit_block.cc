@@ -126,15 +126,15 @@ private:
 /// The block of a law that kernels have.
 template <class Number> class Block final : public ExplicitBlock {
 public:
-  Block(std::shared_ptr<const PointLaw> law, const LaneLaw lane_law, const double density,
-        const ExplicitFormulation &formulation)
+  Block(std::shared_ptr<const PointLaw> law, const LaneLaw lane_law, const LaneElement lane_element,
+        const double density, const ExplicitFormulation &formulation)
       : formulation_(formulation), law_(std::move(law)), lane_law_(lane_law), flow_(law_->flow_stress()),
         storage_(find_kernels<Number>(formulation.instructions).n_lanes, law_->elastic(), lane_law,
-                 formulation, flow_ != nullptr,
+                 lane_element, flow_ != nullptr,
                  flow_ != nullptr && flow_->lane_form().kind != HardeningKind::linear),
         kernel_(find_kernels<Number>(formulation.instructions)
-                    .kernels[static_cast<unsigned int>(formulation.element)]
-                            [static_cast<unsigned int>(lane_law)][flow_ != nullptr ? 1 : 0]) {
+                    .kernels[static_cast<unsigned int>(lane_element)][static_cast<unsigned int>(lane_law)]
+                            [flow_ != nullptr ? 1 : 0]) {
     const ElasticModuli &elastic = law_->elastic();
     material_ = {};
     material_.bulk = elastic.bulk;
@@ -357,7 +357,7 @@ void require(const bool holds, const char *reason) {
 } // namespace
 
 std::string describe(const ExplicitFormulation &formulation, const PointLaw &law) {
-  std::string words = std::string("explicit, ") + name_of(formulation.element) + ", " + law.name();
+  std::string words = std::string("explicit, ") + formulation.element.name() + ", " + law.name();
   if (formulation.number_type == ExplicitFormulation::NumberType::float_precision)
     words += ", float";
   return words;
@@ -372,13 +372,14 @@ std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const P
           "bulk viscosity must not be negative");
   const bool in_float = formulation.number_type == ExplicitFormulation::NumberType::float_precision;
   const std::optional<LaneLaw> lane_law = law->lane_law();
-  if (!lane_law) {
-    require(!in_float, "the kernels do not have this law, so that elements are computed in double");
+  const std::optional<LaneElement> lane_element = formulation.element.lanes();
+  if (!lane_law || !lane_element) {
+    require(!in_float, "'Number type = float' is for laws and elements that the kernels have");
     return make_elementwise_block(law, density, formulation);
   }
   if (in_float)
-    return std::make_unique<Block<float>>(law, *lane_law, density, formulation);
-  return std::make_unique<Block<double>>(law, *lane_law, density, formulation);
+    return std::make_unique<Block<float>>(law, *lane_law, *lane_element, density, formulation);
+  return std::make_unique<Block<double>>(law, *lane_law, *lane_element, density, formulation);
 }
 
 } // namespace billet

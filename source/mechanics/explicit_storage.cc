@@ -12,7 +12,7 @@
 namespace billet {
 
 using dealii::Tensor;
-using Element = ExplicitFormulation::Element;
+using Element = LaneElement;
 namespace last = explicit_kernels::last;
 namespace mean_gradient = explicit_kernels::mean_gradient;
 namespace one_point = explicit_kernels::one_point;
@@ -137,18 +137,18 @@ KernelUnits choose_units(const double length, const double stress, const double 
 
 template <class Number>
 ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const ElasticModuli &elastic,
-                                         const LaneLaw law, const ExplicitFormulation &formulation,
+                                         const LaneLaw law, const LaneElement element,
                                          const bool has_plasticity, const bool keeps_yield_stress)
-    : n_lanes_(n_lanes), elastic_(elastic), law_(law), formulation_(formulation),
-      has_plasticity_(has_plasticity), keeps_yield_stress_(keeps_yield_stress) {
-  const bool is_one_point = formulation.element == Element::one_point;
+    : n_lanes_(n_lanes), elastic_(elastic), law_(law), element_(element), has_plasticity_(has_plasticity),
+      keeps_yield_stress_(keeps_yield_stress) {
+  const bool is_one_point = element == Element::one_point;
   n_tensor_ = is_rate() ? 5 : 6;
   const std::size_t n_alpha = has_plasticity ? (is_single ? 2 : 1) : 0;
   layout_.n_point_history = n_tensor_ + n_alpha + (keeps_yield_stress ? 1 : 0);
   first_point_ = last::n + (is_one_point ? 12 : 0);
   layout_.n_history = first_point_ + (is_one_point ? 1 : n_element_points) * layout_.n_point_history;
   layout_.n_constants = is_one_point ? one_point::modes
-                        : formulation.element == Element::assumed_strain
+                        : element == Element::assumed_strain
                             ? assumed_strain::modes
                             : eight_point_modes + (is_rate() ? 0 : n_element_points);
   if (is_single)
@@ -273,7 +273,7 @@ bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element
   if (!(det > 0.))
     return false;
   const Tensor<2, 3> inverse = invert(jacobian);
-  const bool is_one_point = formulation_.element == Element::one_point;
+  const bool is_one_point = element_ == Element::one_point;
   const double squares = is_one_point ? bound_squares(rows_of_mean(geometry))
                                       : bound_squares(rows_of_all(geometry, inverse, 1.));
   lambda = geometry.volume * bound_metric(inverse) * squares;
@@ -352,7 +352,7 @@ bool ExplicitStorage<Number>::initialize_element(const std::size_t element, cons
   for (const double w : reference.volumes)
     volume += w;
 
-  if (formulation_.element != Element::mean_dilatation) {
+  if (element_ != Element::mean_dilatation) {
     if (!initialize_mean_gradient(element, positions, smallest_mass, yield_stress, lambda))
       return false;
   } else {
@@ -410,8 +410,8 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
   const bool is_last = element + 1 == n_elements_;
   for (std::size_t e = element; e == element || (is_last && e % n_lanes_ != 0); ++e) {
     const auto divide = [&](const std::size_t k) { set_constant(e, k, constant(e, k) / factor); };
-    divide(formulation_.element == Element::mean_dilatation ? 1 : mean_gradient::bound);
-    if (formulation_.element == Element::one_point)
+    divide(element_ == Element::mean_dilatation ? 1 : mean_gradient::bound);
+    if (element_ == Element::one_point)
       divide(one_point::bound_of_all);
     set_history(e, last::omega, history(e, last::omega) / factor);
   }
@@ -435,7 +435,7 @@ template <class Visit>
 void ExplicitStorage<Number>::visit_points(const std::size_t element, const double *displacements,
                                            const Visit &visit) const {
   const ElementVectors X = gather(element, reference_positions_.data()), u = gather(element, displacements);
-  if (formulation_.element == Element::one_point) {
+  if (element_ == Element::one_point) {
     ElementVectors x;
     std::transform(X.begin(), X.end(), u.begin(), x.begin(), std::plus<>());
     const ModalGeometry reference(X), current(x);
@@ -451,7 +451,7 @@ void ExplicitStorage<Number>::visit_points(const std::size_t element, const doub
       visit(first_point_, reference.volume, J, jacobian, invert(reference_jacobian));
     return;
   }
-  if (formulation_.element == Element::assumed_strain) {
+  if (element_ == Element::assumed_strain) {
     using Brick = AssumedStrainElement<>;
     const Brick brick(elastic_, {});
     Brick::Reference reference;
@@ -560,7 +560,7 @@ void ExplicitStorage<Number>::set_states(const std::size_t element, const double
           set_alpha(element, k, state.equivalent_plastic_strain);
         if (keeps_yield_stress_)
           set_history(element, k, yield_stress[q]);
-        if (has_plasticity_ && formulation_.element == Element::one_point)
+        if (has_plasticity_ && element_ == Element::one_point)
           set_hourglass(element, displacements, jacobian, true);
         ++q;
       });
@@ -572,7 +572,7 @@ void ExplicitStorage<Number>::renew(const double *displacements, const bool from
   if (!is_single)
     return;
   const bool is_volume_alone =
-      formulation_.element == Element::mean_dilatation && (is_rate() || (has_plasticity_ && !from_the_start));
+      element_ == Element::mean_dilatation && (is_rate() || (has_plasticity_ && !from_the_start));
   for (std::size_t element = 0; element < n_elements_; ++element) {
     if (is_volume_alone) {
       ElementVectors x = gather(element, reference_positions_.data());
@@ -589,7 +589,7 @@ void ExplicitStorage<Number>::renew(const double *displacements, const bool from
                    set_history(element, last::volume, volume_ratio - 1.);
                    if (has_plasticity_ && !from_the_start)
                      return;
-                   if (formulation_.element == Element::one_point)
+                   if (element_ == Element::one_point)
                      set_hourglass(element, displacements, jacobian, false);
                    if (is_rate())
                      return;

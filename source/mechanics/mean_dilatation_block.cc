@@ -4,9 +4,20 @@
 
 namespace billet {
 
-std::unique_ptr<ElementBlock> make_mean_dilatation_block(const std::shared_ptr<const PointLaw> &law,
-                                                         const ElementFormulation &formulation) {
-  return make_law_block<MeanDilatationElement>(law, formulation);
+ElementType mean_dilatation_type();
+
+namespace {
+
+constexpr ElementKind kind = {"mean dilatation", &make_law_block<MeanDilatationElement>, false, false,
+                              LaneElement::mean_dilatation};
+
+} // namespace
+
+const BrickElement BrickElement::mean_dilatation(kind);
+
+ElementType mean_dilatation_type() {
+  return make_element_type(BrickElement::mean_dilatation,
+                           "eight points with a common volumetric strain, for solid parts that do not bend");
 }
 
 } // namespace billet

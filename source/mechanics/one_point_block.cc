@@ -4,9 +4,19 @@
 
 namespace billet {
 
-std::unique_ptr<ElementBlock> make_one_point_block(const std::shared_ptr<const PointLaw> &law,
-                                                   const ElementFormulation &formulation) {
-  return make_law_block<OnePointElement>(law, formulation);
+ElementType one_point_type();
+
+namespace {
+
+constexpr ElementKind kind = {"one point", &make_law_block<OnePointElement>, true, false,
+                              LaneElement::one_point};
+
+} // namespace
+
+const BrickElement BrickElement::one_point(kind);
+
+ElementType one_point_type() {
+  return make_element_type(BrickElement::one_point, "one point with hourglass stabilisation, the cheapest");
 }
 
 } // namespace billet

@@ -233,12 +233,8 @@ void Load::parse(Reader &reader) {
 
 void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names,
                    const std::vector<std::string> &load_names) {
-  prm.declare_entry(
-      "Element", "assumed strain", Patterns::Selection("assumed strain|mean dilatation|one point"),
-      "assumed strain: eight points, right in bending with one brick through a thickness and in plastic "
-      "flow; "
-      "mean dilatation: eight points with a common volumetric strain, for solid parts that do not bend; one "
-      "point: with hourglass stabilisation, the cheapest.");
+  declare_selection(prm, "Element", BrickElement::assumed_strain.name(), element_types(),
+                    "Formulation of the bricks.");
   prm.declare_entry("Points through thickness", "2", Patterns::Selection("2|3|5|7"),
                     "Gauss points of each brick along the thickness direction. More than 2 need 'Element = "
                     "assumed strain' and a static scene or implicit dynamics. Use 5 for the springback of "
@@ -332,15 +328,12 @@ void Body::parse(Reader &reader) {
         loads.back().parse(reader);
       });
   });
-  const std::string type = reader.text("Element");
-  element = reader.located("Element", type == "one point"         ? ElementType::one_point
-                                      : type == "mean dilatation" ? ElementType::mean_dilatation
-                                                                  : ElementType::assumed_strain);
+  element = reader.located("Element", make_selected(reader, "Element", element_types()));
   points_through =
       reader.located("Points through thickness",
                      static_cast<unsigned int>(reader.text("Points through thickness")[0] - '0'));
   thickness_direction = reader.located("Thickness direction", reader.parts("Thickness direction"));
-  if (points_through.value > 2 && element.value != ElementType::assumed_strain)
+  if (points_through.value > 2 && !element.value.has_layers())
     reader.reject("Points through thickness", "2, since only 'Element = assumed strain' takes more");
   if (points_through.value > 2 && thickness_direction.value.size() != 3)
     reader.reject("Thickness direction",

@@ -160,10 +160,8 @@ std::string describe_friction(const parameters::ContactPair &pair) {
 
 /// Element, unless it is the usual one, elasticity and law.
 std::string describe_law(const parameters::Body &body) {
-  using Type = parameters::Body::ElementType;
-  return std::string(body.element.value == Type::mean_dilatation ? "mean dilatation, "
-                     : body.element.value == Type::one_point     ? "one point, "
-                                                                 : "") +
+  const BrickElement element = body.element.value;
+  return (element != BrickElement::assumed_strain ? std::string(element.name()) + ", " : "") +
          (body.points_through.value > 2
               ? std::to_string(body.points_through.value) + " points through the thickness, "
               : "") +
@@ -173,20 +171,8 @@ std::string describe_law(const parameters::Body &body) {
 } // namespace
 
 ElementFormulation make_formulation(const parameters::Body &parameters) {
-  using Type = parameters::Body::ElementType;
-  using Formulation = ElementFormulation;
-  Formulation formulation;
-  switch (parameters.element.value) {
-  case Type::assumed_strain:
-    formulation.element = Formulation::Element::assumed_strain;
-    break;
-  case Type::mean_dilatation:
-    formulation.element = Formulation::Element::mean_dilatation;
-    break;
-  case Type::one_point:
-    formulation.element = Formulation::Element::one_point;
-    break;
-  }
+  ElementFormulation formulation;
+  formulation.element = parameters.element.value;
   formulation.points_through = parameters.points_through.value;
   return formulation;
 }
@@ -213,7 +199,7 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
     capabilities_.plasticity |= body.law->has_plasticity();
     for (const auto &hold : body.holds)
       capabilities_.moving_supports |= hold.value != nullptr;
-    capabilities_.stabilisation |= body.formulation.element == ElementFormulation::Element::one_point;
+    capabilities_.stabilisation |= body.formulation.element.is_stabilised();
   }
   for (const auto &pair : pairs_)
     capabilities_.friction |= pair.has_friction();
@@ -477,12 +463,10 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
                                          [](const Body &body) { return body.law->has_plasticity(); }),
                            bodies_.size(), "bodies"));
   add("Stabilisation", capabilities_.stabilisation,
-      "hourglass modes of " + part(std::count_if(bodies_.begin(), bodies_.end(),
-                                                 [](const Body &body) {
-                                                   return body.formulation.element ==
-                                                          ElementFormulation::Element::one_point;
-                                                 }),
-                                   bodies_.size(), "bodies"));
+      "hourglass modes of " +
+          part(std::count_if(bodies_.begin(), bodies_.end(),
+                             [](const Body &body) { return body.formulation.element.is_stabilised(); }),
+               bodies_.size(), "bodies"));
   add("Contact", capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
   add("Friction", capabilities_.friction,
       "history of " +

@@ -11,7 +11,7 @@ namespace billet {
 
 namespace {
 
-using ElementType = ElementFormulation::Element;
+using Brick = BrickElement;
 
 bool is_of_taper(const ElementEnergies &energies) {
   constexpr double much = 0.5;
@@ -20,7 +20,7 @@ bool is_of_taper(const ElementEnergies &energies) {
 
 /// What helps a body whose elements are too stiff: never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
-  return is_of_taper(energies) || formulation.element != ElementType::mean_dilatation
+  return is_of_taper(energies) || formulation.element != Brick::mean_dilatation
              ? "Use bricks whose opposite edges are parallel, also in plan, or shorter ones beside their "
                "thickness"
              : "Use 'Element = assumed strain'";
@@ -93,7 +93,7 @@ double ElementWatch::factor_of(const std::size_t body) const {
 
 bool ElementWatch::is_doubtful(const std::size_t body) const {
   // Accurate elements are never called soft.
-  const bool may_be_soft = scene_.bodies()[body].formulation.element == ElementType::mean_dilatation;
+  const bool may_be_soft = scene_.bodies()[body].formulation.element == Brick::mean_dilatation;
   const double factor = factor_of(body);
   return counts(body) && (factor > doubtful_factor || (may_be_soft && factor * doubtful_factor < 1.));
 }
@@ -110,7 +110,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     const bool has_yield = scene_.bodies()[b].law->has_plasticity();
     std::ostringstream text;
     text.precision(3);
-    text << "Elements 'Element = " << name_of(formulation.element) << "' ";
+    text << "Elements 'Element = " << formulation.element.name() << "' ";
     if (is_stiff)
       text << "are " << factor
            << " times too stiff for this deformation: forces are too large, or displacements too small, by "
@@ -140,12 +140,12 @@ DiagnosticList ElementWatch::judge_bending() const {
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const ElementEnergies &energies = energies_[b];
-    const ElementType element = scene_.bodies()[b].formulation.element;
-    const bool is_hourglass = element == ElementType::one_point &&
+    const Brick element = scene_.bodies()[b].formulation.element;
+    const bool is_hourglass = element == Brick::one_point &&
                               energies.hourglass > of_hourglass_modes * energies.used &&
                               energies.plastic > of_yielding * energies.used;
     const bool is_between_points =
-        element == ElementType::assumed_strain && energies.plastic_within > of_flow_within * energies.used &&
+        element == Brick::assumed_strain && energies.plastic_within > of_flow_within * energies.used &&
         std::abs(energies.plastic - energies.plastic_within) > of_dissipation * energies.plastic_within;
     if (!counts(b) || !(is_hourglass || is_between_points))
       continue;

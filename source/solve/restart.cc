@@ -48,7 +48,7 @@ std::vector<SharedLaw> laws_like(const SharedLaw &law) {
 std::optional<StoredFormulation<ElementFormulation>> find_implicit_formulation(const std::string &words,
                                                                                const SharedLaw &law) {
   for (const SharedLaw &candidate : laws_like(law))
-    for (const auto element : all_elements)
+    for (const BrickElement element : all_elements())
       for (const unsigned int points_through : all_points_through) {
         ElementFormulation formulation;
         formulation.element = element;
@@ -63,7 +63,7 @@ std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std
                                                                        const SharedLaw &law) {
   using NumberType = ExplicitFormulation::NumberType;
   for (const SharedLaw &candidate : laws_like(law))
-    for (const auto element : all_elements)
+    for (const BrickElement element : all_elements())
       for (const auto number_type : {NumberType::double_precision, NumberType::float_precision}) {
         ExplicitFormulation formulation;
         formulation.instructions = InstructionSet::scalar;

@@ -22,7 +22,7 @@ int main(int argc, char *argv[]) {
     return size * (2. * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1.);
   };
   const MaterialLaw material{ElasticModuli::from_young_poisson(2e5, 0.3), LinearHardening{700., 300.}};
-  for (const auto element : all_elements)
+  for (const auto element : all_elements())
     for (const auto kinematics : all_kinematics) {
       LawFormulation formulation;
       formulation.element = element;

@@ -216,9 +216,9 @@ void check_elastic_blocks() {
   const double exact = continuum_instability(elastic_moduli, 8);
   check("a half space wrinkles at a stretch of 0.5437, a block a little later",
         exact > 0.542 && exact < 0.5437);
-  for (const auto element : all_elements) {
+  for (const auto element : all_elements()) {
     formulation.element = element;
-    const std::string name = billet::name_of(element);
+    const std::string name = element.name();
     const double coarse = first_instability(formulation, 8, 0.),
                  fine = first_instability(formulation, 16, 0.);
     check(name + ", an elastic block is not unstable before the continuum is",
@@ -239,7 +239,7 @@ void check_plastic_blocks() {
   constexpr double step = 0.005, tangent_step = 1e-6, lowest = 0.25;
   check("a plastic continuum is stable to a quarter of its height",
         continuum_instability(plastic_moduli, n) < lowest);
-  for (const auto element : all_elements)
+  for (const auto element : all_elements())
     for (const double moved : {0., 1e-6, 0.05, 0.2}) {
       formulation.element = element;
       Block block(plastic_law(), formulation, n, moved);
@@ -250,7 +250,7 @@ void check_plastic_blocks() {
         if (i % 25 == 0)
           n_negative += block.n_negative(press(plastic_stretch(further), further));
       }
-      check(std::string(billet::name_of(element)) + ", plastic" + moved_by(moved) + ": so is the block",
+      check(std::string(element.name()) + ", plastic" + moved_by(moved) + ": so is the block",
             n_negative == 0);
     }
 }

@@ -82,7 +82,7 @@ int main() {
   for (const auto element :
        {ElementFormulation::Element::assumed_strain, ElementFormulation::Element::one_point}) {
     formulation.element = element;
-    const std::string name = billet::name_of(element);
+    const std::string name = element.name();
     for (const auto &[state, F] : states)
       check(name + ", elastic, " + state, elastic(formulation, F) > 0.);
     formulation.kinematics = LawFormulation::Kinematics::hencky;

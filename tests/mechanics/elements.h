@@ -98,7 +98,7 @@ inline std::string name_of(const LawFormulation &formulation) {
 
 /// Calls run(formulation) for every element and kinematics.
 template <class Function> void for_each_formulation(const Function &run) {
-  for (const auto element : all_elements)
+  for (const auto element : all_elements())
     for (const auto kinematics : all_kinematics) {
       LawFormulation formulation;
       formulation.element = element;

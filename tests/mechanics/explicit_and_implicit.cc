@@ -93,7 +93,7 @@ void test_path(const std::string &name, const Formulation &chosen, const Materia
 }
 
 int main() {
-  for (const auto element : all_elements)
+  for (const auto element : all_elements())
     for (const auto kinematics : all_kinematics) {
       const Formulation formulation = make_formulation(element, kinematics);
       for_each_hardening([&](const std::string &name, const auto &hardening) {

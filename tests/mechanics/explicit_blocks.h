@@ -131,12 +131,12 @@ inline Formulation make_formulation(const Formulation::Element element,
 }
 
 inline std::string name_of(const Formulation &formulation) {
-  return std::string(billet::name_of(formulation.element)) + ", " + name_of(formulation.kinematics);
+  return std::string(formulation.element.name()) + ", " + name_of(formulation.kinematics);
 }
 
 /// Calls run(formulation) for every kernel.
 template <class Function> void for_each_kernel(const Function &run) {
-  for (const auto element : all_elements)
+  for (const auto element : all_elements())
     for (const auto kinematics : all_kinematics)
       run(make_formulation(element, kinematics));
 }

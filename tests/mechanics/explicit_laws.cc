@@ -171,7 +171,7 @@ void test_again(const Formulation &formulation, const MaterialLaw &material) {
 }
 
 int main() {
-  for (const auto element : all_elements) {
+  for (const auto element : all_elements()) {
     const Formulation neo_hookean = make_formulation(element, Kinematics::neo_hookean),
                       hypoelastic = make_formulation(element, Kinematics::hypoelastic);
     const auto never = [](const double) { return -1.; };

@@ -56,15 +56,14 @@ double largest(const std::vector<double> &values) {
   return result;
 }
 
-void test_taylor_bar(const parameters::Body::ElementType element) {
+void test_taylor_bar(const BrickElement element) {
   parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/../../prm/taylor_bar.prm");
   scene.bodies[0].mesh.refinements = 1;
   scene.bodies[0].mesh.n_layers = 16;
   scene.bodies[0].element.value = element;
   const History exact = run(scene, NumberType::double_precision, 4e-6),
                 rounded = run(scene, NumberType::float_precision, 4e-6);
-  const std::string name =
-      element == parameters::Body::ElementType::one_point ? "one point" : "mean dilatation";
+  const std::string name = element == BrickElement::one_point ? "one point" : "mean dilatation";
   const double energy = exact.at("energy").front();
   for (const auto &[column, values] : exact) {
     if (column == "momentum" || column == "angular momentum" || column == "energy")
@@ -79,17 +78,16 @@ void test_taylor_bar(const parameters::Body::ElementType element) {
 }
 
 /// It turns by a fifth of a circle, in strains of 1e-3 and some 10,000 steps.
-void test_flight(const parameters::Body::ElementType element, const std::string &elasticity) {
+void test_flight(const BrickElement element, const std::string &elasticity) {
   parameters::Scene scene = testing::read_test_scene("explicit_float.prm");
   scene.bodies[0].element.value = element;
   testing::set_elasticity(scene.bodies[0].material, elasticity);
   const double interval = scene.time_stepping.end_time / 100.;
   const History exact = run(scene, NumberType::double_precision, interval),
                 rounded = run(scene, NumberType::float_precision, interval);
-  const std::string name =
-      std::string("flight, ") +
-      (element == parameters::Body::ElementType::one_point ? "one point, " : "mean dilatation, ") +
-      elasticity + ", ";
+  const std::string name = std::string("flight, ") +
+                           (element == BrickElement::one_point ? "one point, " : "mean dilatation, ") +
+                           elasticity + ", ";
   for (const auto &[column, tolerance] :
        {std::make_pair("momentum", 1e-12), std::make_pair("angular momentum", 1e-6)}) {
     WorstError error;
@@ -107,8 +105,7 @@ void test_flight(const parameters::Body::ElementType element, const std::string 
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  using ElementType = parameters::Body::ElementType;
-  for (const auto element : {ElementType::mean_dilatation, ElementType::one_point}) {
+  for (const auto element : {BrickElement::mean_dilatation, BrickElement::one_point}) {
     test_taylor_bar(element);
     test_flight(element, "Hencky");
     test_flight(element, "neo-Hookean");

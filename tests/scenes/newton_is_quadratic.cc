@@ -26,8 +26,7 @@ double order_of_convergence(const std::vector<NewtonIteration> &iterations) {
 
 /// The largest f_{k+1}/f_k² of corrections that begin below 1e-3 and end above round-off, 1e-11, and their
 /// number. A tangent that is wrong by 0.1 % has 1e3 and more.
-void test_squares(const std::string &name, const parameters::Body::ElementType element,
-                  const std::string &elasticity) {
+void test_squares(const std::string &name, const BrickElement element, const std::string &elasticity) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   parameters.bodies[0].element.value = element;
   testing::set_elasticity(parameters.bodies[0].material, elasticity);
@@ -77,7 +76,7 @@ int main(int argc, char *argv[]) {
   check("median order of the energy's fall is 2 (at least 1.8)",
         !orders.empty() && orders[orders.size() / 2] >= 1.8);
 
-  using Element = parameters::Body::ElementType;
+  using Element = BrickElement;
   // Exact, since friction makes the matrix unsymmetric anyway.
   test_squares("mean dilatation, neo-Hookean", Element::mean_dilatation, "neo-Hookean");
   test_squares("mean dilatation, hypoelastic", Element::mean_dilatation, "hypoelastic");

@@ -162,14 +162,13 @@ int main(int argc, char *argv[]) {
     rest.run(released.time_stepping.end_time, ignored);
     reference = deflection(rest.discretization, rest.problem.state().displacements);
   }
-  using ElementType = parameters::Body::ElementType;
   for (const std::string name : {"Hencky", "neo-Hookean", "hypoelastic"}) {
     parameters::Scene scene = bending;
     testing::set_elasticity(scene.bodies[0].material, name);
     test(name, scene, reference, false);
   }
   parameters::Scene scene = bending;
-  scene.bodies[0].element.value = ElementType::one_point;
+  scene.bodies[0].element.value = BrickElement::one_point;
   test("One point", scene, reference, true);
   return testing::exit_code();
 }

@@ -2,7 +2,7 @@
 #ifndef BILLET_MECHANICS_ELEMENT_BLOCK_H
 #define BILLET_MECHANICS_ELEMENT_BLOCK_H
 
-#include "billet/material/point_law.h"
+#include "billet/mechanics/element_type.h"
 #include "billet/mechanics/mean_dilatation.h"
 #include "billet/mechanics/thickness.h"
 
@@ -14,23 +14,12 @@ namespace billet {
 
 /// How the elements of a body are computed.
 struct ElementFormulation {
-  enum class Element {
-    assumed_strain,  ///< points without parasitic shear, see AssumedStrainElement
-    mean_dilatation, ///< 2 × 2 × 2 points, F̄ of MeanDilatationKinematics: locks in bending
-    one_point        ///< mean gradient with physical stabilisation, see OnePointElement
-  };
+  using Element = BrickElement;
 
   Element element = Element::assumed_strain;
   unsigned int points_through = 2; ///< of assumed strains, through the thickness: one of all_points_through
-  bool is_symmetrised = false; ///< the symmetric part of an unsymmetric tangent, see has_symmetric_tangent()
+  bool is_symmetrised = false;     ///< whether an unsymmetric tangent is replaced by its symmetric part
 };
-
-inline constexpr std::array all_elements = {ElementFormulation::Element::assumed_strain,
-                                            ElementFormulation::Element::mean_dilatation,
-                                            ElementFormulation::Element::one_point};
-
-/// As scenes call it.
-const char *name_of(ElementFormulation::Element element);
 
 /// What a history means: element, points through the thickness unless two, and elasticity in words.
 std::string describe(const ElementFormulation &formulation, const PointLaw &law);

@@ -39,8 +39,8 @@ struct PointState {
 /// `Number`: double or float.
 template <class Number> class ExplicitStorage {
 public:
-  ExplicitStorage(unsigned int n_lanes, const ElasticModuli &elastic, LaneLaw law,
-                  const ExplicitFormulation &formulation, bool has_plasticity, bool keeps_yield_stress);
+  ExplicitStorage(unsigned int n_lanes, const ElasticModuli &elastic, LaneLaw law, LaneElement element,
+                  bool has_plasticity, bool keeps_yield_stress);
 
   /// See ExplicitBlock::initialize(). `yield_stress`: the initial one, used if it is kept.
   /// Numbers are stored in `units`, in which kernels count; all arguments and results are in the user's.
@@ -135,7 +135,7 @@ private:
   unsigned int n_lanes_;
   ElasticModuli elastic_;
   LaneLaw law_;
-  ExplicitFormulation formulation_;
+  LaneElement element_;
   bool has_plasticity_, keeps_yield_stress_;
   KernelUnits units_;
   explicit_kernels::Layout layout_;

@@ -411,20 +411,6 @@ std::unique_ptr<ElementBlock> make_law_block(const std::shared_ptr<const PointLa
   return make(UnsymmetricForm());
 }
 
-// Each in a file of its own, for the sake of compilation.
-std::unique_ptr<ElementBlock> make_mean_dilatation_block(const std::shared_ptr<const PointLaw> &law,
-                                                         const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block(const std::shared_ptr<const PointLaw> &law,
-                                                        const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block_3(const std::shared_ptr<const PointLaw> &law,
-                                                          const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block_5(const std::shared_ptr<const PointLaw> &law,
-                                                          const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_assumed_strain_block_7(const std::shared_ptr<const PointLaw> &law,
-                                                          const ElementFormulation &formulation);
-std::unique_ptr<ElementBlock> make_one_point_block(const std::shared_ptr<const PointLaw> &law,
-                                                   const ElementFormulation &formulation);
-
 } // namespace billet
 
 #endif

@@ -3,6 +3,7 @@
 #define BILLET_PARAMETERS_BODY_H
 
 #include "billet/material/elasticity.h"
+#include "billet/mechanics/element_type.h"
 #include "billet/parameters/reader.h"
 
 #include <array>
@@ -89,10 +90,8 @@ struct Body {
   std::string name;
   std::string origin;
   Mesh mesh;
-  enum class ElementType { assumed_strain, mean_dilatation, one_point };
-
   Material material;
-  Located<ElementType> element;
+  Located<BrickElement> element{BrickElement::assumed_strain, ""};
   Located<unsigned int> points_through;                  ///< the thickness, of assumed strains
   Located<std::vector<std::string>> thickness_direction; ///< expressions of x, y, z; empty with two points
   std::vector<Support> supports;

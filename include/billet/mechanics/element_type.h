@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MECHANICS_ELEMENT_TYPE_H
+#define BILLET_MECHANICS_ELEMENT_TYPE_H
+
+#include "billet/material/point_law.h"
+#include "billet/registered_type.h"
+
+#include <memory>
+#include <optional>
+
+namespace billet {
+
+class ElementBlock;
+struct ElementFormulation;
+
+/// Bricks that the explicit kernels compute themselves, for several elements at once.
+enum class LaneElement { assumed_strain, mean_dilatation, one_point };
+
+/// A formulation of eight-node bricks: how they are made, and what the rest of the program may ask of them.
+struct ElementKind {
+  const char *name; ///< as scenes call it
+  /// Makes all elements of one body on one rank, with any law; make_law_block() does so from a class.
+  std::unique_ptr<ElementBlock> (*make_block)(const std::shared_ptr<const PointLaw> &,
+                                              const ElementFormulation &);
+  bool is_stabilised = false; ///< whether it has hourglass modes, whose energy is reported
+  bool has_layers = false;    ///< whether it takes more than two points through a thickness
+  /// Without one, explicit scenes compute the elements one by one.
+  std::optional<LaneElement> lanes = {};
+};
+
+/// Handle of an ElementKind, which lives as long as the program.
+class BrickElement {
+public:
+  static const BrickElement assumed_strain, mean_dilatation, one_point;
+
+  explicit constexpr BrickElement(const ElementKind &kind) : kind_(&kind) {}
+
+  const char *name() const { return kind_->name; }
+  bool is_stabilised() const { return kind_->is_stabilised; }
+  bool has_layers() const { return kind_->has_layers; }
+  const std::optional<LaneElement> &lanes() const { return kind_->lanes; }
+  std::unique_ptr<ElementBlock> make_block(const std::shared_ptr<const PointLaw> &law,
+                                           const ElementFormulation &formulation) const;
+
+  bool operator==(const BrickElement &other) const { return kind_ == other.kind_; }
+  bool operator!=(const BrickElement &other) const { return kind_ != other.kind_; }
+
+private:
+  const ElementKind *kind_;
+};
+
+/// Elements that a scene file can name. A new one is a file in source/mechanics/ with its class, its kind and
+/// a function that returns its type, and its name in the table of element_type.cc.
+using ElementType = RegisteredType<BrickElement>;
+TypeTable<BrickElement> &element_types();
+
+/// The type of an element, which has no parameters.
+ElementType make_element_type(BrickElement element, std::string meaning);
+/// The elements of all types.
+std::vector<BrickElement> all_elements();
+
+} // namespace billet
+
+#endif

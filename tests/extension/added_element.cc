@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// An element that the library does not know, the fully integrated brick, registered here and named by a
+// scene: uniaxial tension against mean dilatation, which is the same where the strain is uniform, in statics
+// and explicitly.
+
+#include "pulled_cube.h"
+
+#include "billet/mechanics/law_block.h"
+
+using namespace billet;
+using billet::testing::check;
+
+namespace {
+
+/// Q1 with 2 × 2 × 2 points: F as it is.
+class FullyIntegratedElement {
+public:
+  static constexpr unsigned int n_points = n_element_points;
+  static constexpr bool is_stabilised = false, is_layered = false;
+  using Reference = ReferenceElement;
+  struct Kinematics {
+    std::array<dealii::Tensor<2, 3>, n_points> F;
+    std::array<Gradients<n_element_nodes>, n_points> gradients;
+    std::array<double, n_points> J;
+    double volume;
+  };
+  using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
+
+  FullyIntegratedElement(const ElasticModuli &elastic, const ElementFormulation &) : bulk_(elastic.bulk) {}
+
+  static bool initialize(const ElementVectors &positions, Reference &reference) {
+    return compute_reference_element(positions, reference);
+  }
+  static bool compute(const Reference &reference, const ElementVectors &displacements,
+                      Kinematics &kinematics) {
+    MeanDilatationKinematics mean;
+    if (!compute_kinematics(reference, displacements, mean))
+      return false;
+    kinematics.volume = mean.current_volume;
+    for (unsigned int q = 0; q < n_points; ++q) {
+      kinematics.J[q] = mean.current_volumes[q] / reference.volumes[q];
+      kinematics.F[q] = std::cbrt(kinematics.J[q] / mean.volume_ratio) * mean.F_bar[q];
+      kinematics.gradients[q] = mean.gradients[q];
+    }
+    return true;
+  }
+
+  template <bool>
+  static const dealii::Tensor<2, 3> &deformation(const Reference &, const Kinematics &kinematics,
+                                                 const unsigned int q) {
+    return kinematics.F[q];
+  }
+  static double volume_ratio(const Kinematics &kinematics, const unsigned int q) { return kinematics.J[q]; }
+  static double reference_volume(const Reference &reference, const unsigned int q) {
+    return reference.volumes[q];
+  }
+  static double current_volume(const Kinematics &kinematics) { return kinematics.volume; }
+  template <bool> static double weight(const Reference &reference, const Kinematics &, const unsigned int q) {
+    return reference.volumes[q];
+  }
+
+  template <bool>
+  static void add_force(const Reference &reference, const Kinematics &kinematics, const Stresses &tau,
+                        ElementVectors &force) {
+    for (unsigned int q = 0; q < n_points; ++q) {
+      const auto product = multiply_gradients(tau[q], kinematics.gradients[q]);
+      for (unsigned int k = 0; k < n_element_dofs; ++k)
+        force[k] += reference.volumes[q] * product[k];
+    }
+  }
+
+  template <bool is_symmetrised, class Moduli>
+  void compute_tangent(const Reference &reference, const Kinematics &kinematics, const Stresses &tau,
+                       const std::array<Moduli, n_points> &moduli, ElementMatrix &matrix) const {
+    matrix.fill(0.);
+    for (unsigned int q = 0; q < n_points; ++q)
+      add(reference.volumes[q], kinematics.gradients[q], tau[q], moduli[q], matrix);
+    if constexpr (is_symmetrised)
+      symmetrise(matrix);
+  }
+  static void compute_symmetric_tangent(const Reference &reference, const Kinematics &kinematics,
+                                        const Stresses &tau,
+                                        const std::array<SpatialModuli, n_points> &moduli,
+                                        ElementMatrix &matrix) {
+    FullyIntegratedElement({}, {}).compute_tangent<false>(reference, kinematics, tau, moduli, matrix);
+  }
+
+private:
+  static void add(const double w, const Gradients<n_element_nodes> &g,
+                  const dealii::SymmetricTensor<2, 3> &tau, const SpatialModuli &moduli,
+                  ElementMatrix &matrix) {
+    add_point_tangent(w, g, tau, moduli, matrix.data(), n_element_dofs);
+  }
+  /// Moduli of dev τ; those of the pressure κ ln J are added.
+  void add(const double w, const Gradients<n_element_nodes> &g, const dealii::SymmetricTensor<2, 3> &tau,
+           const GradientModuli &moduli, ElementMatrix &matrix) const {
+    auto rates = multiply_gradients(moduli, g);
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int k = 0; k < n_element_dofs; ++k)
+        rates[r][k] += bulk_ * g[k / 3][k % 3];
+    add_point_tangent(w, g, tau, rates, matrix.data(), n_element_dofs);
+  }
+
+  double bulk_;
+};
+
+constexpr ElementKind kind = {"fully integrated", &make_law_block<FullyIntegratedElement>};
+const BrickElement fully_integrated(kind);
+
+const std::string plastic = "set Young modulus = 200e3\nset Poisson ratio = 0.3\nset Yield stress = 300\n"
+                            "set Hardening modulus = 500\nset Kinematics = ",
+                  elastic = "set Law = elastic\nset Young modulus = 200e3\nset Poisson ratio = 0.3";
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  element_types().add(make_element_type(fully_integrated, "eight points, for comparisons"));
+  for (const std::string law : {"Hencky", "neo-Hookean", "hypoelastic"}) {
+    const auto found = testing::pull("fully integrated", plastic + law, 1.2, 1., 20),
+               wanted = testing::pull("mean dilatation", plastic + law, 1.2, 1., 20);
+    check(law + ", statics, elastic energy", std::abs(found.elastic / wanted.elastic - 1.), 1e-9);
+    check(law + ", statics, plastic work", std::abs(found.plastic / wanted.plastic - 1.), 1e-9);
+    check(law + ", at most four Newton iterations a step", found.n_iterations <= 80);
+  }
+  for (const std::string law : {"Hencky", "neo-Hookean", "hypoelastic"}) {
+    const auto found = testing::pull_explicitly("fully integrated", plastic + law, 1.2, 2e-4),
+               wanted = testing::pull_explicitly("mean dilatation", plastic + law, 1.2, 2e-4);
+    check(law + ", explicit, plastic work", std::abs(found.plastic / wanted.plastic - 1.), 1e-3);
+  }
+  const auto found = testing::pull_explicitly("fully integrated", elastic, 1.001, 2e-4),
+             wanted = testing::pull("mean dilatation", elastic, 1.001, 1., 1);
+  check("elastic, explicit", std::abs(found.elastic / wanted.elastic - 1.), 2e-3);
+  return testing::exit_code();
+}
