@@ -28,9 +28,9 @@ GradientModuli compute_trial_moduli(const MidpointIncrement &increment, double s
                                     const dealii::SymmetricTensor<2, 3> &deviator_n);
 
 /// The paper's law: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, returned radially to the yield surface, the pressure
-/// total, κ ln J. Without plasticity (`Hardening` = std::monostate, say) use HypoelasticElasticity. A
-/// rotation of the whole step turns the stress exactly, whatever its size; that the stress follows from rates
-/// makes it depend on the step otherwise, and no energy is stored in a strict sense.
+/// total, κ ln J. Here without plasticity. A rotation of the whole step turns the stress exactly, whatever
+/// its size. Otherwise the stress depends on the step, since it follows from rates, and stores no energy in a
+/// strict sense.
 class HypoelasticElasticity {
 public:
   struct History {
