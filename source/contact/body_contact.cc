@@ -39,18 +39,19 @@ FacetMethod method_of(const parameters::ContactPair::Facets facets) {
 
 } // namespace
 
-template <class DisplacementOf>
-void BodyContact::update(const DisplacementOf &displacement_of, const double duration) {
+template <class DisplacementOf> void BodyContact::update_at(const DisplacementOf &displacement_of) {
   for (std::size_t i = 0; i < local_nodes_.size(); ++i)
     positions_[i] = get_vector(nodes_.positions().data(), local_nodes_[i]) + displacement_of(i);
   if (positions_n_.size() != positions_.size())
     positions_n_ = positions_;
   forces_.assign(local_nodes_.size(), Tensor<1, 3>());
-  contact_->add_forces(positions_n_, positions_, duration, forces_);
+  contact_->add_forces(positions_n_, positions_, duration_, forces_);
 }
 
-BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes)
-    : pair_(scene.body_pairs()[pair]), nodes_(nodes) {
+BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes,
+                         const ContactTangent tangent)
+    : ContactInterface(scene, scene.body_pairs()[pair]), pair_(scene.body_pairs()[pair]), nodes_(nodes),
+      tangent_(tangent) {
   const NodeKeys node_keys(nodes.discretization());
   collect(node_keys);
   const MPI_Comm communicator = nodes.discretization().communicator();
@@ -75,7 +76,7 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
   const auto stiffness = compute_stiffness(scene);
-  settings.touching_gap *= std::min(1., most_stiffening_);
+  settings.touching_gap *= std::min(1., max_stiffening_);
   contact_ = std::make_unique<FacetContact>(communicator, settings, keys_, facets_, stiffness, sizes_);
   if (!scene.parameters().is_explicit())
     paths_ = std::make_unique<FacetPaths>(communicator, settings.partners, keys_, facets_, depths_);
@@ -149,33 +150,36 @@ std::vector<ContactStiffness> BodyContact::compute_stiffness(const Scene &scene)
     const double unit = pair_.penalty_is_factor ? of_factor : 1.;
     stiffness.push_back({unit * pair_.normal_penalty, unit * pair_.tangential_penalty});
     const double enough = enough_penalty * of_factor / unit;
-    most_stiffening_ = std::min(most_stiffening_, enough / pair_.normal_penalty);
+    max_stiffening_ = std::min(max_stiffening_, enough / pair_.normal_penalty);
     if (pair_.has_friction())
-      most_tangential_stiffening_ = std::min(most_tangential_stiffening_, enough / pair_.tangential_penalty);
+      max_tangential_stiffening_ = std::min(max_tangential_stiffening_, enough / pair_.tangential_penalty);
   }
   return stiffness;
 }
 
-void BodyContact::add_forces(const NodalVectors &displacements, const double duration, NodalVectors &forces,
-                             NodalVectors &bounds) {
-  update([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); }, duration);
+void BodyContact::update(const NodalVectors &displacements) {
+  update_at([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
+}
+
+ContactLoad BodyContact::add_forces(NodalVectors &forces, NodalVectors &bounds) {
   row_sums_.assign(local_nodes_.size(), 0.);
   contact_->add_row_sums(row_sums_);
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
     add_vector(forces.data(), local_nodes_[i], forces_[i]);
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] += row_sums_[i];
   }
+  ContactLoad load;
+  load.dissipation = contact_->local_dissipation();
+  return load;
 }
 
-void BodyContact::update(const Vector &displacements, const double duration) {
-  update(
-      [&](const std::size_t i) {
-        Tensor<1, 3> displacement;
-        for (unsigned int c = 0; c < 3; ++c)
-          displacement[c] = displacements(nodes_.dofs(local_nodes_[i])[c]);
-        return displacement;
-      },
-      duration);
+void BodyContact::update(const Vector &displacements) {
+  update_at([&](const std::size_t i) {
+    Tensor<1, 3> displacement;
+    for (unsigned int c = 0; c < 3; ++c)
+      displacement[c] = displacements(nodes_.dofs(local_nodes_[i])[c]);
+    return displacement;
+  });
 }
 
 void BodyContact::add_forces(Vector &residual) const {
@@ -193,11 +197,10 @@ std::vector<std::array<DofIndex, 3>> BodyContact::find_all_dofs() const {
   return dofs;
 }
 
-void BodyContact::find_couplings(const ContactTangent kind) {
+void BodyContact::find_couplings() {
   const auto all_dofs = find_all_dofs();
   couplings_.clear();
-  coupled_kind_ = kind;
-  contact_->visit_couplings(kind, [&](const std::vector<unsigned int> &nodes) {
+  contact_->visit_couplings(tangent_, [&](const std::vector<unsigned int> &nodes) {
     couplings_.emplace_back();
     std::vector<DofIndex> &dofs = couplings_.back();
     for (const unsigned int node : nodes)
@@ -241,7 +244,7 @@ NodeConstraint constraint_of(const Constraints &constraints, const std::array<Do
 
 } // namespace
 
-void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent kind) const {
+void BodyContact::add_tangent(const TangentSystem &system) const {
   // Of nodes of other ranks, constraints are known there.
   std::vector<NodeConstraint> constraints;
   for (const unsigned int node : local_nodes_)
@@ -252,7 +255,7 @@ void BodyContact::add_tangent(const TangentSystem &system, const ContactTangent 
   dealii::FullMatrix<double> half, condensed;
   std::vector<DofIndex> dofs;
   contact_->visit_tangents(
-      kind, [&](const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K) {
+      tangent_, [&](const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K) {
         const std::size_t n = K.m();
         dofs.clear();
         half.reinit(n, n);
@@ -300,7 +303,7 @@ FacetContact::Positions BodyContact::positions_at(const NodalVectors &displaceme
   return positions;
 }
 
-void BodyContact::save(StateWriter &writer) const {
+void BodyContact::save(StateWriter &writer, const NodeKeys & /*keys*/) const {
   contact_->save(writer);
   std::vector<double> rows;
   for (const auto &position : positions_n_)
@@ -308,7 +311,7 @@ void BodyContact::save(StateWriter &writer) const {
   writer.write_rows("positions", 3, keys_, rows);
 }
 
-void BodyContact::load(const StateReader &reader) {
+void BodyContact::load(const StateReader &reader, const NodeKeys & /*keys*/) {
   contact_->load(reader);
   const std::vector<double> rows = reader.read_rows("positions", 3, keys_);
   positions_n_.resize(keys_.size());
@@ -316,7 +319,9 @@ void BodyContact::load(const StateReader &reader) {
     RowReader(&rows[3 * i]).vector(positions_n_[i]);
 }
 
-void BodyContact::begin(const NodalVectors &displacements) { positions_n_ = positions_at(displacements); }
+void BodyContact::begin(const ContactStep & /*step*/, const NodalVectors &displacements) {
+  positions_n_ = positions_at(displacements);
+}
 
 FacetContact::Positions BodyContact::positions_at(const Vector &displacements) const {
   FacetContact::Positions positions(local_nodes_.size());
@@ -328,10 +333,19 @@ FacetContact::Positions BodyContact::positions_at(const Vector &displacements) c
   return positions;
 }
 
-void BodyContact::begin(const Vector &displacements) { positions_n_ = positions_at(displacements); }
+void BodyContact::begin(const ContactStep & /*step*/, const Vector &displacements) {
+  positions_n_ = positions_at(displacements);
+  update(displacements);
+  allow_overlap();
+}
 
-double BodyContact::find_free_part(const Vector &from, const Vector &to, const bool is_thorough) {
-  return paths_ ? paths_->find_free_part(positions_at(from), positions_at(to), is_thorough) : 1.;
+double BodyContact::find_free_part(const ContactPath &path) const {
+  return paths_ ? paths_->find_free_part(positions_at(path.from), positions_at(path.to), path.is_thorough)
+                : 1.;
+}
+
+std::string BodyContact::describe_obstacle() const {
+  return "nodes of contact pair '" + pair_.name + "' would go through the other body";
 }
 
 std::vector<double> BodyContact::first_dofs() const {
@@ -341,8 +355,8 @@ std::vector<double> BodyContact::first_dofs() const {
   return dofs;
 }
 
-std::vector<double> BodyContact::describe_couplings(const ContactTangent kind) const {
-  return {static_cast<double>(kind), static_cast<double>(pair_.facets), pair_.two_passes ? 1. : 0.};
+std::vector<double> BodyContact::describe_couplings() const {
+  return {static_cast<double>(tangent_), static_cast<double>(pair_.facets), pair_.two_passes ? 1. : 0.};
 }
 
 void BodyContact::save_couplings(StateWriter &writer) const {
@@ -353,15 +367,15 @@ void BodyContact::save_couplings(StateWriter &writer) const {
     for (const DofIndex dof : dofs)
       numbers.push_back(static_cast<double>(dof));
   }
-  writer.write("couplings of", describe_couplings(coupled_kind_));
+  writer.write("couplings of", describe_couplings());
   writer.write_rows("dofs", 1, keys_, first_dofs());
   write_list(writer, "coupled dofs", rank, numbers);
   write_list(writer, "coupled facets", rank, contact_->couplings());
 }
 
-bool BodyContact::load_couplings(const StateReader &reader, const ContactTangent kind) {
+bool BodyContact::load_couplings(const StateReader &reader) {
   const MPI_Comm communicator = nodes_.discretization().communicator();
-  if (!reader.has("couplings of") || reader.read("couplings of") != describe_couplings(kind) ||
+  if (!reader.has("couplings of") || reader.read("couplings of") != describe_couplings() ||
       reader.n_ranks() != dealii::Utilities::MPI::n_mpi_processes(communicator))
     return false;
   const bool is_same = reader.read_rows("dofs", 1, keys_) == first_dofs();
@@ -370,7 +384,6 @@ bool BodyContact::load_couplings(const StateReader &reader, const ContactTangent
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   const std::vector<double> numbers = read_list(reader, "coupled dofs", rank);
   couplings_.clear();
-  coupled_kind_ = kind;
   for (std::size_t i = 0; i < numbers.size();) {
     const auto n = static_cast<std::size_t>(numbers[i++]);
     couplings_.emplace_back();
@@ -410,8 +423,17 @@ void BodyContact::add_resistances(const std::size_t body, std::vector<Resistance
   });
 }
 
-void BodyContact::start_step(const double t_n, const double t) {
-  contact_->set_allowed_part(pair_.overlap.allowed_part(t_n), pair_.overlap.allowed_part(t));
+void BodyContact::start_step(const ContactStep &step) {
+  duration_ = step.duration;
+  contact_->set_allowed_part(pair_.overlap.allowed_part(step.start), pair_.overlap.allowed_part(step.end));
+}
+
+void BodyContact::visit_supporting(const VisitSupporting &visit) const {
+  if (pair_.bodies[0] == pair_.bodies[1])
+    return;
+  contact_->visit_supporting([&](const SupportingPoint &point, const unsigned int of, const unsigned int on) {
+    visit(point, pair_.bodies[of], pair_.bodies[on]);
+  });
 }
 
 std::string BodyContact::describe_restless() const {
@@ -440,11 +462,6 @@ std::string BodyContact::describe_restless() const {
                ? "a softer penalty, with a 'Penetration tolerance' where that is too soft"
                : "smaller steps, a softer penalty, 'Facets = overlap' or a larger 'Smoothing'");
   return text.str();
-}
-
-void BodyContact::allow_overlap(const NodalVectors &displacements) {
-  update([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); }, 0.);
-  allow_overlap();
 }
 
 void BodyContact::allow_overlap() {

@@ -212,8 +212,10 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
 }
 
 template <class DisplacementOf>
-void RigidContact::begin_at(const Placement &placement, const DisplacementOf &displacement_of) {
+void RigidContact::begin_at(const ContactStep &step, const DisplacementOf &displacement_of) {
+  const Placement &placement = step.tools_at_start[pair_.tool];
   placement_n_ = placement_ = placement;
+  allowed_part_ = pair_.overlap.allowed_part(step.start);
   for (auto &divided : divided_)
     divided.may_touch = true;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -243,8 +245,8 @@ void RigidContact::begin_at(const Placement &placement, const DisplacementOf &di
   }
 }
 
-void RigidContact::begin(const Placement &placement, const Vector &displacements) {
-  begin_at(placement, [&](const std::size_t i) {
+void RigidContact::begin(const ContactStep &step, const Vector &displacements) {
+  begin_at(step, [&](const std::size_t i) {
     dealii::Tensor<1, 3> displacement;
     for (unsigned int c = 0; c < 3; ++c)
       displacement[c] = displacements(nodes_[i].dofs[c]);
@@ -252,8 +254,8 @@ void RigidContact::begin(const Placement &placement, const Vector &displacements
   });
 }
 
-void RigidContact::begin(const Placement &placement, const NodalVectors &displacements) {
-  begin_at(placement, [&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
+void RigidContact::begin(const ContactStep &step, const NodalVectors &displacements) {
+  begin_at(step, [&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
 }
 
 std::vector<double> EdgeContact::offsets() const {

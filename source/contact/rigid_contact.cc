@@ -38,8 +38,8 @@ double largest_curvature(const dealii::Tensor<2, 3> &turning) {
 
 RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Discretization &discretization,
                            const ContactTangent tangent)
-    : index_(pair), pair_(scene.pairs()[pair]), tool_(scene.tools()[pair_.tool]),
-      communicator_(discretization.communicator()), tangent_(tangent),
+    : ContactInterface(scene, scene.pairs()[pair]), pair_(scene.pairs()[pair]),
+      tool_(scene.tools()[pair_.tool]), communicator_(discretization.communicator()), tangent_(tangent),
       has_inertia_(scene.parameters().is_dynamic()), is_explicit_(scene.parameters().is_explicit()),
       touching_gap_(has_inertia_ && !is_explicit_ ? 0. : touching_gap) {
   collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
@@ -107,10 +107,10 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
         node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, length),
                           pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, length)};
         const double room = enough_penalty * young_modulus / (length * node.stiffness.normal);
-        most_stiffening_ = std::min(most_stiffening_, room);
+        max_stiffening_ = std::min(max_stiffening_, room);
         if (pair_.has_friction())
-          most_tangential_stiffening_ =
-              std::min(most_tangential_stiffening_,
+          max_tangential_stiffening_ =
+              std::min(max_tangential_stiffening_,
                        enough_penalty * young_modulus / (length * node.stiffness.tangential));
         node.touching_gap = touching_gap_ * node.size * std::min(1., room);
         nodes_.push_back(node);
@@ -126,10 +126,11 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
   divide_facets(discretization, corners);
 }
 
-void RigidContact::start_step(const Placement &from, const Placement &to, const double duration) {
-  placement_n_ = from;
-  placement_ = to;
-  duration_ = duration;
+void RigidContact::start_step(const ContactStep &step) {
+  placement_n_ = step.tools_at_start[pair_.tool];
+  placement_ = step.tools_at_end[pair_.tool];
+  duration_ = step.duration;
+  allowed_part_ = pair_.overlap.allowed_part(step.end);
 }
 
 void RigidContact::remove_tool() {
@@ -207,7 +208,7 @@ RigidContact::Fading RigidContact::fade(const RigidSurface::Border &border, cons
   return fading;
 }
 
-void RigidContact::introduce(std::vector<RigidContact> &contacts) {
+void RigidContact::introduce(std::deque<RigidContact> &contacts) {
   for (auto &contact : contacts)
     for (const auto &other : contacts)
       if (&other != &contact && other.body() == contact.body())
@@ -533,8 +534,8 @@ void RigidContact::add_crossings(Crossings &crossings) const {
     }
 }
 
-void RigidContact::add_crossings(Crossings &crossings, const NodalVectors &velocities,
-                                 const double step) const {
+void RigidContact::add_start_crossings(Crossings &crossings, const NodalVectors &velocities,
+                                       const double step) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
     const Tensor<1, 3> v =
@@ -814,11 +815,20 @@ double RigidContact::distance_to_touch(const Tensor<1, 3> &direction) const {
   return least;
 }
 
-void RigidContact::add_resistances(std::vector<Resistance> &resistances) const {
+void RigidContact::add_resistances(const std::size_t body, std::vector<Resistance> &resistances) const {
+  if (body != pair_.body)
+    return;
   for (const auto &state : states_)
     if (state.status != ContactStatus::open)
       add_contact(state.position, state.normal, tool_.control() == Tool::Control::force, pair_.has_friction(),
                   resistances);
+}
+
+void RigidContact::visit_supporting(const VisitSupporting &visit) const {
+  for (const auto &state : states_)
+    if (state.status != ContactStatus::open)
+      visit(make_supporting_point(state.position, state.normal, pair_.friction, state.status, state.traction),
+            pair_.body, pair_.body);
 }
 
 RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
@@ -982,12 +992,6 @@ void RigidContact::stiffen_under_load(const double normal, const double tangenti
   }
 }
 
-double RigidContact::stiffening_left() const { return most_stiffening_ / stiffening_; }
-
-double RigidContact::tangential_stiffening_left() const {
-  return most_tangential_stiffening_ / tangential_stiffening_;
-}
-
 Penetration RigidContact::penetration() const {
   Penetration deepest;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
@@ -1032,14 +1036,11 @@ double RigidContact::elastic_slip(const std::size_t i) const {
          nodes_[i].stiffness.tangential;
 }
 
-double RigidContact::augmentation_error() const {
-  const double tolerance = pair_.penetration_tolerance.value_or(0.);
-  if (tolerance == 0.)
-    return 0.;
+double RigidContact::augmentation_gap() const {
   double worst = penetration().of_facet;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     worst = std::max(worst, elastic_slip(i) / nodes_[i].size);
-  return worst / tolerance;
+  return worst;
 }
 
 ContactSprings RigidContact::compute_springs() const {

@@ -71,7 +71,7 @@ bool RigidContact::lets_nodes_through() const {
   return false;
 }
 
-std::string RigidContact::describe_thin_tool() const {
+std::string RigidContact::describe_passage() const {
   std::ostringstream text;
   text.precision(3);
   text << "nodes of contact pair '" << pair_.name << "' go through tool '" << tool_.name() << "', which is "
@@ -82,7 +82,7 @@ std::string RigidContact::describe_thin_tool() const {
   return text.str();
 }
 
-DiagnosticList RigidContact::check_nodes_behind() const {
+DiagnosticList RigidContact::check_step() const {
   if (!has_inertia_ || dealii::Utilities::MPI::max(has_nodes_behind_ ? 1 : 0, communicator_) == 0)
     return {};
   return {
@@ -92,7 +92,7 @@ DiagnosticList RigidContact::check_nodes_behind() const {
           .tool(tool_.name())};
 }
 
-DiagnosticList RigidContact::check_small_tool() const {
+DiagnosticList RigidContact::check_start() const {
   if (unresolved_length_ == 0.)
     return {};
   std::ostringstream text;
@@ -103,13 +103,6 @@ DiagnosticList RigidContact::check_small_tool() const {
               .pair(pair_.name)
               .tool(tool_.name())
               .value("facet length", unresolved_length_)};
-}
-
-DiagnosticList RigidContact::check_small_tools(const std::vector<RigidContact> &contacts) {
-  DiagnosticList list;
-  for (const auto &contact : contacts)
-    append(list, contact.check_small_tool());
-  return list;
 }
 
 } // namespace billet

@@ -70,10 +70,10 @@ SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const 
 
 } // namespace
 
-double RigidContact::find_free_part(const Vector &from, const Placement &tool_from, const Vector &to,
-                                    const Placement &tool_to, const bool is_thorough) const {
+double RigidContact::find_free_part(const ContactPath &path) const {
   if (is_removed_)
     return 1.;
+  const Placement &tool_from = path.tools_from[pair_.tool], &tool_to = path.tools_to[pair_.tool];
   const MovingTool tool(tool_.rotation_axis(), tool_from, tool_to);
   const RigidSurface &surface = tool_.surface();
   double part = 1.;
@@ -87,9 +87,9 @@ double RigidContact::find_free_part(const Vector &from, const Placement &tool_fr
   };
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node &node = nodes_[i];
-    const Tensor<1, 3> x_from = displaced(i, from), x_to = displaced(i, to);
+    const Tensor<1, 3> x_from = displaced(i, path.from), x_to = displaced(i, path.to);
     const double resolution = fine * node.size, length = tool.bound_way(x_from, x_to);
-    if (node.is_behind || !(length > (is_thorough ? 0. : resolution)) || !std::isfinite(length) ||
+    if (node.is_behind || !(length > (path.is_thorough ? 0. : resolution)) || !std::isfinite(length) ||
         surface.bounding_box().distance_square(tool_from.to_tool(x_from)) > length * length)
       continue;
     part = std::min(part, billet::find_free_part(
@@ -100,6 +100,10 @@ double RigidContact::find_free_part(const Vector &from, const Placement &tool_fr
                               length, resolution));
   }
   return part;
+}
+
+std::string RigidContact::describe_obstacle() const {
+  return "nodes of contact pair '" + pair_.name + "' would go through tool '" + tool_.name() + "'";
 }
 
 } // namespace billet

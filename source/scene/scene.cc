@@ -285,22 +285,18 @@ void Scene::make_pairs() {
   };
   for (const auto &pair : parameters_.pairs) {
     const std::size_t body = parameters_.body_index(pair);
-    const bool is_factor = pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
-    const bool counts_thickness = parameters_.is_dynamic() && !pair.has_own_penalty;
+    const PairSettings settings{pair.name,
+                                &pair,
+                                make_friction(pair),
+                                pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor,
+                                parameters_.is_dynamic() && !pair.has_own_penalty,
+                                pair.normal_penalty,
+                                pair.tangential_penalty,
+                                penetration_tolerance(pair),
+                                is_raised(pair),
+                                {pair.may_overlap, pair.ramp_time, pair.closed_gap}};
     if (!pair.is_between_bodies()) {
-      pairs_.push_back({pair.name,
-                        &pair,
-                        body,
-                        pair.boundary_ids.value,
-                        parameters_.tool_index(pair),
-                        make_friction(pair),
-                        is_factor,
-                        counts_thickness,
-                        pair.normal_penalty,
-                        pair.tangential_penalty,
-                        penetration_tolerance(pair),
-                        is_raised(pair),
-                        {pair.may_overlap, pair.ramp_time, pair.closed_gap}});
+      pairs_.push_back({settings, body, pair.boundary_ids.value, parameters_.tool_index(pair)});
       continue;
     }
     using Pair = parameters::ContactPair;
@@ -313,8 +309,7 @@ void Scene::make_pairs() {
     const std::size_t second = parameters_.second_body_index(pair);
     const auto &second_ids = pair.second_boundary_ids.value;
     body_pairs_.push_back(
-        {pair.name,
-         &pair,
+        {settings,
          {body, second},
          {pair.boundary_ids.value, second_ids.empty() ? pair.boundary_ids.value : second_ids},
          body == second && second_ids.empty(),
@@ -322,17 +317,9 @@ void Scene::make_pairs() {
          pair.passes == Pair::Passes::automatic ? facets != Pair::Facets::overlap
                                                 : pair.passes == Pair::Passes::two,
          parameters_.is_explicit() && facets != Pair::Facets::overlap && pair.edges != Pair::Edges::free,
-         make_friction(pair),
-         is_factor,
-         counts_thickness,
          penalty_of,
-         pair.normal_penalty,
-         pair.tangential_penalty,
          pair.smoothing,
          pair.search_margin,
-         penetration_tolerance(pair),
-         is_raised(pair),
-         {pair.may_overlap, pair.ramp_time, pair.closed_gap},
          pair.correction});
     const auto &ids = body_pairs_.back().boundary_ids;
     if (body == second && !second_ids.empty())

@@ -62,15 +62,10 @@ double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] 
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), parameters_(scene.parameters().explicit_dynamics),
-      nodes_(discretization), held_(scene, nodes_),
+      nodes_(discretization), held_(scene, nodes_), contacts_(scene, nodes_),
       penalties_(scene, discretization, PenaltyControl::in_explicit_scenes) {
   make_blocks();
   make_masses();
-  for (std::size_t p = 0; p < scene.pairs().size(); ++p) {
-    contacts_.emplace_back(scene, p, discretization, parameters::ContactTangent::consistent);
-    contacts_.back().bind(nodes_);
-  }
-  RigidContact::introduce(contacts_);
   for (std::size_t i = 0; i < scene.tools().size(); ++i)
     tools_.emplace_back(scene.tools()[i], scene.parameters().tools[i].motion);
   has_free_tools_ = std::any_of(tools_.begin(), tools_.end(),
@@ -84,14 +79,13 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   u_ = v_ = v_before_ = forces_ = external_ = supports_ = bounds_ = nodes_.make_vectors();
   set_initial_motion();
   find_touched_nodes();
-  for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
-    body_contacts_.push_back(std::make_unique<BodyContact>(scene, p, nodes_));
-    if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
-      check_overlap(scene, p, discretization);
-    if (!scene.parameters().restart.is_wanted() && scene.body_pairs()[p].overlap.closed_gap > 0.)
-      body_contacts_.back()->allow_overlap(u_);
-  }
-  state_.body_pair_loads.resize(body_contacts_.size());
+  if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
+    for (auto &contact : contacts_.of_bodies())
+      if (contact.settings().overlap.closed_gap > 0.) {
+        contact.update(u_);
+        contact.allow_overlap();
+      }
+  state_.body_pair_loads.resize(contacts_.of_bodies().size());
   state_.tool_loads.resize(tools_.size());
   state_.placements.resize(tools_.size());
   state_.displacements = discretization.make_ghosted_vector();
@@ -209,12 +203,14 @@ void ExplicitDynamics::set_initial_motion() {
   held_.set_displacements(0., u_);
 }
 
-void ExplicitDynamics::fail(const std::string &why) const {
+SolutionFailure ExplicitDynamics::failure(const std::string &why) const {
   std::ostringstream message;
   message << scene_.parameters().file_name << ": at time " << time_ << " after " << n_steps_ << " steps "
           << why;
-  throw SolutionFailure(message.str());
+  return SolutionFailure(message.str());
 }
+
+void ExplicitDynamics::fail(const std::string &why) const { throw failure(why); }
 
 void ExplicitDynamics::compute_internal_forces() {
   element_step_ = std::numeric_limits<double>::infinity();
@@ -254,23 +250,36 @@ void ExplicitDynamics::compute_internal_forces() {
   }
 }
 
-void ExplicitDynamics::compute_contact_forces() {
+std::vector<Placement> ExplicitDynamics::placements_of(const Placement &(FreeTool::*get)() const) const {
+  std::vector<Placement> placements;
+  for (const FreeTool &tool : tools_)
+    placements.push_back((tool.*get)());
+  return placements;
+}
+
+std::string ExplicitDynamics::compute_contact_forces() {
+  std::string passage;
   std::fill(tool_loads_.begin(), tool_loads_.end(), ContactLoad());
   tool_stiffness_.assign(tools_.size(), 0.);
+  const std::vector<Placement> before = placements_of(&FreeTool::before), now = placements_of(&FreeTool::now);
+  // Overlaps that are allowed do not fade in explicit scenes: they have the times of the start.
+  const ContactStep step{0., 0., n_steps_ == 0 ? 0. : step_, before, now};
   for (auto &contact : contacts_) {
-    const FreeTool &tool = tools_[contact.tool()];
-    contact.start_step(tool.before(), tool.now(), n_steps_ == 0 ? 0. : step_);
+    contact.start_step(step);
     contact.update(u_);
-    if (contact.lets_nodes_through())
-      fail(contact.describe_thin_tool());
+    if (passage.empty() && contact.lets_nodes_through())
+      passage = contact.describe_passage();
     const ContactLoad load = contact.add_forces(forces_, bounds_);
-    tool_loads_[contact.tool()] += load;
-    if (tool.inverse_inertia() > 0.)
-      tool_stiffness_[contact.tool()] += contact.stiffness_against_tool();
+    if (const auto &tool = contact.rigid_tool()) {
+      tool_loads_[*tool] += load;
+      if (tools_[*tool].inverse_inertia() > 0.)
+        tool_stiffness_[*tool] += contact.stiffness_against_tool();
+    }
     works_.friction += load.dissipation;
     contact.add_crossings(crossings_);
     contact.commit();
   }
+  return passage;
 }
 
 void ExplicitDynamics::remove_tools() {
@@ -280,7 +289,7 @@ void ExplicitDynamics::remove_tools() {
     if (!fading_forces_[i]) {
       fading_forces_[i] = std::make_unique<NodalVectors>(nodes_.make_vectors());
       NodalVectors ignored = nodes_.make_vectors();
-      for (auto &contact : contacts_)
+      for (auto &contact : contacts_.of_tools())
         if (contact.tool() == i) {
           contact.add_forces(*fading_forces_[i], ignored);
           contact.remove_tool();
@@ -307,21 +316,14 @@ void ExplicitDynamics::raise_penalties() {
   update_ledger();
   const PenaltyControl::Energies energies =
       penalties_.measure(*this, scene_.bodies().size(), time_, communicator);
-  std::vector<PenaltyControl::Factors> room;
-  for (const auto &contact : contacts_)
-    room.push_back(penalties_.room_of(contact, communicator));
-  for (const auto &contact : body_contacts_)
-    room.push_back(penalties_.room_of(*contact, communicator));
-
+  const auto room =
+      contacts_.collect([&](const auto &contact) { return penalties_.room_of(contact, communicator); });
   const std::vector<PenaltyControl::Factors> factors = penalties_.raises(energies, room);
   for (std::size_t p = 0; p < factors.size(); ++p) {
     if (!factors[p].raises())
       continue;
     const auto [normal, tangential] = factors[p];
-    if (p < contacts_.size())
-      contacts_[p].scale_penalties(normal, tangential);
-    else
-      body_contacts_[p - contacts_.size()]->scale_penalties(normal, tangential);
+    contacts_[p].scale_penalties(normal, tangential);
     // What compressed springs hold more is given to them. Of friction the force stays, and springs hold less.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       works_.external +=
@@ -339,17 +341,15 @@ void ExplicitDynamics::compute_forces() {
       std::rethrow_exception(late_failure_);
     remove_tools();
     compute_internal_forces();
-    compute_contact_forces();
     loads_->add_forces(time_, u_, v_, external_);
   } catch (const SolutionFailure &) { // of this rank
     failure = std::current_exception();
     element_step_ = -1.;
   }
-  for (auto &contact : body_contacts_) { // ranks talk to each other in it
-    contact->add_forces(u_, n_steps_ == 0 ? 0. : step_, forces_, bounds_);
-    works_.friction += contact->local_dissipation();
-    contact->add_crossings(crossings_);
-    contact->commit();
+  // Ranks talk to each other in it, also where one has failed.
+  if (const std::string passage = compute_contact_forces(); !failure && !passage.empty()) {
+    failure = std::make_exception_ptr(this->failure(passage));
+    element_step_ = -1.;
   }
   const double resolution = parameters_.contact_resolution * parameters_.contact_resolution;
   for (const unsigned int node : bounded_nodes_)
@@ -411,7 +411,7 @@ double ExplicitDynamics::stable_step() {
 
 double ExplicitDynamics::crossing_step() const {
   constexpr double allowed = 0.0025; // of the energy
-  if (contacts_.empty() && body_contacts_.empty())
+  if (contacts_.empty())
     return std::numeric_limits<double>::infinity();
   const MPI_Comm communicator = discretization_.communicator();
   Crossings crossings = crossings_;
@@ -419,7 +419,7 @@ double ExplicitDynamics::crossing_step() const {
   if (n_steps_ == 0) { // no node has gone anywhere yet
     step = element_step_;
     for (const auto &contact : contacts_)
-      contact.add_crossings(crossings, v_, step);
+      contact.add_start_crossings(crossings, v_, step);
     const bool tools_move =
         std::any_of(tools_.begin(), tools_.end(), [step](const FreeTool &tool) { return tool.moves(step); });
     const bool moves =
@@ -428,7 +428,7 @@ double ExplicitDynamics::crossing_step() const {
     for (const unsigned int node : bounded_nodes_)
       near = std::max(near, bounds_[std::size_t{nodal_stride} * node]);
     // The first step shows how fast facets, or tools, come nearer.
-    if ((!body_contacts_.empty() || tools_move) &&
+    if ((!contacts_.of_bodies().empty() || tools_move) &&
         dealii::Utilities::MPI::max(near > 0. ? 1 : 0, communicator) *
                 dealii::Utilities::MPI::max(moves ? 1 : 0, communicator) >
             0)
@@ -632,8 +632,8 @@ void ExplicitDynamics::update_ledger() {
     state_.tool_loads[i] = sum_over_ranks(tool_loads_[i], communicator);
     state_.placements[i] = tools_[i].now();
   }
-  for (std::size_t i = 0; i < body_contacts_.size(); ++i) {
-    state_.body_pair_loads[i] = body_contacts_[i]->compute_load();
+  for (std::size_t i = 0; i < contacts_.of_bodies().size(); ++i) {
+    state_.body_pair_loads[i] = contacts_.of_bodies()[i].compute_load();
     energies.contact += state_.body_pair_loads[i].stored_energy;
   }
   if (n_steps_ == 0)
@@ -651,30 +651,24 @@ DiagnosticList ExplicitDynamics::check_penalties() {
   std::vector<double> maxima(1);
   for (unsigned int node = 0; node < nodes_.size(); ++node)
     maxima[0] = std::max(maxima[0], get_vector(u_.data(), node).norm());
-  const auto add = [&maxima](const Penetration &deepest) {
+  for (const auto &contact : contacts_) {
+    const Penetration deepest = contact.penetration();
     maxima.insert(maxima.end(), {deepest.of_facet, deepest.length});
-  };
-  for (const auto &contact : contacts_)
-    add(contact.penetration());
-  for (const auto &contact : body_contacts_)
-    add(contact->penetration());
+  }
   dealii::Utilities::MPI::max(maxima, discretization_.communicator(), maxima);
 
   const EnergyLedger &energies = state_.energies;
   const double part = energies.total() > 0. ? energies.contact / energies.total() : 0.; // of all pairs
   auto next = maxima.begin() + 1;
-  const auto check = [&](const std::string &name, const double displacement) {
-    append(messages, soft_penalties_.check(name, time_, {next[0], next[1]}, displacement, part));
+  for (const auto &contact : contacts_) {
+    double moved = maxima[0];
+    if (const auto &tool = contact.rigid_tool())
+      moved = std::max(moved, largest_motion(scene_.tools()[*tool].placement(0.), tools_[*tool].now(),
+                                             discretization_.radius()));
+    append(messages, soft_penalties_.check(contact.name(), time_, {next[0], next[1]}, moved, part));
     next += 2;
-  };
-  for (auto &contact : contacts_) {
-    const double tool_moved = largest_motion(scene_.tools()[contact.tool()].placement(0.),
-                                             tools_[contact.tool()].now(), discretization_.radius());
-    check(scene_.pairs()[contact.pair()].name, std::max(maxima[0], tool_moved));
-    append(messages, contact.check_nodes_behind());
+    append(messages, contact.check_step());
   }
-  for (const auto &contact : body_contacts_)
-    check(contact->name(), maxima[0]);
   return messages;
 }
 
@@ -690,28 +684,18 @@ DiagnosticList ExplicitDynamics::check_steps() const {
   constexpr double much_shorter = 0.1, flat = 0.01;
   DiagnosticList messages;
   if (element_step_ < much_shorter * free_step_) {
-    std::vector<double> room; // by pair, on all ranks
-    for (const auto &contact : contacts_)
-      room.push_back(contact.stiffening_left());
-    for (const auto &contact : body_contacts_)
-      room.push_back(contact->stiffening_left());
+    std::vector<double> room = // by pair, on all ranks
+        contacts_.collect([](const auto &contact) { return contact.stiffening_left(); });
     dealii::Utilities::MPI::min(room, discretization_.communicator(), room);
     const auto stiffest = std::min_element(room.begin(), room.end());
-    const auto is_of_scene = [this](const std::size_t i) {
-      const std::size_t n = contacts_.size();
-      return (i < n ? scene_.pairs()[contacts_[i].pair()].input : scene_.body_pairs()[i - n].input)
-          ->has_own_penalty;
-    };
-    if (stiffest != room.end() && *stiffest < 1. &&
-        is_of_scene(static_cast<std::size_t>(stiffest - room.begin()))) {
-      const auto i = static_cast<std::size_t>(stiffest - room.begin());
+    const auto i = static_cast<std::size_t>(stiffest - room.begin());
+    if (stiffest != room.end() && *stiffest < 1. && contacts_[i].settings().input->has_own_penalty) {
       std::ostringstream text;
       text.precision(3);
       text << "The penalty, " << enough_penalty / *stiffest << " E/h, makes steps "
            << std::round(free_step_ / element_step_) << " times shorter than the elements require";
       messages.push_back(Diagnostic(diagnostic::penalty_too_high, text.str())
-                             .pair(i < contacts_.size() ? scene_.pairs()[contacts_[i].pair()].name
-                                                        : body_contacts_[i - contacts_.size()]->name())
+                             .pair(contacts_[i].name())
                              .time(time_)
                              .value("penalty [E/h]", enough_penalty / *stiffest));
     }
@@ -746,22 +730,14 @@ std::vector<ElementSummary> ExplicitDynamics::summarize(const std::size_t body) 
 }
 
 std::vector<std::vector<ContactNodeReport>> ExplicitDynamics::report_contacts() const {
-  std::vector<std::vector<ContactNodeReport>> reports;
-  for (const auto &contact : contacts_)
-    reports.push_back(contact.report());
-  for (const auto &contact : body_contacts_)
-    reports.push_back(contact->report());
-  return reports;
+  return contacts_.report();
 }
 
 std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
   std::array<std::size_t, 2> sizes{};
   for (const auto &block : blocks_)
     sizes[0] += block->history_memory() / sizeof(double);
-  for (const auto &contact : contacts_)
-    sizes[1] += contact.history_size();
-  for (const auto &contact : body_contacts_)
-    sizes[1] += contact->history_size();
+  sizes[1] = contacts_.history_size();
   for (auto &size : sizes)
     size = dealii::Utilities::MPI::sum(size, discretization_.communicator());
   return sizes;

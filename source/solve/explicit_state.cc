@@ -162,15 +162,10 @@ void ExplicitDynamics::save(StateWriter &writer) const {
       save_parts(writer, "fading", rank, fading_keys, forces);
     });
   }
-  for (std::size_t p = 0; p < contacts_.size(); ++p)
-    writer.in(group("pair", p), [&] {
-      save_pair(writer, scene_, scene_.pairs()[p]);
-      contacts_[p].save(writer, keys);
-    });
-  for (std::size_t p = 0; p < body_contacts_.size(); ++p)
-    writer.in(group("body pair", p), [&] {
-      save_pair(writer, scene_, scene_.body_pairs()[p]);
-      body_contacts_[p]->save(writer);
+  for (const auto &contact : contacts_)
+    writer.in(group(contact.group_kind(), contact.group_index()), [&] {
+      save_pair(writer, contact);
+      contact.save(writer, keys);
     });
 }
 
@@ -288,28 +283,10 @@ void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) 
   NodalVectors u_before = u_;
   for (std::size_t k = 0; k < u_.size(); ++k)
     u_before[k] -= step_ * v_[k];
-  for (std::size_t p = 0; p < contacts_.size(); ++p) {
-    const ContactPair &pair = scene_.pairs()[p];
-    const auto found = find_group(reader, "pair", pair.name);
-    if (found)
-      reader.in(group("pair", *found), [&] {
-        check_partners(reader, pair.name, partners(scene_, pair));
-        contacts_[p].load(reader, keys);
-      });
-    else
-      contacts_[p].begin(tools_[pair.tool].before(), u_before);
-  }
-  for (std::size_t p = 0; p < body_contacts_.size(); ++p) {
-    const BodyPair &pair = scene_.body_pairs()[p];
-    const auto found = find_group(reader, "body pair", pair.name);
-    if (found)
-      reader.in(group("body pair", *found), [&] {
-        check_partners(reader, pair.name, partners(scene_, pair));
-        body_contacts_[p]->load(reader);
-      });
-    else
-      body_contacts_[p]->begin(u_before);
-  }
+  const std::vector<Placement> placements = placements_of(&FreeTool::before);
+  for (auto &contact : contacts_)
+    if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }))
+      contact.begin({0., 0., 0., placements, placements}, u_before);
 }
 
 void ExplicitDynamics::plan_to(const double event) {

@@ -261,20 +261,23 @@ void compare_parts(StateReader &reader, const Scene &scene, RestartReport &repor
   report.is_exact = report.is_exact && report.gone.empty();
 }
 
-std::string partners(const Scene &scene, const ContactPair &pair) {
-  return "body '" + scene.bodies()[pair.body].name + "' and tool '" + scene.tools()[pair.tool].name() + "'";
+void save_pair(StateWriter &writer, const ContactInterface &contact) {
+  writer.write_text("name", contact.name());
+  writer.write_text("partners", contact.partners());
 }
 
-std::string partners(const Scene &scene, const BodyPair &pair) {
-  return "body '" + scene.bodies()[pair.bodies[0]].name + "' and body '" +
-         scene.bodies()[pair.bodies[1]].name + "'";
-}
-
-void check_partners(const StateReader &reader, const std::string &pair, const std::string &partners) {
-  const std::string then = reader.read_text("partners");
-  if (then != partners)
-    throw InputError("its contact pair '" + pair + "' joins " + then + ", here it joins " + partners +
-                     "; give a new pair a new name");
+bool load_pair(StateReader &reader, const ContactInterface &contact, const std::function<void()> &load) {
+  const auto found = find_group(reader, contact.group_kind(), contact.name());
+  if (!found)
+    return false;
+  reader.in(group(contact.group_kind(), *found), [&] {
+    const std::string then = reader.read_text("partners");
+    if (then != contact.partners())
+      throw InputError("its contact pair '" + contact.name() + "' joins " + then + ", here it joins " +
+                       contact.partners() + "; give a new pair a new name");
+    load();
+  });
+  return true;
 }
 
 std::vector<double> to_numbers(const Placement &placement) {

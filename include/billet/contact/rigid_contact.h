@@ -2,24 +2,15 @@
 #ifndef BILLET_CONTACT_RIGID_CONTACT_H
 #define BILLET_CONTACT_RIGID_CONTACT_H
 
-#include "billet/contact/contact_load.h"
+#include "billet/contact/contact_interface.h"
 #include "billet/contact/friction_account.h"
 #include "billet/contact/hardening_spring.h"
-#include "billet/contact/status_changes.h"
-#include "billet/contact/step_works.h"
-#include "billet/contact/supporting_point.h"
-#include "billet/diagnostics.h"
-#include "billet/discretization/local_nodes.h"
-#include "billet/discretization/node_keys.h"
-#include "billet/discretization/supports.h"
 #include "billet/geometry/frame.h"
-#include "billet/scene/rigid_motions.h"
-#include "billet/state.h"
 #include "billet/usage.h"
 
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -53,40 +44,38 @@ namespace billet {
 ///
 /// Node states are kept, and computed alike, on every rank that owns a facet at the node. Points inside
 /// facets belong to one facet each, also those on its sides.
-class RigidContact {
+class RigidContact final : public ContactInterface {
 public:
   RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization,
                ContactTangent tangent);
 
-  std::size_t pair() const { return index_; } ///< of Scene::pairs()
-  const ContactPair &settings() const { return pair_; }
-  const std::string &name() const { return pair_.name; }
   std::size_t tool() const { return pair_.tool; }
   std::size_t body() const { return pair_.body; }
 
-  /// The tool moves in this time from one placement to the other.
-  void start_step(const Placement &from, const Placement &to, double duration);
-  /// The part of the initial penetration that counts as none at the end of the step.
-  void set_allowed_part(const double part) { allowed_part_ = part; }
-  /// Of FrictionRule, by which friction is accounted for: ½ and false unless they are set.
-  void set_friction_account(const double start_weight, const bool is_static) {
+  void start_step(const ContactStep &step) override;
+  void set_friction_account(const double start_weight, const bool is_static) override {
     start_weight_ = start_weight;
     is_static_ = is_static;
   }
-  /// Changes where it moves to.
+  /// Changes where the tool moves to.
   void set_placement(const Placement &to) { placement_ = to; }
+  void commit() override;
 
   /// The tool is gone: from now on no node touches it.
   void remove_tool();
 
-  /// Computes gaps and tractions at `displacements` (ghosted).
-  void update(const Vector &displacements);
-
-  /// Adds −F_c [force] to `residual` (additive vector), after update().
-  void add_forces(Vector &residual) const;
-
-  /// Adds −∂F_c/∂u [force/length], after update().
-  void add_tangent(const TangentSystem &system) const;
+  void update(const Vector &displacements) override;
+  void add_forces(Vector &residual) const override;
+  void set_tangent(const ContactTangent tangent) override { tangent_ = tangent; }
+  void add_tangent(const TangentSystem &system) const override;
+  StepWorks compute_step_works(double weight) const override;
+  /// In contact/tool_paths.cc.
+  double find_free_part(const ContactPath &path) const override;
+  /// Of tools thinner than two facets, the only ones that nodes go through.
+  bool may_let_nodes_through() const override { return thickness_of_thin_tool_ > 0.; }
+  /// After update() and before commit(); false in the first step after load().
+  bool lets_nodes_through() const override;
+  std::string describe_passage() const override;
 
   /// Adds the force by which the tool, once it moves on to `after`, would push the nodes that touch it now if
   /// they stayed behind, to first order. After update().
@@ -114,125 +103,60 @@ public:
   /// How far the tool has to go along `direction` (unit) until it touches a node, at the last update();
   /// infinite if it cannot. On this rank.
   double distance_to_touch(const dealii::Tensor<1, 3> &direction) const;
-
-  /// Adds what the tool does where it touches a node of this rank, at the last update(); none if it is
-  /// removed.
-  void add_resistances(std::vector<Resistance> &resistances) const;
-  /// Calls visit(SupportingPoint) for each node of this rank that touches the tool at the last update().
-  template <class Visit> void visit_supporting(const Visit &visit) const {
-    for (const auto &state : states_)
-      if (state.status != ContactStatus::open)
-        visit(make_supporting_point(state.position, state.normal, pair_.friction, state.status,
-                                    state.traction));
-  }
-
-  /// The state of the last update() becomes the start of the next step.
-  void commit();
-
-  /// Of the augmented Lagrangian, as FacetContact's: back to the start of the step, ...
-  void restart();
-  /// The augmentations since the last restart() or commit().
-  void take_back_augmentation() { restart(); }
-  /// ... and on from the last update().
-  void augment();
-  /// Relative to what the pair asks for; 0 if it asks for none. On this rank.
-  double augmentation_error() const;
-  /// After update(), on this rank.
-  ContactSprings compute_springs() const;
-  /// Makes penalties so many times as stiff; what augmentation holds stays. After augment().
-  void stiffen(const double factor) { scale_penalties(factor, factor); }
-  /// The same, with a factor of their own for the tangential ones.
-  void scale_penalties(double normal, double tangential);
-  /// Makes penalties so many times as stiff, and leaves tractions as they are: what of the
-  /// penetrations would press more is allowed from now on. After update() without augmentation.
-  void stiffen_under_load(double normal, double tangential);
-  /// How many times as stiff penalties may become until those of a node of this rank are 10 E/h; below 1
-  /// where one is stiffer.
-  double stiffening_left() const;
-  /// The same of the tangential ones; infinite without friction.
-  double tangential_stiffening_left() const;
-  double stiffening() const { return stiffening_; } ///< so far
-  /// Tangents from now on.
-  void set_tangent(const ContactTangent tangent) { tangent_ = tangent; }
   /// All of a scene, which stay where they are: pressure does not fade where another tool goes on.
-  static void introduce(std::vector<RigidContact> &contacts);
+  static void introduce(std::deque<RigidContact> &contacts);
   /// Whether a node that is there now has the border of the tool's surface within a tenth of a facet. Of this
   /// rank.
   bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
-  /// How deep this rank's nodes are.
-  Penetration penetration() const;
-  /// The same, as part of what is little enough: a fifth of a facet, and 0.4 of the element behind the node.
-  double excessive_penetration() const;
-  /// The most by which a node of this rank closes in the step that presses at its end and did not at its
-  /// start, as part of the size of its facets.
-  double closing_of_new_contacts() const;
   /// Whether a node of this rank touches the tool, at the last update().
   bool has_touching_nodes() const;
-  /// Whether a node of this rank has gone through the tool, from side to side, in the step, (T9): of tools
-  /// thinner than two facets, the only ones that are as thin as that. After update() and before commit();
-  /// false in the first step after load().
-  bool lets_nodes_through() const;
-  /// The part of a motion of the body's nodes (displacements, ghosted) and of the tool that takes no node of
-  /// this rank through the tool, or so deep into it that it would soon come out on another side (C12).
-  /// Motions that are small against facets are let pass, unless `is_thorough`. In contact/tool_paths.cc.
-  double find_free_part(const Vector &from, const Placement &tool_from, const Vector &to,
-                        const Placement &tool_to, bool is_thorough) const;
-  /// What to say then.
-  std::string describe_thin_tool() const;
-  /// Whether that is looked for, on all ranks alike.
-  bool has_thin_tool() const { return thickness_of_thin_tool_ > 0.; }
-  /// A message if nodes have been found behind the tool. Collective.
-  DiagnosticList check_nodes_behind() const;
-  /// A message on each tool that fits between the points of contact. Collective.
-  static DiagnosticList check_small_tools(const std::vector<RigidContact> &contacts);
 
-  /// On all ranks, after update().
-  ContactLoad compute_load() const;
+  void restart() override;
+  void take_back_augmentation() override { restart(); }
+  void augment() override;
+  ContactSprings compute_springs() const override;
+  void scale_penalties(double normal, double tangential) override;
+  void stiffen_under_load(double normal, double tangential) override;
+  double stiffening() const override { return stiffening_; }
+  double tangential_stiffening() const override { return tangential_stiffening_; }
+  double largest_spring() const override;
+  double surface_reach() const override { return tool_reach_; }
 
-  /// Of schemes with a matrix, after update() and before commit(); on all ranks. `weight` is that of the
-  /// forces at the end of the step in the mean forces.
-  StepWorks compute_step_works(double weight) const;
+  Penetration penetration() const override;
+  /// A fifth of a facet, and 0.4 of the element behind the node, are little enough.
+  double excessive_penetration() const override;
+  double closing_of_new_contacts() const override;
+  ContactLoad compute_load() const override;
+  std::vector<SlaveForce> slave_forces() const override;
+  /// Of every node at a facet of this rank; `area` is this rank's share. At divided facets pressure, traction
+  /// and status are those of all points that push the node, as means over its share of their areas.
+  std::vector<ContactNodeReport> report() const override;
+  std::size_t history_size() const override;
+  /// None if the tool is removed.
+  void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const override;
+  void visit_supporting(const VisitSupporting &visit) const override;
 
-  // The same for schemes without a matrix, after bind():
+  /// A message on a tool that fits between the points of contact.
+  DiagnosticList check_start() const override;
+  /// A message if nodes have been found behind the tool.
+  DiagnosticList check_step() const override;
+  std::string describe_obstacle() const override;
+
+  // Schemes without a matrix, after bind():
 
   /// Finds its nodes among those of the rank.
   void bind(const LocalNodes &nodes);
-  void update(const NodalVectors &displacements);
-  /// Adds F_c [force], those on areas that change among them: without friction F_c = −∂Π/∂u, Π the stored
-  /// energy. Returns the load of these facets. Also adds to component 0 of `bounds` what the penalties of
-  /// this rank's facets add to a bound on the stiffness at a node [force/length].
-  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds);
-  /// Adds this rank's, after update() and before commit().
-  void add_crossings(Crossings &crossings) const;
-  /// The same at the start of all, of a step at these velocities; the tool rests. After update().
-  void add_crossings(Crossings &crossings, const NodalVectors &velocities, double step) const;
-  /// Of the penalties of this rank's facets against a tool that moves along its force's direction, or turns
-  /// about its axis [force/length, or force length]: Σ a·k a, a what the node's gap and slip are to a unit of
-  /// that motion. Of a tool that moves as told 0. Counts what bounds count.
-  double stiffness_against_tool() const;
+  void update(const NodalVectors &displacements) override;
+  /// Without friction F_c = −∂Π/∂u, Π the stored energy: forces on areas that change are among them.
+  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) override;
+  void add_crossings(Crossings &crossings) const override;
+  void add_start_crossings(Crossings &crossings, const NodalVectors &velocities, double step) const override;
+  double stiffness_against_tool() const override;
 
-  /// Of every node at a facet of this rank; `area` is this rank's share. At divided facets pressure, traction
-  /// and status are those of all points that push the node, as means over its share of their areas.
-  std::vector<ContactNodeReport> report() const;
-
-  /// Returns the status of each node at a facet of this rank and the force that it takes, after update().
-  std::vector<SlaveForce> slave_forces() const;
-
-  /// Doubles of history on this rank.
-  std::size_t history_size() const;
-  /// Of this rank's nodes, the largest penalty times the facets' size squared [force/length].
-  double largest_spring() const;
-  /// The radius of the tool's curvature before this rank's nodes at the start, at most its size: numbers as
-  /// large go into gaps. 0 where it is flat [length].
-  double tool_reach() const { return tool_reach_; }
-
-  /// The state at the start of the step.
-  void save(StateWriter &writer, const NodeKeys &keys) const;
-  void load(const StateReader &reader, const NodeKeys &keys);
-  /// In place of load(), for a pair that is new at these displacements (as of all dofs, or of bound nodes):
-  /// as if it had been there without contact.
-  void begin(const Placement &placement, const Vector &displacements);
-  void begin(const Placement &placement, const NodalVectors &displacements);
+  void save(StateWriter &writer, const NodeKeys &keys) const override;
+  void load(const StateReader &reader, const NodeKeys &keys) override;
+  void begin(const ContactStep &step, const Vector &displacements) override;
+  void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
   struct Node {
@@ -390,7 +314,6 @@ private:
   void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas, const Range &range);
   /// How thick it is, if it is thin. Collective.
   void measure_tool();
-  DiagnosticList check_small_tool() const;
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
   /// Notes the pressures of the last update() for the works of the next step.
@@ -413,7 +336,8 @@ private:
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   template <class DisplacementOf>
-  void begin_at(const Placement &placement, const DisplacementOf &displacement_of);
+  void begin_at(const ContactStep &step, const DisplacementOf &displacement_of);
+  double augmentation_gap() const override;
   /// Calls add(index of the slave node, its area at one facet).
   template <class Add> void for_each_area(const Add &add) const;
   /// The same with the area on which the force stands: times pressures it is the force.
@@ -460,7 +384,6 @@ private:
   void add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
 
-  const std::size_t index_;
   const ContactPair &pair_;
   const Tool &tool_;
   const MPI_Comm communicator_;
@@ -501,8 +424,6 @@ private:
   double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]
   std::vector<dealii::Tensor<1, 3>> positions_on_thin_tool_; ///< of the nodes, at the start of the step
   double stiffening_ = 1., tangential_stiffening_ = 1.;      ///< of the penalties as given
-  double most_stiffening_ = std::numeric_limits<double>::infinity();
-  double most_tangential_stiffening_ = std::numeric_limits<double>::infinity(); ///< of the penalties as given
   bool is_removed_ = false;
   bool has_nodes_behind_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction},

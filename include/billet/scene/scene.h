@@ -85,13 +85,10 @@ inline double penalty_length(const bool counts_thickness, const double facet_siz
   return counts_thickness ? std::min(facet_size, thickness) : facet_size;
 }
 
-/// Boundary faces of a body that may touch a tool.
-struct ContactPair {
+/// What all contact pairs have.
+struct PairSettings {
   std::string name;
   const parameters::ContactPair *input; ///< where it comes from, for messages
-  std::size_t body;
-  std::vector<unsigned int> boundary_ids;
-  std::size_t tool;
   FrictionLaw friction;
   bool penalty_is_factor;
   bool penalty_counts_thickness; ///< penalty_length()
@@ -105,6 +102,14 @@ struct ContactPair {
   bool has_tolerance() const { return penetration_tolerance.value_or(0.) > 0.; }
   bool is_augmented() const { return limits_softness() || has_tolerance(); }
   bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
+};
+
+/// Boundary faces of a body that may touch a tool.
+struct ContactPair : PairSettings {
+  std::size_t body;
+  std::vector<unsigned int> boundary_ids;
+  std::size_t tool;
+
   /// k [force/length³] from the scene's number, for a penalty_length() h on a body with Young's modulus E.
   double scaled_penalty(const double penalty, const double young_modulus, const double h) const {
     return penalty_is_factor ? penalty * young_modulus / h : penalty;
@@ -112,31 +117,16 @@ struct ContactPair {
 };
 
 /// Boundary faces of two bodies, or of one and the same, that may touch each other.
-struct BodyPair {
-  std::string name;
-  const parameters::ContactPair *input; ///< where it comes from, for messages
+struct BodyPair : PairSettings {
   std::array<std::size_t, 2> bodies;
   std::array<std::vector<unsigned int>, 2> boundary_ids; ///< of a pair with itself: both alike
   bool is_self_contact;
   parameters::ContactPair::Facets facets;
   bool two_passes, edges;
-  FrictionLaw friction;
-  bool penalty_is_factor;
-  bool penalty_counts_thickness; ///< penalty_length()
   parameters::ContactPair::PenaltyOf penalty_of;
-  double normal_penalty, tangential_penalty;
-  double smoothing;                            ///< ContactLimits::zone
-  double search_margin;                        ///< [facet sizes]
-  std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: penalties alone; none: (L7)
-  bool is_raised;                              ///< in dynamics, while penetration takes too much, (L8)
-  InitialOverlap overlap;
+  double smoothing;     ///< ContactLimits::zone
+  double search_margin; ///< [facet sizes]
   parameters::ContactPair::Correction correction;
-
-  /// Augmented until penetration takes little of the deformation.
-  bool limits_softness() const { return !penetration_tolerance; }
-  bool has_tolerance() const { return penetration_tolerance.value_or(0.) > 0.; }
-  bool is_augmented() const { return limits_softness() || has_tolerance(); }
-  bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
 };
 
 /// What the scene asks of the program. Nothing that is false here is allocated or run.

@@ -2,9 +2,9 @@
 #ifndef BILLET_SOLVE_EXPLICIT_DYNAMICS_H
 #define BILLET_SOLVE_EXPLICIT_DYNAMICS_H
 
-#include "billet/contact/body_contact.h"
-#include "billet/contact/rigid_contact.h"
+#include "billet/contact/contacts.h"
 #include "billet/discretization/held_motion.h"
+#include "billet/errors.h"
 #include "billet/forces/external_loads.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/solve/free_tool.h"
@@ -84,7 +84,7 @@ public:
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override;
-  DiagnosticList initial_diagnostics() const override { return RigidContact::check_small_tools(contacts_); }
+  DiagnosticList initial_diagnostics() const override { return contacts_.check_start(); }
 
 private:
   void make_blocks();
@@ -94,7 +94,9 @@ private:
   /// F_n into forces_, and bounds on the step. Any failure shows on all ranks.
   void compute_forces();
   void compute_internal_forces();
-  void compute_contact_forces();
+  /// Returns why nodes of this rank have gone through a tool; empty if none has. Collective.
+  std::string compute_contact_forces();
+  std::vector<Placement> placements_of(const Placement &(FreeTool::*get)() const) const;
   void remove_tools();
   /// Now and then, with the forces at hand. Collective.
   void raise_penalties();
@@ -118,6 +120,7 @@ private:
   void load_tools(StateReader &reader, const NodeKeys &keys, bool is_exact);
   void load_contacts(StateReader &reader, const NodeKeys &keys);
   std::string describe_flat_elements() const;
+  SolutionFailure failure(const std::string &why) const;
   [[noreturn]] void fail(const std::string &why) const;
 
   const Scene &scene_;
@@ -127,8 +130,7 @@ private:
   HeldMotion held_;
   std::vector<std::unique_ptr<ExplicitBlock>> blocks_; ///< by body
   std::unique_ptr<ExternalLoads> loads_;
-  std::vector<RigidContact> contacts_;
-  std::vector<std::unique_ptr<BodyContact>> body_contacts_;
+  Contacts contacts_;
   std::vector<FreeTool> tools_;
   std::vector<ContactLoad> tool_loads_; ///< at t_n, of this rank
   std::vector<double> tool_stiffness_;  ///< against free tools, of this rank

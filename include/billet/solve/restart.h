@@ -2,11 +2,13 @@
 #ifndef BILLET_SOLVE_RESTART_H
 #define BILLET_SOLVE_RESTART_H
 
+#include "billet/contact/contact_interface.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/solve/solution.h"
 #include "billet/state.h"
 
+#include <functional>
 #include <optional>
 
 namespace billet {
@@ -65,15 +67,11 @@ inline std::string group(const std::string &kind, const std::size_t index) {
 
 /// Tells which of the checkpoint's tools and pairs are not in the scene, and whether all are the same.
 void compare_parts(StateReader &reader, const Scene &scene, RestartReport &report);
-/// Whom a pair joins. A pair that keeps its name must keep its partners: InputError.
-std::string partners(const Scene &scene, const ContactPair &pair);
-std::string partners(const Scene &scene, const BodyPair &pair);
-/// What names the pair in its group.
-template <class Pair> void save_pair(StateWriter &writer, const Scene &scene, const Pair &pair) {
-  writer.write_text("name", pair.name);
-  writer.write_text("partners", partners(scene, pair));
-}
-void check_partners(const StateReader &reader, const std::string &pair, const std::string &partners);
+/// Writes what names a pair in its group.
+void save_pair(StateWriter &writer, const ContactInterface &contact);
+/// Calls load() in the group of the pair of this name, and checks that it keeps its partners, else
+/// InputError; false without such a pair.
+bool load_pair(StateReader &reader, const ContactInterface &contact, const std::function<void()> &load);
 
 std::vector<double> to_numbers(const Placement &placement);
 Placement to_placement(const std::vector<double> &numbers);

@@ -84,21 +84,19 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
                                                         const std::vector<double> &added) {
   ContactSet &contacts = problem_.contacts();
   std::vector<double> room = contacts.stiffening_left(), factors(errors.size(), 1.);
-  const std::vector<bool> limits =
-      contacts.collect([](const auto &contact) { return contact.settings().limits_softness(); });
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double left = errors[i] / before[i];
-    if (limits[i])
+    if (contacts[i].settings().limits_softness())
       room[i] *= added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
-                 : contacts.is_of_tool(i)                                  ? Limits::more_of_tools
+                 : contacts[i].rigid_tool()                                ? Limits::more_of_tools
                                                                            : 1.;
     if (!(errors[i] > 1. && left > Limits::slow && room[i] >= 2.))
       continue;
     factors[i] = whole_octaves(
         left < 1. ? std::min(room[i], left / (1. - left) * (1. - Limits::wanted) / Limits::wanted) : room[i]);
     is_stiffer = true;
-    contacts.stiffen(i, factors[i]);
+    contacts[i].stiffen(factors[i]);
   }
   if (is_stiffer)
     problem_.scales().spring_round_off = contacts.find_spring_round_off();
@@ -108,21 +106,18 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
 bool Augmentation::soften_contacts(DiagnosticList &messages) {
   ContactSet &contacts = problem_.contacts();
   const std::vector<double> room = contacts.stiffening_left();
-  const std::vector<std::string> names = contacts.names();
-  const std::vector<bool> is_augmented =
-      contacts.collect([](const auto &contact) { return contact.settings().is_augmented(); });
   bool has_softened = false;
   for (std::size_t i = 0; i < room.size(); ++i) {
-    if (!(room[i] < 1.) || !is_augmented[i])
+    if (!(room[i] < 1.) || !contacts[i].settings().is_augmented())
       continue;
     const double factor = whole_octaves(room[i]), penalty = enough_penalty / room[i] * factor;
-    contacts.stiffen(i, factor);
+    contacts[i].stiffen(factor);
     has_softened = true;
     std::ostringstream text;
     text << "The penalty was reduced to " << penalty
          << " E/h, since Newton's method failed; augmentation makes up for that";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
-                           .pair(names[i])
+                           .pair(contacts[i].name())
                            .time(problem_.step().time)
                            .value("penalty [E/h]", penalty));
   }
@@ -253,10 +248,9 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
 bool Augmentation::augment_once(Series &series, const Demands &demands, const bool is_of_softness,
                                 NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
   ContactSet &contacts = problem_.contacts();
-  contacts.for_each([](auto &contact) {
+  for (auto &contact : contacts)
     if (contact.settings().is_augmented())
       contact.augment();
-  });
   if (!series.before.empty()) {
     const std::vector<double> factors =
         stiffen_slow_contacts(series.before, demands.of_contacts, series.added);
@@ -268,7 +262,7 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   if (!report.converged && series.soft && is_of_softness) { // as it was before
     for (std::size_t i = 0; i < series.stiffer.size(); ++i)
       if (series.stiffer[i] != 1.)
-        contacts.stiffen(i, 1. / series.stiffer[i]);
+        contacts[i].stiffen(1. / series.stiffer[i]);
     contacts.take_back_augmentation();
     displacements = *series.soft;
     offsets = series.soft_offsets;
@@ -302,7 +296,6 @@ DiagnosticList Augmentation::finish() const {
   constexpr double percent = 100.;
   DiagnosticList messages;
   const std::vector<double> unsettled = softness_.unsettled();
-  const std::vector<std::string> names = problem_.contacts().names();
   for (std::size_t i = 0; i < unsettled.size(); ++i) {
     if (!(unsettled[i] > Limits::settled))
       continue;
@@ -311,7 +304,7 @@ DiagnosticList Augmentation::finish() const {
     text << "Augmentation was given up while it still changed the force by " << percent * unsettled[i]
          << " % of the largest: facets of the two sides do not fit, or a sharp edge bears";
     messages.push_back(Diagnostic(diagnostic::contact_unsettled, text.str())
-                           .pair(names[i])
+                           .pair(problem_.contacts()[i].name())
                            .measure("change / force", unsettled[i]));
   }
   return messages;

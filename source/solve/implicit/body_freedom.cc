@@ -29,11 +29,8 @@ std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const st
       if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0)
         resistances.push_back({position, hold.normal, Resistance::Sense::both_ways});
   }
-  for (const auto &contact : problem.contacts().of_tools())
-    if (contact.body() == body)
-      contact.add_resistances(resistances);
-  for (const auto &contact : problem.contacts().of_bodies())
-    contact->add_resistances(body, resistances);
+  for (const auto &contact : problem.contacts())
+    contact.add_resistances(body, resistances);
 
   // Those of all ranks, in the same order on each, so that all find the same.
   std::vector<double> numbers;

@@ -39,13 +39,11 @@ EnergyBalance::ContactLoss EnergyBalance::contact_loss(const double t, const dou
   ContactLoss loss;
   loss.total = mean * increment + state.energies.contact;
   const auto &tools = problem_.scene().tools();
-  std::vector<ContactLoad> loads(tools.size());
-  for (const auto &contact : contacts.of_tools())
-    loads[contact.tool()] += contact.compute_load();
-  for (std::size_t i = 0; i < loads.size(); ++i) {
+  const Contacts::Loads loads = contacts.compute_loads();
+  for (std::size_t i = 0; i < loads.of_tools.size(); ++i) {
     if (problem_.removal().is_removed(i))
       continue;
-    const ContactLoad &load = loads[i], &load_n = state.tool_loads[i];
+    const ContactLoad &load = loads.of_tools[i], &load_n = state.tool_loads[i];
     const Placement to = problem_.tools().place(i, t, problem_.tools().offsets()[i]);
     loss.total += ((1. - before) * load.force + before * load_n.force) *
                       (to.translation - state.placements[i].translation) +
@@ -54,8 +52,7 @@ EnergyBalance::ContactLoss EnergyBalance::contact_loss(const double t, const dou
                   load.stored_energy - load.dissipation;
     loss.friction += load.damping;
   }
-  for (const auto &contact : contacts.of_bodies()) {
-    const ContactLoad load = contact->compute_load();
+  for (const ContactLoad &load : loads.of_body_pairs) {
     loss.total -= load.stored_energy + load.dissipation;
     loss.friction += load.damping;
   }

@@ -81,7 +81,7 @@ bool ImplicitProblem::compute_residual(const Epetra_Vector &x, Epetra_Vector &re
   if (!on_all_ranks(internal_.assemble_forces(step_.ghosted, raw_internal_)))
     return false;
   raw_internal_.compress(dealii::VectorOperation::add);
-  contacts_.update(step_.ghosted, step_.duration, raw_contact_);
+  contacts_.update(step_.ghosted, raw_contact_);
   raw_contact_.compress(dealii::VectorOperation::add);
 
   ForceState &trial = step_.trial;
@@ -130,8 +130,8 @@ StatusChanges ImplicitProblem::find_status_changes() const {
 }
 
 bool ImplicitProblem::assemble_tangent(const TangentSystem &system, const double yield_slack) {
-  for (const auto &contact : contacts_.of_bodies())
-    contact->update(step_.ghosted, step_.duration);
+  for (auto &contact : contacts_)
+    contact.update(step_.ghosted);
   tangent_.follow_couplings();
   system.matrix = 0.;
   if (!on_all_ranks(internal_.assemble_tangent(step_.ghosted, system, yield_slack)))
@@ -139,13 +139,11 @@ bool ImplicitProblem::assemble_tangent(const TangentSystem &system, const double
   stabilisation_.add_tangent(system);
   const TangentSystem contact_system{system.constraints, system.matrix, system.lift,
                                      scheme().contact_weight()};
-  for (auto &contact : contacts_.of_tools()) {
-    contact.update(step_.ghosted);
+  for (const auto &contact : contacts_.of_tools())
     contact.add_tangent(contact_system);
-  }
   tangent_.start_contact();
   for (const auto &contact : contacts_.of_bodies())
-    contact->add_tangent(contact_system, tangent_.kind());
+    contact.add_tangent(contact_system);
   scheme().add_tangent(step_.time, {supports_.homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
   tools_.assemble_tangent();
@@ -189,16 +187,17 @@ double ImplicitProblem::max_step_length(const Epetra_Vector &x, const Epetra_Vec
   Epetra_Vector end(x);
   end.Update(1., direction, 1.);
   set_trial(end);
-  const double part = contacts_.find_free_part(from, tools_from, step_.ghosted, tools_.placements(step_.time),
-                                               false, obstacle_);
+  const double part = contacts_.find_free_part(
+      {from, step_.ghosted, tools_from, tools_.placements(step_.time), false}, obstacle_);
   constexpr double least = 1e-3; // so short a correction is none
   return part < least ? 0. : part;
 }
 
 double ImplicitProblem::find_free_part(const bool is_thorough) {
   step_.ghosted = step_.trial.displacements;
-  return contacts_.find_free_part(state_.displacements, state_.placements, step_.ghosted,
-                                  tools_.placements(step_.time), is_thorough, obstacle_);
+  return contacts_.find_free_part(
+      {state_.displacements, step_.ghosted, state_.placements, tools_.placements(step_.time), is_thorough},
+      obstacle_);
 }
 
 void ImplicitProblem::start_step(const double t) {
@@ -206,28 +205,17 @@ void ImplicitProblem::start_step(const double t) {
   step_.duration = t - state_.time;
   internal_.start_step(step_.duration);
   stabilisation_.start_step(step_.duration);
-  const bool is_static = !scheme().has_inertia();
-  for (const auto &contact : contacts_.of_bodies())
-    contact->start_step(state_.time, t);
   scheme().start_step(state_.time, t, step_.start.displacements, tools_.start_offsets());
-  for (auto &contact : contacts_.of_tools()) {
-    const std::size_t tool = contact.tool();
-    contact.start_step(state_.placements[tool], tools_.place(tool, t, tools_.offsets()[tool]),
-                       t - state_.time);
-    contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(t));
+  const std::vector<Placement> placements = tools_.placements(t);
+  for (auto &contact : contacts_) {
+    contact.start_step({state_.time, t, step_.duration, state_.placements, placements});
+    contact.set_friction_account(scheme().contact_before(), !scheme().has_inertia());
   }
-  contacts_.for_each(
-      [&](auto &contact) { contact.set_friction_account(scheme().contact_before(), is_static); });
 }
 
 void ImplicitProblem::start_at_rest() {
-  for (auto &contact : contacts_.of_tools()) {
-    const Placement &now = state_.placements[contact.tool()];
-    contact.start_step(now, now, 0.);
-    contact.set_allowed_part(scene_.pairs()[contact.pair()].overlap.allowed_part(state_.time));
-  }
-  for (const auto &contact : contacts_.of_bodies())
-    contact->start_step(state_.time, state_.time);
+  for (auto &contact : contacts_)
+    contact.start_step({state_.time, state_.time, 0., state_.placements, state_.placements});
   step_.duration = 0.;
   internal_.start_step(0.);
 }

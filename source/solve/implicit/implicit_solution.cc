@@ -17,12 +17,10 @@ ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &dis
     return;
   ContactSet &contacts = problem_.contacts();
   if (!contacts.of_bodies().empty()) {
-    for (auto &contact : contacts.of_tools())
+    for (auto &contact : contacts)
       contact.update(state().displacements);
-    for (const auto &contact : contacts.of_bodies()) {
-      contact->update(state().displacements, 0.);
-      contact->allow_overlap();
-    }
+    for (auto &contact : contacts.of_bodies())
+      contact.allow_overlap();
     rules_->check_start();
     problem_.tangent().build();
   }
@@ -30,15 +28,15 @@ ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &dis
 }
 
 std::array<std::size_t, 2> ImplicitSolution::history_sizes() const {
-  std::array<std::size_t, 2> sizes = {{problem_.internal().history_size(), 0}};
-  problem_.contacts().for_each([&](const auto &contact) { sizes[1] += contact.history_size(); });
+  std::array<std::size_t, 2> sizes = {
+      {problem_.internal().history_size(), problem_.contacts().history_size()}};
   for (auto &size : sizes)
     size = dealii::Utilities::MPI::sum(size, problem_.communicator());
   return sizes;
 }
 
 DiagnosticList ImplicitSolution::initial_diagnostics() const {
-  DiagnosticList messages = RigidContact::check_small_tools(problem_.contacts().of_tools());
+  DiagnosticList messages = problem_.contacts().check_start();
   append(messages, problem_.stabilisation().check_needless());
   return messages;
 }
@@ -218,19 +216,19 @@ void ImplicitSolution::commit_loads(const double t) {
   const std::vector<Placement> placements_n = state.placements;
   diagnosis_.commit();
   std::fill(state.tool_loads.begin(), state.tool_loads.end(), ContactLoad());
-  for (std::size_t i = 0; i < contacts.of_tools().size(); ++i) {
-    RigidContact &contact = contacts.of_tools()[i];
-    const ContactLoad load = contact.compute_load();
-    books_.set(i, load.stored_energy);
-    state.tool_loads[contact.tool()] += load;
-    contact.commit();
-  }
   state.energies.contact = 0.;
-  for (std::size_t i = 0; i < state.body_pair_loads.size(); ++i) {
-    state.body_pair_loads[i] = contacts.of_bodies()[i]->compute_load();
-    state.energies.contact += state.body_pair_loads[i].stored_energy;
-    state.energies.friction += state.body_pair_loads[i].dissipation;
-    contacts.of_bodies()[i]->commit();
+  auto body_pair_load = state.body_pair_loads.begin();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactLoad load = contacts[i].compute_load();
+    if (const auto &tool = contacts[i].rigid_tool()) {
+      state.tool_loads[*tool] += load;
+      books_.set(i, load.stored_energy);
+    } else {
+      *body_pair_load++ = load;
+      state.energies.contact += load.stored_energy;
+      state.energies.friction += load.dissipation;
+    }
+    contacts[i].commit();
   }
   const auto &tools = problem_.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i) {

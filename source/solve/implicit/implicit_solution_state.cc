@@ -63,19 +63,14 @@ void ImplicitSolution::save_body(const std::size_t body, StateWriter &writer) co
 }
 
 void ImplicitSolution::save_contacts(StateWriter &writer, const NodeKeys &keys) const {
-  const Scene &scene = problem_.scene();
-  const ContactSet &contacts = problem_.contacts();
-  for (std::size_t p = 0; p < contacts.of_tools().size(); ++p)
-    writer.in(group("pair", p), [&] {
-      save_pair(writer, scene, scene.pairs()[p]);
-      contacts.of_tools()[p].save(writer, keys);
-    });
-  for (std::size_t p = 0; p < contacts.of_bodies().size(); ++p)
-    writer.in(group("body pair", p), [&] {
-      save_pair(writer, scene, scene.body_pairs()[p]);
-      writer.write("load", to_numbers(state().body_pair_loads[p]));
-      contacts.of_bodies()[p]->save(writer);
-      contacts.of_bodies()[p]->save_couplings(writer);
+  auto body_pair_load = state().body_pair_loads.begin();
+  for (const auto &contact : problem_.contacts())
+    writer.in(group(contact.group_kind(), contact.group_index()), [&] {
+      save_pair(writer, contact);
+      if (!contact.rigid_tool())
+        writer.write("load", to_numbers(*body_pair_load++));
+      contact.save(writer, keys);
+      contact.save_couplings(writer);
     });
 }
 
@@ -178,53 +173,29 @@ void ImplicitSolution::load_tools(StateReader &reader, const OwnedNodes &nodes) 
 }
 
 void ImplicitSolution::load_contacts(StateReader &reader, const NodeKeys &keys) {
-  const Scene &scene = problem_.scene();
   SolutionState &state = problem_.state();
-  ContactSet &contacts = problem_.contacts();
-  for (std::size_t p = 0; p < contacts.of_tools().size(); ++p) {
-    const ContactPair &pair = scene.pairs()[p];
-    RigidContact &contact = contacts.of_tools()[p];
-    contact.set_allowed_part(pair.overlap.allowed_part(state.time));
-    const auto found = find_group(reader, "pair", pair.name);
-    if (found)
-      reader.in(group("pair", *found), [&] {
-        check_partners(reader, pair.name, partners(scene, pair));
-        contact.load(reader, keys);
-      });
-    else
-      contact.begin(state.placements[pair.tool], state.displacements);
-  }
-  for (std::size_t p = 0; p < contacts.of_bodies().size(); ++p) {
-    const BodyPair &pair = scene.body_pairs()[p];
-    BodyContact &contact = *contacts.of_bodies()[p];
-    const auto found = find_group(reader, "body pair", pair.name);
-    if (found)
-      reader.in(group("body pair", *found), [&] {
-        check_partners(reader, pair.name, partners(scene, pair));
-        contact.load(reader);
-        if (reader.has("load"))
-          state.body_pair_loads[p] = to_contact_load(reader.read("load"));
-      });
-    else {
-      contact.begin(state.displacements);
-      contact.update(state.displacements, 0.);
-      contact.allow_overlap();
-    }
+  auto body_pair_load = state.body_pair_loads.begin();
+  for (auto &contact : problem_.contacts()) {
+    ContactLoad *const load = contact.rigid_tool() ? nullptr : &*body_pair_load++;
+    const bool is_known = load_pair(reader, contact, [&] {
+      contact.load(reader, keys);
+      if (load != nullptr && reader.has("load"))
+        *load = to_contact_load(reader.read("load"));
+    });
+    if (!is_known)
+      contact.begin({state.time, state.time, 0., state.placements, state.placements}, state.displacements);
   }
 }
 
 void ImplicitSolution::update_contacts(StateReader &reader, const bool is_exact) {
-  const auto &contacts = problem_.contacts().of_bodies();
-  if (contacts.empty())
+  if (problem_.contacts().of_bodies().empty())
     return;
   bool couplings_are_known = is_exact;
-  for (std::size_t p = 0; p < contacts.size(); ++p) {
-    BodyContact &contact = *contacts[p];
-    contact.start_step(state().time, state().time);
-    contact.update(state().displacements, 0.);
-    if (const auto found = find_group(reader, "body pair", contact.name()); couplings_are_known && found)
-      reader.in(group("body pair", *found),
-                [&] { couplings_are_known = contact.load_couplings(reader, problem_.tangent().kind()); });
+  problem_.start_at_rest();
+  for (auto &contact : problem_.contacts().of_bodies()) {
+    contact.update(state().displacements);
+    if (couplings_are_known)
+      load_pair(reader, contact, [&] { couplings_are_known = contact.load_couplings(reader); });
   }
   problem_.tangent().build(couplings_are_known);
 }
@@ -244,16 +215,13 @@ void ImplicitSolution::balance(RestartReport &report) {
   step.start.supports = step.trial.supports;
   step.start.contact = step.trial.contact;
   step.start.internal = step.trial.internal;
-  std::fill(state.tool_loads.begin(), state.tool_loads.end(), ContactLoad());
+  const Contacts::Loads loads = problem_.contacts().compute_loads();
+  state.tool_loads = loads.of_tools;
+  state.body_pair_loads = loads.of_body_pairs;
   state.energies.contact = 0.;
-  for (const auto &contact : problem_.contacts().of_tools())
-    state.tool_loads[contact.tool()] += contact.compute_load();
-  for (const auto &load : state.tool_loads)
-    state.energies.contact += load.stored_energy;
-  for (std::size_t p = 0; p < state.body_pair_loads.size(); ++p) {
-    state.body_pair_loads[p] = problem_.contacts().of_bodies()[p]->compute_load();
-    state.energies.contact += state.body_pair_loads[p].stored_energy;
-  }
+  for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
+    for (const ContactLoad &load : *of)
+      state.energies.contact += load.stored_energy;
   // What has gone with the interruption is no drift.
   EnergyLedger &energies = state.energies;
   const double drift = energies.drift();

@@ -21,19 +21,17 @@ void InitialMotion::start() {
   step.start.supports = step.trial.supports;
   step.start.contact = step.trial.contact;
   step.start.internal = step.trial.internal;
-  for (const auto &contact : problem_.contacts().of_tools())
-    state.tool_loads[contact.tool()] += contact.compute_load();
+  const Contacts::Loads loads = problem_.contacts().compute_loads();
+  state.tool_loads = loads.of_tools;
+  state.body_pair_loads = loads.of_body_pairs;
   check_before_start([&] { accelerate(); });
 
   const auto energies = problem_.internal().compute_energies(state.displacements);
   state.energies.elastic = energies.elastic;
   state.energies.hourglass = energies.hourglass;
-  for (const auto &load : state.tool_loads)
-    state.energies.contact += load.stored_energy;
-  for (std::size_t i = 0; i < state.body_pair_loads.size(); ++i) {
-    state.body_pair_loads[i] = problem_.contacts().of_bodies()[i]->compute_load();
-    state.energies.contact += state.body_pair_loads[i].stored_energy;
-  }
+  for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
+    for (const ContactLoad &load : *of)
+      state.energies.contact += load.stored_energy;
   motion_.update_state(state);
   state.energies.initial = state.energies.total();
 }

@@ -28,9 +28,9 @@ bool PathGuard::may_be_cut(const double t) const {
 }
 
 bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
-  for (const auto &contact : problem_.contacts().of_tools())
-    if (contact.has_thin_tool() && !problem_.on_all_ranks(!contact.lets_nodes_through()))
-      return fail(report, contact.describe_thin_tool());
+  for (const auto &contact : problem_.contacts())
+    if (contact.may_let_nodes_through() && !problem_.on_all_ranks(!contact.lets_nodes_through()))
+      return fail(report, contact.describe_passage());
   return false;
 }
 

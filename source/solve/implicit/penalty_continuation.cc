@@ -37,9 +37,7 @@ void PenaltyContinuation::soften(const std::vector<Octaves> &above, const int so
   };
   ContactSet &contacts = problem_.contacts();
   for (std::size_t i = 0; i < above.size(); ++i)
-    contacts.at(i, [&](auto &contact) {
-      contact.scale_penalties(change(above[i].normal), change(above[i].tangential));
-    });
+    contacts[i].scale_penalties(change(above[i].normal), change(above[i].tangential));
   contacts.restart();
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
 }

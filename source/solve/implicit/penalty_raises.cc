@@ -12,12 +12,15 @@ SpringBooks::SpringBooks(ImplicitProblem &problem)
     : problem_(problem), of_tools_(problem.contacts().of_tools().size()),
       watch_(problem.scheme().has_inertia() ? PenaltyWatch::Motion::sudden : PenaltyWatch::Motion::slow) {}
 
-void SpringBooks::add(const std::size_t contact, const double energy) {
-  problem_.state().energies.contact += energy;
-  if (problem_.contacts().is_of_tool(contact))
-    of_tools_[contact] += energy;
-  else
-    problem_.state().body_pair_loads[contact - of_tools_.size()].stored_energy += energy;
+double &SpringBooks::energy(const std::size_t contact) {
+  return contact < of_tools_.size()
+             ? of_tools_[contact]
+             : problem_.state().body_pair_loads[contact - of_tools_.size()].stored_energy;
+}
+
+void SpringBooks::add(const std::size_t contact, const double change) {
+  problem_.state().energies.contact += change;
+  energy(contact) += change;
 }
 
 void SpringBooks::check_pair(const std::string &name, Penetration deepest, const double moved,
@@ -33,19 +36,14 @@ DiagnosticList SpringBooks::check() {
   DiagnosticList messages;
   const SolutionState &state = problem_.state();
   const double displacement = problem_.step().start.displacements.linfty_norm();
-  for (std::size_t i = 0; i < of_tools_.size(); ++i) {
-    const RigidContact &contact = problem_.contacts().of_tools()[i];
-    const std::size_t tool = contact.tool();
-    const double tool_moved = largest_motion(problem_.scene().tools()[tool].placement(0.),
-                                             state.placements[tool], problem_.discretization().radius());
-    check_pair(contact.name(), contact.penetration(), std::max(displacement, tool_moved), of_tools_[i],
-               messages);
-    append(messages, contact.check_nodes_behind());
-  }
-  for (std::size_t i = 0; i < state.body_pair_loads.size(); ++i) {
-    const BodyContact &contact = *problem_.contacts().of_bodies()[i];
-    check_pair(contact.name(), contact.penetration(), displacement, state.body_pair_loads[i].stored_energy,
-               messages);
+  for (std::size_t i = 0; i < problem_.contacts().size(); ++i) {
+    const ContactInterface &contact = problem_.contacts()[i];
+    double moved = displacement;
+    if (const auto &tool = contact.rigid_tool())
+      moved = std::max(moved, largest_motion(problem_.scene().tools()[*tool].placement(0.),
+                                             state.placements[*tool], problem_.discretization().radius()));
+    check_pair(contact.name(), contact.penetration(), moved, energy(i), messages);
+    append(messages, contact.check_step());
   }
   return messages;
 }
@@ -59,15 +57,12 @@ std::vector<double> PenaltyRaises::find_factors() const {
   const bool is_short =
       stepping.control == parameters::TimeStepping::Control::automatic &&
       problem_.step().time - problem_.state().time < Limits::short_step * stepping.initial_step;
-  const std::vector<bool> has_tolerance = contacts.collect(
-                              [](const auto &contact) { return contact.settings().has_tolerance(); }),
-                          has_own_penalty = contacts.collect(
-                              [](const auto &contact) { return contact.settings().input->has_own_penalty; });
   for (std::size_t i = 0; i < factors.size(); ++i) {
     // A penalty that the scene sets stays while it can; the warnings tell what it makes softer. It cannot
     // where nodes are about to go deeper than contact follows them.
+    const PairSettings &pair = contacts[i].settings();
     const bool is_too_much =
-        !has_tolerance[i] && factors[i] > (has_own_penalty[i] && !is_short ? Limits::deep : 1.);
+        !pair.has_tolerance() && factors[i] > (pair.input->has_own_penalty && !is_short ? Limits::deep : 1.);
     const double raise =
         std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), most_raise * room[i]);
     factors[i] = is_too_much && raise >= Limits::min_raise ? whole_octaves(raise) : 1.;
@@ -91,7 +86,7 @@ DiagnosticList PenaltyRaises::raise() {
   const std::vector<double> before = contacts.stored_energies();
   for (std::size_t i = 0; i < factors_.size(); ++i)
     if (factors_[i] > 1.)
-      contacts.stiffen(i, factors_[i]);
+      contacts[i].stiffen(factors_[i]);
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
   problem_.evaluate_start();
   const std::vector<double> after = contacts.stored_energies();
@@ -100,10 +95,8 @@ DiagnosticList PenaltyRaises::raise() {
     const double given = after[i] - before[i];
     books_.add(i, given);
     state.energies.external += given;
-    if (contacts.is_of_tool(i)) {
-      const std::size_t tool = contacts.of_tools()[i].tool();
-      state.tool_loads[tool] = contacts.compute_load(tool);
-    }
+    if (const auto &tool = contacts[i].rigid_tool())
+      state.tool_loads[*tool] = contacts.compute_load(*tool);
   }
   StepState &step = problem_.step();
   step.start.supports = step.trial.supports;
@@ -113,24 +106,22 @@ DiagnosticList PenaltyRaises::raise() {
 
 DiagnosticList PenaltyRaises::describe() const {
   DiagnosticList messages;
-  ContactSet &contacts = problem_.contacts();
   for (std::size_t i = 0; i < factors_.size(); ++i) {
     if (!(factors_[i] > 1.))
       continue;
-    contacts.at(i, [&](const auto &contact) {
-      const parameters::ContactPair &input = *contact.settings().input;
-      const double penalty = input.normal_penalty * contact.stiffening();
-      const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
-      std::ostringstream text;
-      text.precision(3);
-      text << "The penalty of the pair was raised " << factors_[i] << " times, to " << penalty
-           << (is_factor ? " E/h" : "") << ", since nodes penetrated too deep with it";
-      messages.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
-                             .pair(input.name)
-                             .time(problem_.state().time)
-                             .value("factor", factors_[i])
-                             .measure(is_factor ? "penalty [E/h]" : "penalty", penalty));
-    });
+    const ContactInterface &contact = problem_.contacts()[i];
+    const parameters::ContactPair &input = *contact.settings().input;
+    const double penalty = input.normal_penalty * contact.stiffening();
+    const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
+    std::ostringstream text;
+    text.precision(3);
+    text << "The penalty of the pair was raised " << factors_[i] << " times, to " << penalty
+         << (is_factor ? " E/h" : "") << ", since nodes penetrated too deep with it";
+    messages.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
+                           .pair(input.name)
+                           .time(problem_.state().time)
+                           .value("factor", factors_[i])
+                           .measure(is_factor ? "penalty [E/h]" : "penalty", penalty));
   }
   return messages;
 }
@@ -151,7 +142,7 @@ DiagnosticList DynamicPenalties::control(const Solution &solution) {
     if (!factors[i].raises())
       continue;
     const double normal = factors[i].normal, tangential = factors[i].tangential;
-    contacts.at(i, [&](auto &contact) { contact.stiffen_under_load(normal, tangential); });
+    contacts[i].stiffen_under_load(normal, tangential);
     // With the same force a stiffer spring holds less: the rest stays in the penetration that is allowed now.
     const double lost =
         (1. - 1. / normal) * energies.of_pairs[i] + (1. - 1. / tangential) * energies.sticking[i].stored;

@@ -41,11 +41,10 @@ StepResults::Groups StepResults::accepted() const {
 
 StepResults::Groups StepResults::of_trial() const {
   Groups results(1);
-  results[0].resize(problem_.state().tool_loads.size());
-  for (const auto &contact : problem_.contacts().of_tools())
-    results[0][contact.tool()] += contact.compute_load().force;
-  for (const auto &contact : problem_.contacts().of_bodies())
-    results[0].push_back(contact->compute_load().force);
+  const Contacts::Loads loads = problem_.contacts().compute_loads();
+  for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
+    for (const ContactLoad &load : *of)
+      results[0].push_back(load.force);
   if (!has_forces_of_contacts())
     results[0].push_back(dealii::Tensor<1, 3>({problem_.step().trial.supports.l2_norm(), 0., 0.}));
   add_travels(problem_.tools().offsets(), results);
@@ -101,7 +100,8 @@ double PenetrationMeasurement::augment_once(const Epetra_Vector &accepted, const
   Epetra_Vector x(accepted), residual(accepted), dx(accepted);
   double left = 0.;
   measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
-  problem_.contacts().for_each([](auto &contact) { contact.augment(); });
+  for (auto &contact : problem_.contacts())
+    contact.augment();
   const parameters::Solver &solver = problem_.parameters().solver;
   bool is_admissible = problem_.compute_residual(x, residual), is_accurate = false;
   while (is_admissible && !is_accurate && measured_->n_iterations < Limits::max_iterations) {

@@ -26,28 +26,33 @@ void RigidBodyModes::add_supports(RigidBodySupport &support) const {
 }
 
 template <class AddContact> void RigidBodyModes::add_supporting_points(const AddContact &add) const {
-  for (const auto &contact : problem_.contacts().of_tools()) {
-    const std::size_t tool = contact.tool();
-    const auto unknown =
-        std::find(problem_.tools().unknown().begin(), problem_.tools().unknown().end(), tool);
-    const auto centre =
-        problem_.tools().place(tool, problem_.step().time, problem_.tools().offsets()[tool]).moved_centre();
-    contact.visit_supporting([&](const SupportingPoint &point) {
-      RigidBodySupport::Side on;
-      if (unknown != problem_.tools().unknown().end()) {
-        const RigidContact::ToolRate rate = problem_.tools().rate_of(tool);
-        on.tool = static_cast<std::size_t>(unknown - problem_.tools().unknown().begin());
-        on.tool_velocity =
-            rate.translation + dealii::cross_product_3d(rate.rotation, point.position - centre);
+  const DrivenTools &tools = problem_.tools();
+  for (const auto &contact : problem_.contacts()) {
+    // A tool whose travel is unknown gives way.
+    std::optional<std::size_t> unknown;
+    RigidContact::ToolRate rate;
+    dealii::Tensor<1, 3> centre;
+    if (const auto &tool = contact.rigid_tool()) {
+      const auto found = std::find(tools.unknown().begin(), tools.unknown().end(), *tool);
+      if (found != tools.unknown().end()) {
+        unknown = static_cast<std::size_t>(found - tools.unknown().begin());
+        rate = tools.rate_of(*tool);
+        centre = tools.place(*tool, problem_.step().time, tools.offsets()[*tool]).moved_centre();
       }
-      add(contact.body(), contact.body(), point, RigidBodySupport::Side{contact.body(), {}, {}}, on);
-    });
+    }
+    contact.visit_supporting(
+        [&](const SupportingPoint &point, const std::size_t body, const std::size_t other) {
+          RigidBodySupport::Side on;
+          if (!contact.rigid_tool())
+            on.body = other;
+          if (unknown) {
+            on.tool = unknown;
+            on.tool_velocity =
+                rate.translation + dealii::cross_product_3d(rate.rotation, point.position - centre);
+          }
+          add(body, other, point, RigidBodySupport::Side{body, {}, {}}, on);
+        });
   }
-  for (const auto &contact : problem_.contacts().of_bodies())
-    contact->visit_supporting([&](const SupportingPoint &point, const std::size_t body,
-                                  const std::size_t other) {
-      add(body, other, point, RigidBodySupport::Side{body, {}, {}}, RigidBodySupport::Side{other, {}, {}});
-    });
 }
 
 RigidBodySupport RigidBodyModes::hold_bodies() const {
@@ -115,11 +120,9 @@ std::vector<double> RigidBodyModes::contact_forces_on_bodies() const {
       total += node.force.norm();
     return total;
   };
-  for (const auto &contact : problem_.contacts().of_tools())
-    forces[contact.body()] += sum(contact);
-  for (const auto &contact : problem_.contacts().of_bodies())
-    for (const std::size_t body : contact->settings().bodies)
-      forces[body] += sum(*contact);
+  for (const auto &contact : problem_.contacts())
+    for (const std::size_t body : contact.bodies())
+      forces[body] += sum(contact);
   dealii::Utilities::MPI::sum(forces, problem_.communicator(), forces);
   return forces;
 }

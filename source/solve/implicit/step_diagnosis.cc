@@ -15,7 +15,7 @@ void StepDiagnosis::commit() {
     const Tool &which = problem_.scene().tools()[tool];
     std::vector<double> sums(3);
     for (const auto &contact : problem_.contacts().of_tools())
-      if (contact.tool() == tool && problem_.scene().pairs()[contact.pair()].has_friction()) {
+      if (contact.tool() == tool && contact.settings().has_friction()) {
         const RigidContact::Grip grip = contact.grip(
             which.control() == Tool::Control::moment ? RigidContact::ToolRate{{}, which.rotation_axis()}
                                                      : RigidContact::ToolRate{which.force_direction(), {}});
@@ -46,8 +46,8 @@ std::string StepDiagnosis::describe_slipping_tools() const {
 
 std::string StepDiagnosis::describe_contacts() const {
   std::string text;
-  for (const auto &contact : problem_.contacts().of_bodies())
-    text += contact->describe_restless();
+  for (const auto &contact : problem_.contacts())
+    text += contact.describe_restless();
   return text + describe_slipping_tools();
 }
 

@@ -34,17 +34,17 @@ NodalGeometry collect_geometry(const Discretization &discretization, const Const
 void TangentMatrix::build(const bool couplings_are_known) {
   const auto &owned = discretization_.owned_dofs();
   dealii::IndexSet written = discretization_.relevant_dofs();
-  for (const auto &contact : contacts_.of_bodies()) {
+  for (auto &contact : contacts_) {
     if (!couplings_are_known)
-      contact->find_couplings(kind_);
-    contact->add_foreign_dofs(written);
+      contact.find_couplings();
+    contact.add_foreign_dofs(written);
   }
   dealii::TrilinosWrappers::SparsityPattern pattern(owned, owned, written, discretization_.communicator());
   dealii::DoFTools::make_sparsity_pattern(
       discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
-  for (const auto &contact : contacts_.of_bodies())
-    contact->add_couplings(pattern);
+  for (const auto &contact : contacts_)
+    contact.add_couplings(pattern);
   pattern.compress();
   if (linear_) {
     linear_->release();
@@ -69,8 +69,8 @@ void TangentMatrix::build(const bool couplings_are_known) {
 
 void TangentMatrix::follow_couplings() {
   bool is_known = linear_ != nullptr;
-  for (const auto &contact : contacts_.of_bodies())
-    is_known = is_known && !contact->has_new_couplings();
+  for (const auto &contact : contacts_)
+    is_known = is_known && !contact.has_new_couplings();
   if (!contacts_.of_bodies().empty() &&
       dealii::Utilities::MPI::min(is_known ? 1 : 0, discretization_.communicator()) == 0)
     build();
@@ -80,7 +80,7 @@ bool TangentMatrix::take_exact() {
   if (kind_ == ContactTangent::exact || contacts_.empty())
     return false;
   kind_ = ContactTangent::exact;
-  for (auto &contact : contacts_.of_tools())
+  for (auto &contact : contacts_)
     contact.set_tangent(kind_);
   if (linear_) { // else it is made when it is known who touches whom
     linear_->release();
@@ -117,7 +117,7 @@ void TangentMatrix::start_contact() {
 std::vector<int> TangentMatrix::touching_dofs() const {
   Vector additive = discretization_.make_additive_vector(), forces = discretization_.make_owned_vector();
   for (const auto &contact : contacts_.of_bodies())
-    contact->add_forces(additive);
+    contact.add_forces(additive);
   additive.compress(dealii::VectorOperation::add);
   forces = additive;
   const Epetra_Vector &values = as_epetra(forces);

@@ -74,7 +74,7 @@ public:
     return problem_.internal().summarize_layers(body, state().displacements);
   }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override {
-    return problem_.contacts().collect([](const auto &contact) { return contact.report(); });
+    return problem_.contacts().report();
   }
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override { return problem_.tangent().solver().name(); }

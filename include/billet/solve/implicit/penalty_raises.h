@@ -18,7 +18,7 @@ public:
   /// Sets the energy of a contact with a tool at the end of a step.
   void set(const std::size_t contact, const double energy) { of_tools_[contact] = energy; }
   /// Books a change of what the springs of a contact hold [energy].
-  void add(std::size_t contact, double energy);
+  void add(std::size_t contact, double change);
   /// Messages about penalties that are too soft for what presses, after a step. Collective.
   DiagnosticList check();
   /// See PenaltyWatch::has_soft_pairs().
@@ -28,6 +28,8 @@ public:
   void load(const StateReader &reader) { watch_.load(reader); }
 
 private:
+  /// Where the energy in the springs of a contact is kept.
+  double &energy(std::size_t contact);
   void check_pair(const std::string &name, Penetration deepest, double moved, double stored_energy,
                   DiagnosticList &messages);
 
