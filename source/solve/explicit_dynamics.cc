@@ -240,8 +240,7 @@ void ExplicitDynamics::compute_internal_forces() {
       blocks_[b]->renew(u_.data());
     const Body &body = scene_.bodies()[b];
     Usage::count_if(body.law->has_plasticity(), Capability::plasticity, blocks_[b]->size());
-    Usage::count_if(body.formulation.element.is_stabilised(),
-                    Capability::stabilisation, blocks_[b]->size());
+    Usage::count_if(body.formulation.element.is_stabilised(), Capability::stabilisation, blocks_[b]->size());
     element_step_ = std::min(element_step_, result.stable_step);
     elastic_energy_ += result.elastic_energy;
     works_.plastic += result.plastic_work;

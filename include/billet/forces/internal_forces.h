@@ -62,7 +62,7 @@ private:
 
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
   PointStep step_;
-  std::size_t n_plastic_ = 0, n_stabilised_ = 0;      ///< elements
+  std::size_t n_plastic_ = 0, n_stabilised_ = 0; ///< elements
   HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
 };
 
