@@ -4,13 +4,15 @@
 // Evaluates every implicit element with every kinematics, linear hardening, `n_elements` of them in a step in
 // which all points yield, `n_rounds` times: for a profiler, which tells them by the names of their LawBlock.
 // Prints the number of evaluations of each.
-#include "billet/mechanics/element_block.h"
+#include "../sample_formulations.h"
 
 #include <iostream>
 #include <random>
 #include <string>
 
 using namespace billet;
+using billet::testing::LawFormulation;
+using billet::testing::MaterialLaw;
 
 int main(int argc, char *argv[]) {
   const std::string what = argc == 2 ? argv[1] : "";
@@ -23,7 +25,7 @@ int main(int argc, char *argv[]) {
   };
   const MaterialLaw material{ElasticModuli::from_young_poisson(2e5, 0.3), LinearHardening{700., 300.}};
   for (const auto element : all_elements())
-    for (const auto kinematics : all_kinematics) {
+    for (const auto kinematics : testing::all_kinematics) {
       LawFormulation formulation;
       formulation.element = element;
       formulation.kinematics = kinematics;

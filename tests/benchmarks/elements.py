@@ -37,10 +37,9 @@ CLASSES = {
     "AssumedStrainElement": "assumed strain",
     "MeanDilatationElement": "mean dilatation",
     "OnePointElement": "one point",
-    "HenckyPlasticity": "Hencky",
-    "NeoHookeanPlasticity": "neo-Hookean",
-    "HypoelasticPlasticity": "hypoelastic",
 }
+# By the rows' length and the symmetry of their moduli.
+FORMS = {("6", "true"): "Hencky", ("6", "false"): "neo-Hookean", ("9", "false"): "hypoelastic"}
 STEPS = 50
 FRICTIONLESS = {PAIR + "Friction coefficient": 0}
 
@@ -74,10 +73,12 @@ def evaluation_instructions(what):
     counts = {}
     for line in said.splitlines():
         found = re.match(
-            r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::(\w+)<.*>::evaluate\(", line
+            r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::LawForm<.*?double, (\d)ul>.*?>, (\w+)>, "
+            r"\w+>::evaluate\(",
+            line,
         )
         if found and found.group(2) in CLASSES:
-            key = CLASSES[found.group(2)], CLASSES[found.group(3)]
+            key = CLASSES[found.group(2)], FORMS[found.group(3), found.group(4)]
             counts[key] = max(counts.get(key, 0), int(found.group(1).replace(",", "")) / n)
     return counts
 

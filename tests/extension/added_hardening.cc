@@ -85,12 +85,12 @@ void test_restart(const std::string &name, const std::string &parameters) {
       "assumed strain", "set Young modulus = 200e3\nset Poisson ratio = 0.3\n" + parameters, 1.1, 1., false,
       10);
   testing::History whole, rest;
-  testing::QuasiStaticRun first(scene, MPI_COMM_WORLD);
+  testing::ImplicitSolutionRun first(scene, MPI_COMM_WORLD);
   first.run(0.5, whole);
   first.save("half.h5");
   whole.clear();
   first.run(1., whole);
-  testing::QuasiStaticRun second(scene, MPI_COMM_WORLD);
+  testing::ImplicitSolutionRun second(scene, MPI_COMM_WORLD);
   const RestartReport report = second.load("half.h5");
   second.run(1., rest);
   check("restart, " + name + ", to the last bit", report.is_exact && testing::are_same_bits(whole, rest));

@@ -2,6 +2,7 @@
 #ifndef BILLET_TESTS_TANGENT_CHECK_H
 #define BILLET_TESTS_TANGENT_CHECK_H
 
+#include "materials.h"
 #include "scene_run.h"
 
 #include "../geometry/make_surface.h"
@@ -62,7 +63,8 @@ inline double tangent_error(SceneRun &run, const double t, const unsigned int n_
 inline parameters::Scene make_curved(const SurfacePart &part, const double friction_coefficient) {
   parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
   scene.bodies[0].supports[0].displacement.value = {"0.04*t", "0.03*t - 0.01*z*t", "-0.08*t"};
-  scene.bodies[0].material.yield_stress = 1e6;
+  set_hardening(scene.bodies[0].material,
+                LinearHardening{1e6, linear_hardening(scene.bodies[0].material).modulus});
   scene.tools[0].surface = make_surface(part.shape, part.lines);
   scene.tools[0].motion.rotation_axis = dealii::Tensor<1, 3>({2. / 7., 3. / 7., 6. / 7.});
   scene.tools[0].motion.rotation_angle.value = "0.05*t";
