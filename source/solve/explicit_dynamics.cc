@@ -62,9 +62,9 @@ double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] 
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), parameters_(scene.parameters().explicit_dynamics),
-      nodes_(discretization), held_(scene, nodes_), contacts_(scene, nodes_),
+      nodes_(discretization), held_(scene, nodes_), blocks_(make_blocks()), contacts_(scene, nodes_),
       penalties_(scene, discretization, PenaltyControl::in_explicit_scenes) {
-  make_blocks();
+  count_memory();
   make_masses();
   for (std::size_t i = 0; i < scene.tools().size(); ++i)
     tools_.emplace_back(scene.tools()[i], scene.parameters().tools[i].motion);
@@ -92,31 +92,38 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   state_.velocities = discretization.make_ghosted_vector();
 }
 
-void ExplicitDynamics::make_blocks() {
-  std::size_t plastic = 0, stabilised = 0; // bytes
+std::vector<std::unique_ptr<ExplicitBlock>> ExplicitDynamics::make_blocks() const {
+  std::vector<std::unique_ptr<ExplicitBlock>> blocks;
   fail_together(discretization_.communicator(), [&] {
     for (std::size_t b = 0; b < scene_.bodies().size(); ++b) {
       const Body &body = scene_.bodies()[b];
       const auto &input = scene_.parameters().bodies[b];
       try {
-        blocks_.push_back(
+        blocks.push_back(
             make_explicit_block(body.law, body.density, make_formulation(scene_.parameters(), input)));
       } catch (const std::invalid_argument &error) {
         throw InputError(input.origin + ": " + error.what());
       }
       std::size_t offender = 0;
-      if (!blocks_.back()->initialize(nodes_.elements(b), nodes_.positions().data(), offender)) {
+      if (!blocks.back()->initialize(nodes_.elements(b), nodes_.positions().data(), offender)) {
         std::ostringstream message;
         message << input.origin << ": the element with its centre at ("
                 << discretization_.elements(b)[offender].cell->center()
                 << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
         throw InputError(message.str());
       }
-      if (body.law->has_plasticity())
-        plastic += blocks_.back()->history_memory();
-      stabilised += blocks_.back()->stabilisation_memory();
     }
   });
+  return blocks;
+}
+
+void ExplicitDynamics::count_memory() {
+  std::size_t plastic = 0, stabilised = 0; // bytes
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (scene_.bodies()[b].law->has_plasticity())
+      plastic += blocks_[b]->history_memory();
+    stabilised += blocks_[b]->stabilisation_memory();
+  }
   plastic_memory_.set(plastic);
   stabilised_memory_.set(stabilised);
 }

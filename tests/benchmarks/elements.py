@@ -73,8 +73,8 @@ def evaluation_instructions(what):
     counts = {}
     for line in said.splitlines():
         found = re.match(
-            r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::LawForm<.*?double, (\d)ul>.*?>, (\w+)>, "
-            r"\w+>::evaluate\(",
+            r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::LawForm<.*?double, (\d)ul>.*?>, "
+            r"(\w+)>, \w+>::evaluate\(",
             line,
         )
         if found and found.group(2) in CLASSES:

@@ -87,7 +87,8 @@ public:
   DiagnosticList initial_diagnostics() const override { return contacts_.check_start(); }
 
 private:
-  void make_blocks();
+  std::vector<std::unique_ptr<ExplicitBlock>> make_blocks() const;
+  void count_memory();
   void make_masses();
   void set_initial_motion();
   void find_touched_nodes();
