@@ -13,7 +13,7 @@ namespace billet {
 // How the parts of a run hand over their state, and take it back, without knowing where it is kept. A class
 // with state has a pair save(StateWriter &) const, load(StateReader &): what load() gets is what save() gave,
 // on any number of ranks. Rows of numbers stand under keys that do not depend on the ranks: of nodes
-// NodeKeys, of elements Discretization's coarse cells. All functions are collective.
+// NodeKeys, of elements element_key(). All functions are collective.
 
 /// Takes state. Names are words; those within one group differ.
 class StateWriter {

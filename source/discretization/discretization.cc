@@ -40,9 +40,10 @@ void close_rim(const dealii::TriangulationDescription::Description<3, 3> &descri
                dealii::Triangulation<3> &mesh) {
   constexpr dealii::types::boundary_id rim = dealii::numbers::internal_face_boundary_id - 1;
   std::map<dealii::CellId::binary_type, std::set<unsigned int>> boundaries;
-  for (const auto &cell : description.cell_infos.at(0)) // never refined
-    for (const auto &[face, id] : cell.boundary_ids)
-      boundaries[cell.id].insert(face);
+  for (const auto &level : description.cell_infos)
+    for (const auto &cell : level)
+      for (const auto &[face, id] : cell.boundary_ids)
+        boundaries[cell.id].insert(face);
   for (const auto &cell : mesh.active_cell_iterators()) {
     const auto known = boundaries.find(cell->id().to_binary<3>());
     for (const unsigned int f : cell->face_indices())

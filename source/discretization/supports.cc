@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/supports.h"
 
-#include "billet/compatibility.h"
 #include "billet/errors.h"
 #include "billet/usage.h"
 
 #include <deal.II/lac/vector.h>
-
-#include <Epetra_Vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +74,12 @@ std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization 
 }
 
 Supports::Supports(const Scene &scene, const Discretization &discretization)
-    : discretization_(discretization) {
+    : discretization_(discretization),
+      hanging_nodes_(collect_hanging_nodes(discretization.dof_handler(), discretization.relevant_dofs())) {
   for (const auto &entry : collect_held_nodes(scene, discretization))
     eliminate(entry.second.holds, entry.second.dofs, entry.second.position);
-  homogeneous_ = make([](const Line &) { return 0.; });
+  homogeneous_ = build({});
+  couples_ranks_ = couple_ranks(homogeneous_, discretization.owned_dofs(), discretization.communicator());
 }
 
 void Supports::eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
@@ -134,31 +133,22 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
         redundancies_.push_back({terms, names(row.weights), position});
       continue;
     }
-    Line line;
-    line.dof = dofs[static_cast<unsigned int>(row.pivot)];
-    line.terms = terms;
-    line.position = position;
+    ConstraintLine line{dofs[static_cast<unsigned int>(row.pivot)], {}};
     for (unsigned int i = 0; i < 3; ++i)
       if (static_cast<int>(i) != row.pivot && std::abs(row.n[i]) > 1e-14)
         line.others.emplace_back(dofs[i], -row.n[i]);
     lines_.push_back(line);
+    prescriptions_.push_back({terms, position});
   }
   std::size_t bytes = 0;
-  for (const auto &line : lines_)
-    bytes += line.terms.size() * sizeof(line.terms.front());
+  for (const auto &prescription : prescriptions_)
+    bytes += prescription.terms.size() * sizeof(Term);
   moving_memory_.set(bytes);
 }
 
-template <class Value> Constraints Supports::make(const Value &value_of_line) const {
-  Constraints constraints;
-  compatibility::reinit(constraints, discretization_.owned_dofs(), discretization_.relevant_dofs());
-  for (const auto &line : lines_) {
-    constraints.add_line(line.dof);
-    constraints.add_entries(line.dof, line.others);
-    constraints.set_inhomogeneity(line.dof, value_of_line(line));
-  }
-  constraints.close();
-  return constraints;
+Constraints Supports::build(std::vector<double> values) const {
+  return build_constraints(discretization_.owned_dofs(), discretization_.relevant_dofs(),
+                           {{hanging_nodes_, {}}, {lines_, std::move(values)}});
 }
 
 Constraints Supports::at_time(const double t) const {
@@ -179,33 +169,32 @@ Constraints Supports::at_time(const double t) const {
   });
   std::vector<double> values;
   fail_together(discretization_.communicator(), [&] {
-    for (const auto &line : lines_)
-      values.push_back(line.value(t));
+    for (const auto &prescription : prescriptions_)
+      values.push_back(prescription.value(t));
   });
-  auto next = values.begin();
-  return make([&next](const Line &) { return *next++; });
+  return build(std::move(values));
 }
 
 Constraints Supports::change(const double t_n, const double t, bool &moves) const {
   const auto n_moving =
-      std::count_if(lines_.begin(), lines_.end(), [](const Line &line) { return !line.terms.empty(); });
+      std::count_if(prescriptions_.begin(), prescriptions_.end(),
+                    [](const Prescription &prescription) { return !prescription.terms.empty(); });
   Usage::count_if(n_moving > 0, Capability::moving_supports, static_cast<std::size_t>(n_moving));
   // Time by time: an expression is parsed anew when the time changes.
   std::vector<double> values;
   fail_together(discretization_.communicator(), [&] {
-    for (const auto &line : lines_)
-      values.push_back(-line.value(t_n));
-    for (std::size_t i = 0; i < lines_.size(); ++i)
-      values[i] += lines_[i].value(t);
+    for (const auto &prescription : prescriptions_)
+      values.push_back(-prescription.value(t_n));
+    for (std::size_t i = 0; i < prescriptions_.size(); ++i)
+      values[i] += prescriptions_[i].value(t);
   });
   const bool moves_here =
       std::any_of(values.begin(), values.end(), [](const double value) { return value != 0.; });
   moves = dealii::Utilities::MPI::max(moves_here ? 1 : 0, discretization_.communicator()) == 1;
-  auto next = values.begin();
-  return make([&next](const Line &) { return *next++; });
+  return build(std::move(values));
 }
 
-double Supports::Line::value(const double t) const {
+double Supports::Prescription::value(const double t) const {
   double value = 0.;
   for (const auto &term : terms)
     value += term.weight * term.hold->value->value(t, position);
@@ -222,14 +211,14 @@ std::array<double, 3> SupportTrack::at(const double t) const {
 std::vector<SupportTrack> Supports::moving_nodes() const {
   std::vector<SupportTrack> all;
   unsigned int n_lines = 0;
-  for (const Line &line : lines_) {
-    const bool goes_on = !all.empty() && all.back().position_ == line.position && n_lines < 3;
+  for (const Prescription &prescription : prescriptions_) {
+    const bool goes_on = !all.empty() && all.back().position_ == prescription.position && n_lines < 3;
     if (!goes_on) {
       all.emplace_back();
-      all.back().position_ = line.position;
+      all.back().position_ = prescription.position;
       n_lines = 0;
     }
-    for (const Term &term : line.terms)
+    for (const Term &term : prescription.terms)
       if (term.hold->value)
         all.back().parts_.push_back({term.hold, term.weight, n_lines});
     ++n_lines;
@@ -245,28 +234,6 @@ std::vector<SupportTrack> Supports::moving_nodes() const {
   return some;
 }
 
-void Supports::condense(Vector &forces) const {
-  // On this rank's own values: to write through deal.II's vector would make ranks wait for each other that do
-  // not hold as many constraints.
-  Epetra_Vector &values = *forces.trilinos_vector()(0);
-  const auto place = [&values](const DofIndex dof) { return values.Map().LID(static_cast<int>(dof)); };
-  for (const auto &line : homogeneous_.get_lines()) {
-    if (!discretization_.owned_dofs().is_element(line.index))
-      continue;
-    double &force = values[place(line.index)];
-    // The dofs of a node have one owner, and constraints couple dofs of one node only.
-    for (const auto &entry : line.entries)
-      values[place(entry.first)] += entry.second * force;
-    force = 0.;
-  }
-}
-
-DofIndex Supports::n_constrained() const {
-  DofIndex n = 0;
-  for (const auto &line : lines_)
-    if (discretization_.owned_dofs().is_element(line.dof))
-      ++n;
-  return dealii::Utilities::MPI::sum(n, discretization_.communicator());
-}
+void Supports::condense(Vector &forces) const { billet::condense(homogeneous_, couples_ranks_, forces); }
 
 } // namespace billet

@@ -3,14 +3,14 @@
 #define BILLET_DISCRETIZATION_NODE_KEYS_H
 
 #include "billet/discretization/discretization.h"
+#include "billet/discretization/element_key.h"
 
 #include <cstdint>
 #include <unordered_map>
 
 namespace billet {
 
-/// A number of the element that no other has, the same on any number of ranks: its place in the whole mesh.
-inline std::uint64_t element_key(const CellIterator &cell) { return cell->id().get_coarse_cell_id(); }
+inline ElementKey element_key(const CellIterator &cell) { return element_key(cell->id()); }
 
 /// Numbers of nodes that are the same on any number of ranks: 8 times that of the first element of the whole
 /// mesh that has the node, plus the node's place in it. They ascend as dofs do on one rank.

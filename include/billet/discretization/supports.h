@@ -2,10 +2,9 @@
 #ifndef BILLET_DISCRETIZATION_SUPPORTS_H
 #define BILLET_DISCRETIZATION_SUPPORTS_H
 
-#include "billet/discretization/discretization.h"
+#include "billet/discretization/constraint_lines.h"
 #include "billet/usage.h"
 
-#include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -13,8 +12,6 @@
 #include <set>
 
 namespace billet {
-
-using Constraints = dealii::AffineConstraints<double>;
 
 /// Where a tangent is assembled to. If `lift` is given, the constraints' values are put to the right-hand
 /// side of the linear system.
@@ -56,8 +53,9 @@ private:
   dealii::Point<3> position_;
 };
 
-/// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements. The
-/// planes n · u = value that meet at a node may have any normals; at most three of them are independent.
+/// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements,
+/// behind those of hanging nodes. The planes n · u = value that meet at a node may have any normals; at most
+/// three of them are independent.
 class Supports {
 public:
   Supports(const Scene &scene, const Discretization &discretization);
@@ -73,27 +71,21 @@ public:
   /// tells whether any of them changes.
   Constraints change(double t_n, double t, bool &moves) const;
 
-  /// Folds forces on constrained dofs into those that they depend on, and empties them.
+  /// Folds forces on constrained dofs into those that they depend on, and empties them. Collective.
   void condense(Vector &forces) const;
 
   /// Of some of this rank's nodes, spread evenly; supports that rest have none.
   std::vector<SupportTrack> moving_nodes() const;
-
-  /// Number of prescribed nodal components on all ranks.
-  DofIndex n_constrained() const;
 
 private:
   struct Term {
     const Hold *hold;
     double weight;
   };
-  /// u_dof = Σ factor u_other + Σ weight value(t)
-  struct Line {
-    DofIndex dof;
-    std::vector<std::pair<DofIndex, double>> others;
+  /// What a line prescribes: Σ weight value(t).
+  struct Prescription {
     std::vector<Term> terms;
     dealii::Point<3> position;
-    /// Σ weight value(t)
     double value(double t) const;
   };
   /// Σ weight value(t) must vanish.
@@ -104,12 +96,15 @@ private:
   };
   void eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
                  const dealii::Point<3> &position);
-  template <class Value> Constraints make(const Value &value_of_line) const;
+  /// `values` of lines_; none: all are 0.
+  Constraints build(std::vector<double> values) const;
 
   const Discretization &discretization_;
-  std::vector<Line> lines_;
+  std::vector<ConstraintLine> hanging_nodes_, lines_;
+  std::vector<Prescription> prescriptions_; ///< of lines_
   std::vector<Redundancy> redundancies_;
   Constraints homogeneous_;
+  bool couples_ranks_ = false; ///< some rank's constraints name dofs that another rank owns
   HeldMemory moving_memory_{Capability::moving_supports};
 };
 

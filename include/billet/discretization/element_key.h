@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_ELEMENT_KEY_H
+#define BILLET_DISCRETIZATION_ELEMENT_KEY_H
+
+#include <deal.II/grid/cell_id.h>
+
+#include <cstdint>
+
+namespace billet {
+
+/// A number of an element that no other element has, refined or not, the same on any number of ranks. It is
+/// that of the coarse cell, plus 2^32 times the element's place in the octree of that cell: 0 for the cell
+/// itself, 1 to 8 for its children, 9 to 72 for theirs, and so on. So a mesh that is not refined has the
+/// numbers of its cells.
+using ElementKey = std::uint64_t;
+
+/// Refinements of one coarse cell that keys can tell apart. What multiplies keys (nodes, facets, points
+/// inside facets) needs 14 bits of the 64 for itself.
+constexpr unsigned int max_refinement_level = 5;
+
+/// Returns the key of a cell of at most max_refinement_level refinements.
+ElementKey element_key(const dealii::CellId &id);
+
+/// Returns how often the coarse cell is refined down to the element.
+unsigned int refinement_level(ElementKey key);
+
+/// Returns the key of the element that was refined, of one that has a level above 0.
+ElementKey parent_key(ElementKey key);
+
+/// Returns the key of a child, 0 to 7 in deal.II's order, of an element below max_refinement_level.
+ElementKey child_key(ElementKey key, unsigned int child);
+
+/// Returns the number of the coarse cell.
+constexpr std::uint64_t coarse_cell_of(const ElementKey key) { return key & 0xffffffffU; }
+
+/// Returns the element that has the key.
+dealii::CellId cell_id_of(ElementKey key);
+
+} // namespace billet
+
+#endif
