@@ -150,9 +150,9 @@ std::string numbered(const std::string &name, const unsigned int number, const s
 
 } // namespace
 
-FieldWriter::FieldWriter(const Scene &scene, const Discretization &discretization, std::string folder)
-    : scene_(scene), discretization_(discretization), folder_(std::move(folder)),
-      is_first_rank_(dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) {}
+FieldWriter::FieldWriter(const Scene &scene, const MPI_Comm communicator, std::string folder)
+    : scene_(scene), communicator_(communicator), folder_(std::move(folder)),
+      is_first_rank_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0) {}
 
 std::string FieldWriter::file_to_open() const {
   switch (scene_.parameters().output.format) {
@@ -171,31 +171,31 @@ void FieldWriter::write(const Solution &solution) {
   if (format == Format::none)
     return;
   const SolutionState &state = solution.state();
-  const MPI_Comm communicator = discretization_.communicator();
+  const Discretization &discretization = solution.discretization();
 
   // The pictures show the deformed bodies.
-  const dealii::MappingQEulerian<3, Vector> mapping(1, discretization_.dof_handler(), state.displacements);
+  const dealii::MappingQEulerian<3, Vector> mapping(1, discretization.dof_handler(), state.displacements);
   dealii::DataOut<3> data_out;
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
   const std::vector<Interpretation> as_vector(
       3, dealii::DataComponentInterpretation::component_is_part_of_vector);
   const std::vector<Interpretation> as_scalars(3, dealii::DataComponentInterpretation::component_is_scalar);
-  data_out.add_data_vector(discretization_.dof_handler(), state.displacements,
+  data_out.add_data_vector(discretization.dof_handler(), state.displacements,
                            std::vector<std::string>(3, "displacement"), as_vector);
   if (state.velocities.size() > 0)
-    data_out.add_data_vector(discretization_.dof_handler(), state.velocities,
+    data_out.add_data_vector(discretization.dof_handler(), state.velocities,
                              std::vector<std::string>(3, "velocity"), as_vector);
-  const CellFields cell_fields = collect_cell_fields(scene_, discretization_, solution);
+  const CellFields cell_fields = collect_cell_fields(scene_, discretization, solution);
   for (std::size_t i = 0; i < cell_fields.names.size(); ++i)
     data_out.add_data_vector(cell_fields.values[i], cell_fields.names[i], dealii::DataOut<3>::type_cell_data);
   std::array<Vector, 3> contact_fields;
   if (scene_.parameters().output.contact && scene_.capabilities().contact) {
-    contact_fields = collect_contact_fields(discretization_, solution);
-    data_out.add_data_vector(discretization_.dof_handler(), contact_fields[0],
+    contact_fields = collect_contact_fields(discretization, solution);
+    data_out.add_data_vector(discretization.dof_handler(), contact_fields[0],
                              {"contact_pressure", "contact_gap", "contact_slip"}, as_scalars);
-    data_out.add_data_vector(discretization_.dof_handler(), contact_fields[1],
+    data_out.add_data_vector(discretization.dof_handler(), contact_fields[1],
                              {"contact_status", "contact_area", "contact_pair"}, as_scalars);
-    data_out.add_data_vector(discretization_.dof_handler(), contact_fields[2],
+    data_out.add_data_vector(discretization.dof_handler(), contact_fields[2],
                              std::vector<std::string>(3, "contact_traction"), as_vector);
   }
   data_out.build_patches(mapping);
@@ -207,27 +207,27 @@ void FieldWriter::write(const Solution &solution) {
   std::string failure;
   try {
     if (format == Format::vtu)
-      data_out.write_vtu_with_pvtu_record(folder_ + "/", "fields", n_written_, communicator, 5, 1);
+      data_out.write_vtu_with_pvtu_record(folder_ + "/", "fields", n_written_, communicator_, 5, 1);
     else {
       // Vertices are not merged: cell data would be smeared over body interfaces.
       dealii::DataOutBase::DataOutFilter filter(dealii::DataOutBase::DataOutFilterFlags(false, true));
       data_out.write_filtered_data(filter);
-      data_out.write_hdf5_parallel(filter, folder_ + "/" + snapshot.fields, communicator);
-      xdmf_entries_.push_back(data_out.create_xdmf_entry(filter, snapshot.fields, state.time, communicator));
-      data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator);
+      data_out.write_hdf5_parallel(filter, folder_ + "/" + snapshot.fields, communicator_);
+      xdmf_entries_.push_back(data_out.create_xdmf_entry(filter, snapshot.fields, state.time, communicator_));
+      data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator_);
     }
   } catch (const std::exception &) { // of deal.II's many kinds
     failure = folder_ + "/" + snapshot.fields + " cannot be written: is the disk full?";
   }
-  fail_together(communicator, [&failure] {
+  fail_together(communicator_, [&failure] {
     if (!failure.empty())
       throw SolutionFailure(failure);
   });
   snapshots_.push_back(snapshot);
   ++n_written_;
-  fail_together(communicator, [&] {
+  fail_together(communicator_, [&] {
     if (is_first_rank_) {
-      write_tools(state, snapshot.tools);
+      write_tools(solution, snapshot.tools);
       write_index();
     }
   });
@@ -266,13 +266,15 @@ void FieldWriter::load(const StateReader &reader) {
   archive >> xdmf_entries_;
 }
 
-void FieldWriter::write_tools(const SolutionState &state, const std::string &name) const {
+void FieldWriter::write_tools(const Solution &solution, const std::string &name) const {
+  const SolutionState &state = solution.state();
+  const Discretization &discretization = solution.discretization();
   std::vector<dealii::Tensor<1, 3>> points;
   std::vector<std::vector<std::size_t>> facets;
   std::vector<std::size_t> tool_of_facet;
   for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
     const SurfacePicture picture = scene_.tools()[t].surface().picture(
-        {state.placements[t].to_tool(discretization_.centre()), 1.5 * discretization_.radius()});
+        {state.placements[t].to_tool(discretization.centre()), 1.5 * discretization.radius()});
     for (const auto &facet : picture.facets) {
       facets.emplace_back();
       for (const unsigned int point : facet)

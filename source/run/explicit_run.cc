@@ -43,9 +43,8 @@ DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunRevi
 
 } // namespace
 
-ExplicitRun::ExplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption)
-    : Run(scene, discretization), problem_(scene, discretization), stops_(scene),
-      history_times_(parameters_) {
+ExplicitRun::ExplicitRun(const Scene &scene, const MPI_Comm communicator, Resumption *resumption)
+    : Run(scene, communicator), problem_(scene, discretization_), stops_(scene), history_times_(parameters_) {
   if (parameters_.target_error > 0.)
     errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
   if (resumption != nullptr)
@@ -73,7 +72,7 @@ void ExplicitRun::load(Resumption &resumption) {
   });
 }
 
-void ExplicitRun::save(StateWriter &writer) const {
+void ExplicitRun::save_method(StateWriter &writer) const {
   writer.in("solution", [&] { problem_.save(writer); });
   writer.in("rows", [&] {
     writer.write("interval", {history_times_.interval()});

@@ -27,14 +27,14 @@ bool has_sticking_overlaps(const Scene &scene) {
 
 } // namespace
 
-ImplicitRun::ImplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption)
-    : Run(scene, discretization), problem_(scene, discretization),
+ImplicitRun::ImplicitRun(const Scene &scene, const MPI_Comm communicator, Resumption *resumption)
+    : Run(scene, communicator), problem_(scene, discretization_),
       control_(parameters_.time_stepping, parameters_.output.interval, load_problem(resumption)),
       energies_(make_energy_watch(parameters_)) {
   if (parameters_.is_dynamic() && parameters_.target_error > 0.)
     errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
   else if (ErrorWatch::is_wanted(parameters_))
-    watch_ = std::make_unique<ErrorWatch>(scene, discretization, problem_);
+    watch_ = std::make_unique<ErrorWatch>(scene, discretization_, problem_);
   if (resumption != nullptr)
     load_control(*resumption);
 }
@@ -72,7 +72,7 @@ void ImplicitRun::load_control(Resumption &resumption) {
     });
 }
 
-void ImplicitRun::save(StateWriter &writer) const {
+void ImplicitRun::save_method(StateWriter &writer) const {
   writer.in("solution", [&] { problem_.save(writer); });
   writer.in("steps", [&] {
     control_.save(writer);

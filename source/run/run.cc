@@ -18,11 +18,15 @@ void Run::announce(const Solution &solution, RunOutput &output, const Resumption
     output.report(resumption->describe(force_tolerance));
 }
 
-std::unique_ptr<Run> make_run(const Scene &scene, const Discretization &discretization,
-                              Resumption *resumption) {
+void Run::save(StateWriter &writer) const {
+  writer.in("scene", [&] { save_scene(writer, scene_, discretization_); });
+  save_method(writer);
+}
+
+std::unique_ptr<Run> make_run(const Scene &scene, const MPI_Comm communicator, Resumption *resumption) {
   if (scene.parameters().is_explicit())
-    return std::make_unique<ExplicitRun>(scene, discretization, resumption);
-  return std::make_unique<ImplicitRun>(scene, discretization, resumption);
+    return std::make_unique<ExplicitRun>(scene, communicator, resumption);
+  return std::make_unique<ImplicitRun>(scene, communicator, resumption);
 }
 
 namespace {

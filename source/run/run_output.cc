@@ -33,15 +33,15 @@ double seconds_between_looks(const parameters::Scene &parameters) {
 
 } // namespace
 
-RunOutput::RunOutput(const Scene &scene, const Discretization &discretization, Diagnostics &diagnostics,
+RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostics &diagnostics,
                      Resumption *resumption)
-    : scene_(scene), discretization_(discretization),
-      is_first_(dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0),
-      writer_(scene, discretization, scene.parameters().output.folder.value),
+    : scene_(scene), communicator_(communicator),
+      is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
+      writer_(scene, communicator, scene.parameters().output.folder.value),
       snapshots_(scene.parameters(), writer_),
       progress_(scene, is_first_ ? std::cout : silence_, is_first_ && console_is_terminal()),
-      diagnostics_(diagnostics), checkpoints_(scene.parameters().output, discretization.communicator()),
-      signals_(discretization.communicator(), seconds_between_looks(scene.parameters())) {
+      diagnostics_(diagnostics), checkpoints_(scene.parameters().output, communicator),
+      signals_(communicator, seconds_between_looks(scene.parameters())) {
   const std::string &folder = scene.parameters().output.folder.value;
   const bool goes_on = resumption != nullptr && resumption->is_from(folder);
   HistoryFile::Mark mark;
@@ -58,7 +58,7 @@ RunOutput::RunOutput(const Scene &scene, const Discretization &discretization, D
   diagnostics_.set_print([this](const Severity severity, const std::string &text) {
     progress_.show_diagnostic(severity, text);
   });
-  fail_together(discretization.communicator(), [&] {
+  fail_together(communicator, [&] {
     if (is_first_) {
       prepare_output_folder(scene.parameters());
       diagnostics_.open(folder + "/diagnostics.jsonl", goes_on);
@@ -69,14 +69,14 @@ RunOutput::RunOutput(const Scene &scene, const Discretization &discretization, D
 }
 
 void RunOutput::write_row(const std::function<void(HistoryFile &)> &write) {
-  fail_together(discretization_.communicator(), [&] {
+  fail_together(communicator_, [&] {
     if (is_first_)
       write(*history_);
   });
 }
 
 void RunOutput::write_estimate(const ErrorReport &report) {
-  fail_together(discretization_.communicator(), [&] {
+  fail_together(communicator_, [&] {
     if (is_first_)
       report.write(scene_.parameters().output.folder.value);
   });
@@ -95,7 +95,6 @@ ExitCode RunOutput::finish() {
 bool RunOutput::write_checkpoint(const double time, const std::function<void(StateWriter &)> &save) {
   const HistoryFile::Mark mark = is_first_ ? history_->mark() : HistoryFile::Mark();
   const std::string failure = checkpoints_.write(time, [&](StateWriter &state) {
-    state.in("scene", [&] { save_scene(state, scene_, discretization_); });
     save(state);
     state.in("output", [&] {
       state.write_text("columns", mark.columns);

@@ -12,12 +12,11 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
   fail_together(communicator, [&] { check_output_folder(parameters); });
   const std::unique_ptr<Resumption> resumption = Resumption::open(parameters, communicator);
   const Scene scene(parameters);
-  const Discretization discretization(scene, communicator);
   Diagnostics diagnostics(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
   ExitCode code = ExitCode::success;
   try {
-    const std::unique_ptr<Run> run = make_run(scene, discretization, resumption.get());
-    RunOutput output(scene, discretization, diagnostics, resumption.get());
+    const std::unique_ptr<Run> run = make_run(scene, communicator, resumption.get());
+    RunOutput output(scene, communicator, diagnostics, resumption.get());
     code = run_to_end(*run, output, resumption.get());
   } catch (const SolutionFailure &failure) { // on all ranks
     diagnostics.report(failure.diagnostic());

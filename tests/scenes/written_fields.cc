@@ -69,7 +69,7 @@ int main(int argc, char *argv[]) {
   if (testing::is_first_rank())
     std::filesystem::create_directory(folder);
   MPI_Barrier(MPI_COMM_WORLD);
-  FieldWriter writer(scene.scene, scene.discretization, folder);
+  FieldWriter writer(scene.scene, MPI_COMM_WORLD, folder);
   scene.finish();
   writer.write(scene.problem);
 

@@ -17,7 +17,7 @@ namespace billet {
 /// each time, so that a run that stops leaves all that it had computed.
 class FieldWriter {
 public:
-  FieldWriter(const Scene &scene, const Discretization &discretization, std::string folder);
+  FieldWriter(const Scene &scene, MPI_Comm communicator, std::string folder);
 
   /// Collective.
   void write(const Solution &solution);
@@ -30,11 +30,11 @@ public:
   std::string file_to_open() const;
 
 private:
-  void write_tools(const SolutionState &state, const std::string &name) const;
+  void write_tools(const Solution &solution, const std::string &name) const;
   void write_index() const;
 
   const Scene &scene_;
-  const Discretization &discretization_;
+  MPI_Comm communicator_;
   std::string folder_;
   bool is_first_rank_;
   unsigned int n_written_ = 0;

@@ -18,7 +18,7 @@ namespace billet {
 /// after_step() looks at it now and then, and moves on to the next time.
 class ExplicitRun final : public Run {
 public:
-  ExplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption);
+  ExplicitRun(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
 
   void begin(RunOutput &output, const Resumption *resumption) override;
   bool is_finished() const override { return is_finished_; }
@@ -28,7 +28,9 @@ public:
   unsigned int n_steps() const override { return problem_.n_steps(); }
   double time() const override { return problem_.time(); }
   bool is_resumable() const override { return is_between_steps_; }
-  void save(StateWriter &writer) const override;
+
+protected:
+  void save_method(StateWriter &writer) const override;
 
 private:
   void load(Resumption &resumption);

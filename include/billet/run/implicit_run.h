@@ -18,7 +18,7 @@ namespace billet {
 /// Statics and implicit dynamics: steps that Newton's method solves, and that are cut where it fails.
 class ImplicitRun final : public Run {
 public:
-  ImplicitRun(const Scene &scene, const Discretization &discretization, Resumption *resumption);
+  ImplicitRun(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
 
   void begin(RunOutput &output, const Resumption *resumption) override;
   bool is_finished() const override { return control_.is_finished(); }
@@ -27,7 +27,9 @@ public:
   void end(RunOutput &output) override;
   unsigned int n_steps() const override { return control_.n_steps(); }
   double time() const override { return control_.time(); }
-  void save(StateWriter &writer) const override;
+
+protected:
+  void save_method(StateWriter &writer) const override;
 
 private:
   /// Sets the problem to the checkpoint, if there is one. Returns the times at which steps have to end.

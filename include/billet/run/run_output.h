@@ -22,8 +22,7 @@ class RunOutput {
 public:
   /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0.
   /// Collective.
-  RunOutput(const Scene &scene, const Discretization &discretization, Diagnostics &diagnostics,
-            Resumption *resumption);
+  RunOutput(const Scene &scene, MPI_Comm communicator, Diagnostics &diagnostics, Resumption *resumption);
   ~RunOutput() { diagnostics_.set_print({}); }
   RunOutput(const RunOutput &) = delete;
   RunOutput &operator=(const RunOutput &) = delete;
@@ -54,7 +53,7 @@ private:
   std::string format() const;
 
   const Scene &scene_;
-  const Discretization &discretization_;
+  MPI_Comm communicator_;
   bool is_first_;
   std::ostringstream silence_; ///< console of the other ranks
   FieldWriter writer_;

@@ -80,6 +80,7 @@ public:
   void plan_to(double event);
 
   const SolutionState &state() const override { return state_; }
+  const Discretization &discretization() const override { return discretization_; }
   std::vector<ElementSummary> summarize(std::size_t body) const override;
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override;
   std::array<std::size_t, 2> history_sizes() const override;

@@ -50,6 +50,8 @@ class Solution {
 public:
   virtual ~Solution() = default;
   virtual const SolutionState &state() const = 0;
+  /// The mesh that the state is on.
+  virtual const Discretization &discretization() const = 0;
   /// One entry for each owned element of the body, in the order of Discretization::elements().
   virtual std::vector<ElementSummary> summarize(std::size_t body) const = 0;
   /// The same of the layers; empty if the body has two points through the thickness.

@@ -67,6 +67,7 @@ public:
   double mass() const { return problem_.scheme().mass(); }
 
   const SolutionState &state() const override { return problem_.state(); }
+  const Discretization &discretization() const override { return problem_.discretization(); }
   std::vector<ElementSummary> summarize(const std::size_t body) const override {
     return problem_.internal().summarize(body, state().displacements);
   }
