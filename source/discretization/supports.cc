@@ -7,8 +7,6 @@
 
 #include <deal.II/lac/vector.h>
 
-#include <Epetra_Vector.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -248,8 +246,9 @@ std::vector<SupportTrack> Supports::moving_nodes() const {
 void Supports::condense(Vector &forces) const {
   // On this rank's own values: to write through deal.II's vector would make ranks wait for each other that do
   // not hold as many constraints.
-  Epetra_Vector &values = *forces.trilinos_vector()(0);
-  const auto place = [&values](const DofIndex dof) { return values.Map().LID(static_cast<int>(dof)); };
+  const dealii::ArrayView<double> values = owned_values(forces);
+  const dealii::IndexSet &owned = discretization_.owned_dofs();
+  const auto place = [&owned](const DofIndex dof) { return owned.index_within_set(dof); };
   for (const auto &line : homogeneous_.get_lines()) {
     if (!discretization_.owned_dofs().is_element(line.index))
       continue;

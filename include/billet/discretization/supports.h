@@ -2,12 +2,12 @@
 #ifndef BILLET_DISCRETIZATION_SUPPORTS_H
 #define BILLET_DISCRETIZATION_SUPPORTS_H
 
+#include "billet/algebra/matrix.h"
 #include "billet/discretization/discretization.h"
 #include "billet/usage.h"
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <map>
 #include <set>
@@ -20,7 +20,7 @@ using Constraints = dealii::AffineConstraints<double>;
 /// side of the linear system.
 struct TangentSystem {
   const Constraints &constraints;
-  dealii::TrilinosWrappers::SparseMatrix &matrix;
+  Matrix &matrix;
   Vector *lift = nullptr; ///< additive
   double weight = 1.;     ///< of all that is added
 
