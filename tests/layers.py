@@ -3,7 +3,8 @@
 """Usage: layers.py [ROOT]
 
 Holds the floors of the code apart: a file in include/billet/FLOOR or source/FLOOR includes only files of its
-own floor and of floors before it in the list below. doc/ tells what lives on each.
+own floor and of floors before it in the list below. doc/ tells what lives on each. Solver packages are named
+in algebra/ alone, in tests, too.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ import sys
 from pathlib import Path
 
 FLOORS = (
-    "geometry material friction integration mechanics parameters scene discretization forces contact solve"
-    " output run"
+    "geometry material friction integration mechanics algebra parameters scene discretization forces contact"
+    " solve output run"
 ).split()
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every floor
@@ -29,6 +30,10 @@ LEVELS = {floor: level for level, floor in enumerate(FLOORS)}
 PLACE = re.compile(r"(?:include/billet|source)/(?:(\w+)/)?(?:.*/)?(\w+)[^/]*")
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)')
 HEADER = re.compile(r"billet/(?:(\w+)/)?(?:.*/)?(\w+)\.h")
+# Packages of Trilinos, MUMPS' C interface, deal.II's wrappers, and headers, functions and members named so
+PACKAGES = re.compile(
+    r"(?:[Ee]petra|NOX|Amesos|Aztec|ML_|ml_M|Teuchos|Thyra|Ifpack|dmumps|DMUMPS|MUMPS_|[Tt]rilinos)\w*"
+)
 COMMENT = re.compile(r'("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
@@ -58,6 +63,18 @@ def fault_of_include(floor: str | None, name: str, quote: str, path: str) -> str
     return ""
 
 
+def faults_of_packages(file: str) -> list[str]:
+    """Returns where a file outside algebra/ names a package for linear algebra."""
+    if Path(file).parent.name == "algebra":
+        return []
+    text = without_comments(Path(file).read_text(encoding="utf-8"))
+    return [
+        f"{file}:{number}: only algebra/ names {found[0]}"
+        for number, line in enumerate(text.split("\n"), 1)
+        if (found := PACKAGES.search(line))
+    ]
+
+
 def faults_of(file: str) -> list[str]:
     """Returns what is wrong with a file."""
     match = PLACE.fullmatch(file)
@@ -74,19 +91,23 @@ def faults_of(file: str) -> list[str]:
     return faults
 
 
+def find_code(*folders: str) -> list[str]:
+    """Returns the C++ files below these folders."""
+    return sorted(
+        str(path) for folder in folders for path in Path(folder).rglob("*") if path.suffix in (".h", ".cc")
+    )
+
+
 def main() -> int:
     """Returns the exit code."""
     if len(sys.argv) > 1:
         os.chdir(sys.argv[1])
-    files = sorted(
-        str(path)
-        for folder in ("include/billet", "source")
-        for path in Path(folder).rglob("*")
-        if path.suffix in (".h", ".cc")
-    )
+    files = find_code("include/billet", "source")
     if not files:
         sys.exit("layers.py: no code below include/billet and source")
     faults = [fault for file in files for fault in faults_of(file)]
+    files += find_code("tests")
+    faults += [fault for file in files for fault in faults_of_packages(file)]
     print("\n".join(faults + [f"{len(files)} files, {len(faults)} errors"]))
     return 1 if faults else 0
 

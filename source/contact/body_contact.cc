@@ -214,7 +214,7 @@ void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) const {
     dofs.add_indices(coupled.begin(), coupled.end());
 }
 
-void BodyContact::add_couplings(dealii::TrilinosWrappers::SparsityPattern &pattern) const {
+void BodyContact::add_couplings(SparsityPattern &pattern) const {
   for (const auto &dofs : couplings_)
     for (const DofIndex row : dofs)
       pattern.add_entries(row, dofs.begin(), dofs.end(), true);

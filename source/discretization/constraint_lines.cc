@@ -5,9 +5,8 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
-#include <Epetra_Vector.h>
-
 #include <algorithm>
+#include <utility>
 
 namespace billet {
 
@@ -53,9 +52,9 @@ bool couple_ranks(const Constraints &constraints, const dealii::IndexSet &owned,
 void condense(const Constraints &constraints, const bool couples_ranks, Vector &forces) {
   // On this rank's own values: to write through deal.II's vector would make ranks wait for each other that do
   // not hold as many constraints.
-  Epetra_Vector &values = *forces.trilinos_vector()(0);
-  const auto place = [&values](const DofIndex dof) { return values.Map().LID(static_cast<int>(dof)); };
+  const dealii::ArrayView<double> values = owned_values(forces);
   const dealii::IndexSet owned = forces.locally_owned_elements();
+  const auto place = [&owned](const DofIndex dof) { return owned.index_within_set(dof); };
   std::vector<std::pair<DofIndex, double>> foreign;
   for (const auto &line : constraints.get_lines()) {
     if (!owned.is_element(line.index))
@@ -75,9 +74,9 @@ void condense(const Constraints &constraints, const bool couples_ranks, Vector &
   for (const auto &[dof, force] : foreign)
     sums(dof) += force;
   sums.compress(dealii::VectorOperation::add);
-  const Epetra_Vector &sum = *sums.trilinos_vector()(0);
-  for (const DofIndex dof : owned)
-    values[place(dof)] += sum[sum.Map().LID(static_cast<int>(dof))];
+  const dealii::ArrayView<const double> sum = owned_values(std::as_const(sums));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] += sum[i];
 }
 
 } // namespace billet

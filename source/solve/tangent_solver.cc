@@ -3,9 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 
-#include <Epetra_Comm.h>
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
+#include <deal.II/base/mpi.h>
 
 #include <unistd.h>
 
@@ -31,14 +29,13 @@ double machine_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-Kind choose(const Kind wanted, const bool symmetric, const Epetra_CrsMatrix &matrix) {
+Kind choose(const Kind wanted, const bool symmetric, const Matrix &matrix, MPI_Comm communicator) {
   if (wanted != Kind::automatic)
     return wanted;
   const Kind direct = symmetric ? Kind::mumps_symmetric : Kind::mumps;
-  const double n_dofs = matrix.NumGlobalRows();
+  const double n_dofs = matrix.m();
   // The smallest machine of all ranks counts.
-  double memory = machine_memory(), least = memory;
-  matrix.Comm().MinAll(&memory, &least, 1);
+  const double least = dealii::Utilities::MPI::min(machine_memory(), communicator);
   constexpr double part_of_memory = 0.5;
   if (n_dofs > parameters::Solver::most_direct_dofs ||
       direct_memory(n_dofs, symmetric) > part_of_memory * least)
@@ -46,14 +43,22 @@ Kind choose(const Kind wanted, const bool symmetric, const Epetra_CrsMatrix &mat
   return direct;
 }
 
+DirectMethod direct_method(const Kind kind, const bool symmetric) {
+  if (kind == Kind::klu)
+    return DirectMethod::klu;
+  return kind == Kind::mumps_symmetric || (kind == Kind::automatic && symmetric)
+             ? DirectMethod::mumps_symmetric
+             : DirectMethod::mumps;
+}
+
 } // namespace
 
-TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symmetric,
-                             const Epetra_CrsMatrix &matrix, MPI_Comm communicator)
+TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symmetric, const Matrix &matrix,
+                             MPI_Comm communicator)
     : symmetric_(symmetric), matrix_(&matrix), communicator_(communicator) {
-  const Kind kind = choose(settings.linear_solver.value, symmetric, matrix);
+  const Kind kind = choose(settings.linear_solver.value, symmetric, matrix, communicator);
   const bool is_iterative = kind == Kind::conjugate_gradients || kind == Kind::gmres;
-  direct_kind_ = is_iterative ? Kind::automatic : kind;
+  direct_method_ = direct_method(is_iterative ? Kind::automatic : kind, symmetric);
   is_direct_now_ = !is_iterative;
   if (is_iterative) {
     IterativeSolver::Settings iterative;
@@ -63,7 +68,7 @@ TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symm
     iterative_ = std::make_unique<IterativeSolver>(iterative, matrix, communicator);
     name_ = iterative_->name();
   } else {
-    direct_ = make_direct_solver(direct_kind_, symmetric, matrix, communicator);
+    direct_ = make_direct_solver(direct_method_, matrix, communicator);
     name_ = direct_->name();
   }
 }
@@ -74,7 +79,7 @@ void TangentSolver::release() {
   direct_.reset();
 }
 
-void TangentSolver::set_matrix(const Epetra_CrsMatrix &matrix) {
+void TangentSolver::set_matrix(const Matrix &matrix) {
   matrix_ = &matrix;
   if (iterative_)
     iterative_->set_matrix(matrix);
@@ -86,10 +91,10 @@ void TangentSolver::start_contact(const std::vector<int> &dofs) { iterative_->st
 
 bool TangentSolver::factorize_directly() {
   if (!direct_)
-    direct_ = make_direct_solver(direct_kind_, symmetric_, *matrix_, communicator_);
+    direct_ = make_direct_solver(direct_method_, *matrix_, communicator_);
   is_direct_now_ = true;
   if (direct_->factorize()) {
-    norm_ = is_ill_conditioned_ ? 0. : matrix_->NormInf();
+    norm_ = is_ill_conditioned_ ? 0. : matrix_->linfty_norm();
     condition_ = 0.;
     ++n_factorized_;
     if ((n_factorized_ & (n_factorized_ - 1)) == 0) // at the 1st, 2nd, 4th, ...
@@ -103,11 +108,10 @@ bool TangentSolver::factorize_directly() {
 
 void TangentSolver::note_memory() {
   // Of factors only their sum over all ranks is known.
-  const auto share = [this](const double bytes) {
-    return static_cast<std::size_t>(bytes / matrix_->Comm().NumProc());
-  };
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator_);
+  const auto share = [n_ranks](const double bytes) { return static_cast<std::size_t>(bytes / n_ranks); };
   const std::size_t factors = direct_ ? share(direct_->memory()) : 0;
-  matrix_memory_.set(static_cast<std::size_t>(matrix_->NumMyNonzeros()) * (sizeof(double) + sizeof(int)) +
+  matrix_memory_.set(count_owned_entries(*matrix_) * (sizeof(double) + sizeof(int)) +
                      (symmetric_ ? factors : 0));
   unsymmetric_memory_.set(symmetric_ ? 0 : factors);
   iterative_memory_.set(is_direct_now_ ? 0 : share(iterative_->memory()));
@@ -115,9 +119,8 @@ void TangentSolver::note_memory() {
 
 bool TangentSolver::factorize() {
   failure_.clear();
-  Usage::count(Capability::matrix, static_cast<std::size_t>(matrix_->NumMyNonzeros()));
-  Usage::count_if(!symmetric_, Capability::unsymmetric_matrix,
-                  static_cast<std::size_t>(matrix_->NumMyNonzeros()));
+  Usage::count(Capability::matrix, count_owned_entries(*matrix_));
+  Usage::count_if(!symmetric_, Capability::unsymmetric_matrix, count_owned_entries(*matrix_));
   if (!iterative_)
     return factorize_directly();
   if (is_nearly_singular_) {
@@ -157,7 +160,7 @@ bool TangentSolver::fall_back() {
   return factorize_directly();
 }
 
-bool TangentSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const double relative_tolerance) {
+bool TangentSolver::solve(const Vector &b, Vector &x, const double relative_tolerance) {
   if (!is_direct_now_) {
     if (iterative_->solve(b, x, relative_tolerance)) {
       n_failures_ = 0;
@@ -179,17 +182,17 @@ void TangentSolver::estimate_condition() {
     return;
   // Inverse iteration: the second solution is nearly along what A^-1 stretches most.
   constexpr unsigned int n_solutions = 2;
-  Epetra_Vector b(matrix_->RowMap()), x(matrix_->RowMap());
-  for (int i = 0; i < b.MyLength(); ++i) { // rough, and the same however many ranks there are
-    const auto row = static_cast<std::uint64_t>(matrix_->RowMap().GID(i)) + 1;
-    b[i] = ((row * 0x9e3779b97f4a7c15ULL) >> 63) == 0 ? 1. : -1.;
+  const dealii::IndexSet owned = matrix_->locally_owned_range_indices();
+  Vector b(owned, communicator_), x(b);
+  for (std::size_t i = 0; i < owned.n_elements(); ++i) { // rough, and the same however many ranks there are
+    const auto row = static_cast<std::uint64_t>(owned.nth_index_in_set(i)) + 1;
+    b.begin()[i] = ((row * 0x9e3779b97f4a7c15ULL) >> 63) == 0 ? 1. : -1.;
   }
   for (unsigned int n = 0; n < n_solutions; ++n) {
-    double of_b = 0.;
-    b.Norm2(&of_b);
+    const double of_b = b.l2_norm();
     if (!(of_b > 0.) || !std::isfinite(of_b))
       return;
-    b.Scale(1. / of_b);
+    b *= 1. / of_b;
     if (!direct_->solve(b, x, 1.))
       return;
     watch_condition(b, x);
@@ -197,12 +200,10 @@ void TangentSolver::estimate_condition() {
   }
 }
 
-void TangentSolver::watch_condition(const Epetra_Vector &b, const Epetra_Vector &x) {
+void TangentSolver::watch_condition(const Vector &b, const Vector &x) {
   if (is_ill_conditioned_)
     return;
-  double of_b = 0., of_x = 0.;
-  b.Norm2(&of_b);
-  x.Norm2(&of_x);
+  const double of_b = b.l2_norm(), of_x = x.l2_norm();
   if (of_b > 0.)
     condition_ = std::max(condition_, norm_ * of_x / of_b);
 }

@@ -10,8 +10,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
 #include <sys/resource.h>
 
 #include <iostream>
@@ -64,20 +62,19 @@ int main(int argc, char *argv[]) {
     settings.solve_contact = preconditioner != "plain";
     if (preconditioner == "block")
       settings.contact_stiffness = 0.;
-    auto iterative =
-        std::make_unique<IterativeSolver>(settings, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+    auto iterative = std::make_unique<IterativeSolver>(settings, blocks.matrix(), MPI_COMM_WORLD);
     iterative->set_geometry(blocks.geometry());
     iterative->start_contact(blocks.contact_dofs());
     solver = std::move(iterative);
     blocks.add_contact(penalty, tie);
   } else
-    solver = billet::make_direct_solver(billet::parameters::Solver::LinearSolver::automatic,
-                                        tie != TwoBlocks::Tie::sliding, blocks.matrix().trilinos_matrix(),
-                                        MPI_COMM_WORLD);
+    solver = billet::make_direct_solver(
+        tie == TwoBlocks::Tie::sliding ? billet::DirectMethod::mumps : billet::DirectMethod::mumps_symmetric,
+        blocks.matrix(), MPI_COMM_WORLD);
   const double start = usage().seconds;
   bool success = solver->factorize();
   const double set_up = usage().seconds;
-  success = success && solver->solve(*load.trilinos_vector()(0), *solution.trilinos_vector()(0), 1e-8);
+  success = success && solver->solve(load, solution, 1e-8);
   const Usage end = usage();
 
   auto residual = load;

@@ -7,9 +7,6 @@
 
 #include "../geometry/make_surface.h"
 
-#include <Epetra_Map.h>
-#include <Epetra_Vector.h>
-
 namespace billet::testing {
 
 /// Runs to time t, starts one more step, and continues the last increment into it: there K⁻¹ (∂R/∂u v) must
@@ -17,15 +14,15 @@ namespace billet::testing {
 inline double tangent_error(SceneRun &run, const double t, const unsigned int n_directions) {
   ImplicitProblem &problem = run.problem.equation();
   run.advance(); // from here on the unknowns of all steps are alike
-  Epetra_Vector before(problem.unknowns()), point(before);
+  Vector before = problem.unknowns(), point = before;
   while (run.control.time() < t) {
     before = problem.unknowns();
     run.advance();
   }
   point = problem.unknowns();
-  point.Update(-0.7, before, 1.7);
+  point.sadd(1.7, -0.7, before);
   problem.start_step(run.control.next_time());
-  Epetra_Vector plus(point), minus(point), difference(point), solution(point), v(point);
+  Vector plus = point, minus = point, difference = point, solution = point, v = point;
   Random random;
   WorstError error;
   for (unsigned int k = 0; k < n_directions; ++k) {
@@ -35,26 +32,22 @@ inline double tangent_error(SceneRun &run, const double t, const unsigned int n_
       direction(i) = random(-1., 1.);
     direction.compress(dealii::VectorOperation::insert);
     problem.supports().homogeneous().distribute(direction);
-    const Epetra_Vector &displacements = *direction.trilinos_vector()(0);
-    for (int i = 0; i < v.MyLength(); ++i)
-      v[i] = i < displacements.MyLength() ? displacements[i] : random(-1., 1.);
+    double *const offsets = std::copy(direction.begin(), direction.end(), v.begin());
+    std::generate(offsets, v.end(), [&random] { return random(-1., 1.); });
     const double h = 1e-7;
-    difference.PutScalar(0.);
+    difference = 0.;
     for (const auto &[offset, weight] :
          {std::pair<double, double>{1., 8.}, {-1., -8.}, {2., -1.}, {-2., 1.}}) {
       plus = point;
-      plus.Update(offset * h, v, 1.);
+      plus.add(offset * h, v);
       if (!problem.compute_residual(plus, minus))
         return 1.;
-      difference.Update(weight / (12. * h), minus, 1.);
+      difference.add(weight / (12. * h), minus);
     }
     if (!problem.compute_tangent(point) || !problem.solve_tangent(difference, solution, 1e-10))
       return 1.;
-    solution.Update(-1., v, 1.);
-    double wrong = 0., whole = 0.;
-    solution.Norm2(&wrong);
-    v.Norm2(&whole);
-    error.add(wrong / whole);
+    solution -= v;
+    error.add(solution.l2_norm() / v.l2_norm());
   }
   return error.value();
 }

@@ -6,11 +6,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Map.h>
-#include <Epetra_MpiComm.h>
-#include <Epetra_Vector.h>
-
 using namespace billet;
 using billet::testing::check;
 
@@ -20,22 +15,21 @@ namespace {
 /// neighbours by springs of a tenth; with a load that the soft one does not feel.
 unsigned int times_told(const double soft, const bool symmetric) {
   constexpr int n = 40, alone = 17;
-  const Epetra_MpiComm communicator(MPI_COMM_WORLD);
-  const Epetra_Map map(n, 0, communicator);
-  Epetra_CrsMatrix matrix(Copy, map, 3);
-  Epetra_Vector b(map), x(map);
-  for (int i = 0; i < map.NumMyElements(); ++i) {
-    const int row = map.GID(i);
-    double diagonal = row == alone ? soft : 1.2;
-    matrix.InsertGlobalValues(row, 1, &diagonal, &row);
-    for (const int other : {row - 1, row + 1}) {
-      double value = row == alone || other == alone ? 0. : -0.1;
+  const dealii::IndexSet rows = dealii::complete_index_set(n);
+  Matrix matrix(rows, MPI_COMM_WORLD, 3);
+  Vector b(rows, MPI_COMM_WORLD), x(b);
+  for (int row = 0; row < n; ++row) {
+    const auto set = [&matrix, row](const int column, const double value) {
+      matrix.set(static_cast<unsigned int>(row), static_cast<unsigned int>(column), value);
+    };
+    set(row, row == alone ? soft : 1.2);
+    for (const int other : {row - 1, row + 1})
       if (other >= 0 && other < n)
-        matrix.InsertGlobalValues(row, 1, &value, &other);
-    }
-    b[i] = row == alone ? 0. : 1.;
+        set(other, row == alone || other == alone ? 0. : -0.1);
+    b(static_cast<unsigned int>(row)) = row == alone ? 0. : 1.;
   }
-  matrix.FillComplete();
+  matrix.compress(dealii::VectorOperation::insert);
+  b.compress(dealii::VectorOperation::insert);
   parameters::Solver settings{};
   settings.linear_solver.value =
       symmetric ? parameters::Solver::LinearSolver::mumps_symmetric : parameters::Solver::LinearSolver::mumps;

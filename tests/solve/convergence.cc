@@ -7,10 +7,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_Map.h>
-#include <Epetra_MpiComm.h>
-#include <Epetra_Vector.h>
-
 #include <functional>
 
 using namespace billet;
@@ -27,19 +23,19 @@ public:
   };
   explicit Springs(std::vector<Spring> springs) : springs_(std::move(springs)) {}
 
-  bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override {
-    for (int i = 0; i < x.MyLength(); ++i)
-      residual[i] = springs_[static_cast<std::size_t>(i)].residual(x[i]);
+  bool compute_residual(const Vector &x, Vector &residual) override {
+    for (std::size_t i = 0; i < springs_.size(); ++i)
+      residual.begin()[i] = springs_[i].residual(x.begin()[i]);
     return true;
   }
-  bool compute_tangent(const Epetra_Vector &x) override {
+  bool compute_tangent(const Vector &x) override {
     ++n_tangents;
-    x_ = std::make_unique<Epetra_Vector>(x);
+    x_ = x;
     return true;
   }
-  bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double) override {
-    for (int i = 0; i < dx.MyLength(); ++i)
-      dx[i] = residual[i] / springs_[static_cast<std::size_t>(i)].tangent((*x_)[i]);
+  bool solve_tangent(const Vector &residual, Vector &dx, double) override {
+    for (std::size_t i = 0; i < springs_.size(); ++i)
+      dx.begin()[i] = residual.begin()[i] / springs_[i].tangent(x_.begin()[i]);
     return true;
   }
   double force_scale() const override { return 1.; }
@@ -54,7 +50,7 @@ public:
 
 private:
   std::vector<Spring> springs_;
-  std::unique_ptr<Epetra_Vector> x_;
+  Vector x_;
 };
 
 parameters::Solver make_settings() {
@@ -76,14 +72,12 @@ struct Result {
 
 Result solve(Springs &springs, const std::vector<double> &guess,
              const parameters::Solver &settings = make_settings(), const bool accepts_stalled = true) {
-  const Epetra_MpiComm communicator(MPI_COMM_WORLD);
-  const Epetra_Map map(static_cast<int>(guess.size()), 0, communicator);
-  Epetra_Vector x_n(map), x(map);
-  for (int i = 0; i < x.MyLength(); ++i)
-    x[i] = guess[static_cast<std::size_t>(i)];
+  const Vector x_n(dealii::complete_index_set(guess.size()), MPI_COMM_WORLD);
+  Vector x = x_n;
+  std::copy(guess.begin(), guess.end(), x.begin());
   Result result;
   result.report = solve_newton(springs, settings, x_n, x, accepts_stalled);
-  result.x.assign(x.Values(), x.Values() + x.MyLength());
+  result.x.assign(x.begin(), x.end());
   return result;
 }
 

@@ -11,16 +11,12 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
-
 #include <sstream>
 
 using namespace billet;
 using billet::testing::check;
 using billet::testing::TwoBlocks;
 using Kind = parameters::Solver::LinearSolver;
-using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
 namespace {
 
@@ -31,7 +27,7 @@ double distance(const Vector &a, const Vector &b) {
 }
 
 bool solve(LinearSolver &solver, const Vector &b, Vector &x, const double tolerance) {
-  return solver.factorize() && solver.solve(*b.trilinos_vector()(0), *x.trilinos_vector()(0), tolerance);
+  return solver.factorize() && solver.solve(b, x, tolerance);
 }
 
 double true_residual(const TwoBlocks &blocks, const Vector &x, const Vector &b) {
@@ -49,7 +45,7 @@ struct Outcome {
 Outcome solve_and_check(const std::string &name, TwoBlocks &blocks, const double penalty,
                         const TwoBlocks::Tie tie, const IterativeSolver::Settings &settings,
                         const Vector &load, const Vector &exact) {
-  IterativeSolver solver(settings, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+  IterativeSolver solver(settings, blocks.matrix(), MPI_COMM_WORLD);
   solver.set_geometry(blocks.geometry());
   blocks.assemble_cubes();
   solver.start_contact(blocks.contact_dofs());
@@ -91,8 +87,9 @@ int main(int argc, char *argv[]) {
            << ", k " << penalty;
       blocks.assemble_cubes();
       blocks.add_contact(penalty, tie);
-      const auto direct = make_direct_solver(Kind::automatic, tie != Tie::sliding,
-                                             blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+      const auto direct =
+          make_direct_solver(tie == Tie::sliding ? DirectMethod::mumps : DirectMethod::mumps_symmetric,
+                             blocks.matrix(), MPI_COMM_WORLD);
       check(name.str() + ": directly",
             solve(*direct, load, exact, 0.) && true_residual(blocks, exact, load) < 1e-9);
 
@@ -126,7 +123,7 @@ int main(int argc, char *argv[]) {
   { // A hierarchy outlives its matrix as long as it serves.
     IterativeSolver::Settings settings;
     settings.most_iterations = 1000;
-    IterativeSolver solver(settings, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+    IterativeSolver solver(settings, blocks.matrix(), MPI_COMM_WORLD);
     solver.set_geometry(blocks.geometry());
     const auto solves = [&](const double penalty, const bool with_block) {
       blocks.assemble_cubes();
@@ -147,15 +144,13 @@ int main(int argc, char *argv[]) {
   others.assemble_cubes();
   others.add_contact(10., Tie::sticking);
   {
-    const auto direct =
-        make_direct_solver(Kind::automatic, true, others.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+    const auto direct = make_direct_solver(DirectMethod::mumps_symmetric, others.matrix(), MPI_COMM_WORLD);
     check("another matrix: directly", solve(*direct, other_load, other_exact, 0.));
   }
   blocks.assemble_cubes();
   blocks.add_contact(1., Tie::frictionless);
   {
-    const auto direct =
-        make_direct_solver(Kind::automatic, true, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+    const auto direct = make_direct_solver(DirectMethod::mumps_symmetric, blocks.matrix(), MPI_COMM_WORLD);
     check("the first matrix: directly", solve(*direct, load, exact, 0.));
   }
   for (const Kind kind :
@@ -167,7 +162,7 @@ int main(int argc, char *argv[]) {
       parameters::Solver settings{};
       settings.linear_solver.value = kind;
       settings.most_linear_iterations = most_iterations;
-      TangentSolver solver(settings, true, blocks.matrix().trilinos_matrix(), MPI_COMM_WORLD);
+      TangentSolver solver(settings, true, blocks.matrix(), MPI_COMM_WORLD);
       const std::string name = solver.name() + ", at most " + std::to_string(most_iterations) + " iterations";
       check(name + ": of its kind", solver.is_iterative() == is_iterative);
       const auto solve_it = [&](const TwoBlocks &system, const Vector &b, const Vector &reference) {
@@ -176,8 +171,7 @@ int main(int argc, char *argv[]) {
           solver.set_geometry(system.geometry());
           solver.start_contact({});
         }
-        check(name + ": solves",
-              solver.factorize() && solver.solve(*b.trilinos_vector()(0), *x.trilinos_vector()(0), 1e-10));
+        check(name + ": solves", solver.factorize() && solver.solve(b, x, 1e-10));
         check(name + ": the solution", distance(x, reference), 1e-7);
       };
       for (unsigned int i = 0; i < 3; ++i)
@@ -188,7 +182,7 @@ int main(int argc, char *argv[]) {
                                    : most_iterations == 1 ? iterations == 2
                                                           : iterations > 20);
       solver.release();
-      solver.set_matrix(others.matrix().trilinos_matrix());
+      solver.set_matrix(others.matrix());
       solve_it(others, other_load, other_exact);
       const billet::DiagnosticList messages = solver.take_diagnostics();
       check(name + ": reports its memory",

@@ -2,7 +2,7 @@
 #ifndef BILLET_TESTS_SOLVE_TWO_BLOCKS_H
 #define BILLET_TESTS_SOLVE_TWO_BLOCKS_H
 
-#include "billet/solve/iterative_solver.h"
+#include "billet/algebra/iterative_solver.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -15,9 +15,6 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <cmath>
 #include <map>
@@ -41,7 +38,7 @@ public:
 
   MPI_Comm communicator() const { return communicator_; }
   dealii::types::global_dof_index n_dofs() const { return dof_handler_.n_dofs(); }
-  const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return matrix_; }
+  const Matrix &matrix() const { return matrix_; }
   NodalGeometry geometry() const { return {positions_, constrained_}; }
   /// Owned dofs of the interface, by local number.
   const std::vector<int> &contact_dofs() const { return contact_dofs_; }
@@ -49,7 +46,7 @@ public:
     return dealii::Utilities::MPI::sum(static_cast<unsigned int>(pairs_.size()), communicator_);
   }
   /// Rough, with a push from above.
-  dealii::TrilinosWrappers::MPI::Vector make_load() const;
+  Vector make_load() const;
 
 private:
   using Dof = dealii::types::global_dof_index;
@@ -75,7 +72,7 @@ private:
   std::vector<bool> constrained_;
   std::vector<int> contact_dofs_;
   std::vector<Pair> pairs_;
-  dealii::TrilinosWrappers::SparseMatrix matrix_;
+  Matrix matrix_;
 };
 
 inline TwoBlocks::TwoBlocks(MPI_Comm communicator, const double n_dofs, const bool across)
@@ -179,7 +176,7 @@ inline void TwoBlocks::make_pattern() {
   for (const auto &pair : pairs_)
     for (const Dof dof : pair.dofs)
       writable.add_index(dof);
-  dealii::TrilinosWrappers::SparsityPattern pattern(owned_, owned_, writable, communicator_);
+  SparsityPattern pattern(owned_, owned_, writable, communicator_);
   dealii::DoFTools::make_sparsity_pattern(dof_handler_, pattern, constraints_, false,
                                           dealii::Utilities::MPI::this_mpi_process(communicator_));
   for (const auto &pair : pairs_)
@@ -238,8 +235,8 @@ inline void TwoBlocks::add_contact(const double k, const Tie tie) {
   matrix_.compress(dealii::VectorOperation::add);
 }
 
-inline dealii::TrilinosWrappers::MPI::Vector TwoBlocks::make_load() const {
-  dealii::TrilinosWrappers::MPI::Vector load(owned_, communicator_);
+inline Vector TwoBlocks::make_load() const {
+  Vector load(owned_, communicator_);
   for (std::size_t i = 0; i < positions_.size(); ++i)
     if (!constrained_[i]) {
       const std::size_t node = i - i % 3;

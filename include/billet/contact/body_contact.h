@@ -35,7 +35,7 @@ public:
   bool has_new_couplings() const override { return contact_->has_new_couplings(); }
   void find_couplings() override;
   void add_foreign_dofs(dealii::IndexSet &dofs) const override;
-  void add_couplings(dealii::TrilinosWrappers::SparsityPattern &pattern) const override;
+  void add_couplings(SparsityPattern &pattern) const override;
   void save_couplings(StateWriter &writer) const override;
   bool load_couplings(const StateReader &reader) override;
 

@@ -15,8 +15,6 @@
 #include "billet/scene/scene.h"
 #include "billet/state.h"
 
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
-
 #include <functional>
 #include <limits>
 #include <optional>
@@ -101,7 +99,7 @@ public:
   /// Adds the dofs whose rows add_tangent() writes to.
   virtual void add_foreign_dofs(dealii::IndexSet & /*dofs*/) const {}
   /// Adds the entries that add_tangent() writes.
-  virtual void add_couplings(dealii::TrilinosWrappers::SparsityPattern & /*pattern*/) const {}
+  virtual void add_couplings(SparsityPattern & /*pattern*/) const {}
   /// Saves what the last find_couplings() found: another matrix pattern would change the bits of a run.
   virtual void save_couplings(StateWriter & /*writer*/) const {}
   /// Loads that in place of find_couplings(). False, on all ranks, if it was saved by other ranks or for

@@ -2,20 +2,19 @@
 #ifndef BILLET_DISCRETIZATION_DISCRETIZATION_H
 #define BILLET_DISCRETIZATION_DISCRETIZATION_H
 
+#include "billet/algebra/vector.h"
 #include "billet/mechanics/mean_dilatation.h"
 #include "billet/scene/scene.h"
 
 #include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
 #include <vector>
 
 namespace billet {
 
-using Vector = dealii::TrilinosWrappers::MPI::Vector;
 using DofIndex = dealii::types::global_dof_index;
 using CellIterator = dealii::DoFHandler<3>::active_cell_iterator;
 

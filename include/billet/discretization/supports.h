@@ -2,11 +2,11 @@
 #ifndef BILLET_DISCRETIZATION_SUPPORTS_H
 #define BILLET_DISCRETIZATION_SUPPORTS_H
 
+#include "billet/algebra/matrix.h"
 #include "billet/discretization/constraint_lines.h"
 #include "billet/usage.h"
 
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <map>
 #include <set>
@@ -17,7 +17,7 @@ namespace billet {
 /// side of the linear system.
 struct TangentSystem {
   const Constraints &constraints;
-  dealii::TrilinosWrappers::SparseMatrix &matrix;
+  Matrix &matrix;
   Vector *lift = nullptr; ///< additive
   double weight = 1.;     ///< of all that is added
 

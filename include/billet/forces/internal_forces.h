@@ -6,13 +6,9 @@
 #include "billet/mechanics/element_block.h"
 #include "billet/usage.h"
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-
 #include <memory>
 
 namespace billet {
-
-using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
 /// Nodal forces of the stresses in all bodies, and their tangent.
 class InternalForces {

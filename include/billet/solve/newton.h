@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_NEWTON_H
 #define BILLET_SOLVE_NEWTON_H
 
+#include "billet/algebra/newton.h"
 #include "billet/contact/status_changes.h"
 #include "billet/diagnostics.h"
 #include "billet/parameters/control.h"
@@ -10,24 +11,12 @@
 #include <string>
 #include <vector>
 
-class Epetra_Vector;
-
 namespace billet {
 
-/// R(x) = 0 with its tangent K = ∂R/∂x. All members are called, and answer, alike on all ranks; false means
-/// that the state is not admissible and the step has to be cut.
-class NonlinearProblem {
+/// Balance of forces as a nonlinear system, and what its residuals are small against.
+class NonlinearProblem : public NonlinearSystem {
 public:
-  virtual ~NonlinearProblem() = default;
-  virtual bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) = 0;
-  virtual bool compute_tangent(const Epetra_Vector &x) = 0;
-  /// dx = K⁻¹ residual, so that |residual − K dx| <= relative_tolerance |residual| where the solver is
-  /// iterative.
-  virtual bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) = 0;
-  /// The largest part of a correction that may be taken from x; 0 where it must not be taken at all.
-  virtual double max_step_length(const Epetra_Vector & /*x*/, const Epetra_Vector & /*direction*/) {
-    return 1.;
-  }
+  double residual_scale() const final { return force_scale(); }
   /// What a residual is small against, at the last x [force].
   virtual double force_scale() const = 0;
   /// The residual of an exact solution, from round-off of displacements alone [force].
@@ -130,11 +119,11 @@ bool is_stagnant(const std::vector<NewtonIteration> &iterations, double last_for
 /// The loosest relative tolerance of a linear system.
 constexpr double largest_forcing_term = 1e-2;
 
-/// Newton's method by NOX. Starts from, and overwrites, `x`; the step's increment is x − x_n. Where the
+/// Newton's method. Starts from, and overwrites, `x`; the step's increment is x − x_n. Where the
 /// iterations stall near enough to balance, they converge if `accepts_stalled`, and fail if not; `is_stalled`
 /// says so in both cases.
-NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings,
-                          const Epetra_Vector &x_n, Epetra_Vector &x, bool accepts_stalled = true);
+NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Vector &x_n,
+                          Vector &x, bool accepts_stalled = true);
 
 } // namespace billet
 

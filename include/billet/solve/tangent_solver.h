@@ -2,8 +2,9 @@
 #ifndef BILLET_SOLVE_TANGENT_SOLVER_H
 #define BILLET_SOLVE_TANGENT_SOLVER_H
 
+#include "billet/algebra/iterative_solver.h"
 #include "billet/diagnostics.h"
-#include "billet/solve/iterative_solver.h"
+#include "billet/parameters/control.h"
 #include "billet/usage.h"
 
 #include <memory>
@@ -17,13 +18,13 @@ namespace billet {
 class TangentSolver {
 public:
   /// `automatic` is resolved here. `matrix` must outlive the solver.
-  TangentSolver(const parameters::Solver &settings, bool symmetric, const Epetra_CrsMatrix &matrix,
+  TangentSolver(const parameters::Solver &settings, bool symmetric, const Matrix &matrix,
                 MPI_Comm communicator);
 
   /// To be called before the matrix goes, or gets another pattern; ...
   void release();
   /// ... after that, the next one.
-  void set_matrix(const Epetra_CrsMatrix &matrix);
+  void set_matrix(const Matrix &matrix);
 
   /// Whether the next matrices are nearly singular: a direct solver, if there is an iterative one, does
   /// those.
@@ -36,7 +37,7 @@ public:
   /// Prepares solves with the matrix as it is now. False, as from solve(), on all ranks.
   bool factorize();
   /// |b − A x| <= relative_tolerance |b|
-  bool solve(const Epetra_Vector &b, Epetra_Vector &x, double relative_tolerance);
+  bool solve(const Vector &b, Vector &x, double relative_tolerance);
 
   const std::string &name() const { return name_; }
   const std::string &failure() const { return failure_; }
@@ -53,11 +54,11 @@ private:
   /// Of the matrix just factorised, by two solves.
   void estimate_condition();
   /// |A| |x|/|b|: no more than the condition of the matrix, and for free.
-  void watch_condition(const Epetra_Vector &b, const Epetra_Vector &x);
+  void watch_condition(const Vector &b, const Vector &x);
 
-  parameters::Solver::LinearSolver direct_kind_;
+  DirectMethod direct_method_;
   bool symmetric_;
-  const Epetra_CrsMatrix *matrix_;
+  const Matrix *matrix_;
   MPI_Comm communicator_;
   std::unique_ptr<IterativeSolver> iterative_;
   std::unique_ptr<LinearSolver> direct_;

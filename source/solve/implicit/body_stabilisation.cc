@@ -50,11 +50,6 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
 
 namespace {
 
-dealii::ArrayView<const double> view(const Vector &vector) {
-  const Epetra_Vector &values = *vector.trilinos_vector()(0);
-  return {values.Values(), static_cast<std::size_t>(values.MyLength())};
-}
-
 /// Σ ∫ N_a dV of the undeformed elements at their nodes, in each of the three directions. Collective.
 Vector nodal_volumes(const Discretization &discretization, const std::size_t body) {
   Vector sum = discretization.make_additive_vector();
@@ -120,10 +115,8 @@ void BodyStabilisation::start_step(const double duration) {
 double BodyStabilisation::add_forces(const StepState &step, Vector &residual) const {
   if (!acts())
     return 0.;
-  Epetra_Vector &values = as_epetra(residual);
-  stabilisation_->add_forces(
-      view(step.trial.displacements), view(step.start.displacements),
-      dealii::ArrayView<double>(values.Values(), static_cast<std::size_t>(values.MyLength())));
+  stabilisation_->add_forces(owned_values(step.trial.displacements), owned_values(step.start.displacements),
+                             owned_values(residual));
   return stabilisation_->force_scale();
 }
 
@@ -149,19 +142,18 @@ double BodyStabilisation::commit(const StepState &step, const std::vector<bool> 
   std::vector<bool> is_supported;
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body)
     is_supported.push_back(stabilisation_->acts_on(body) && !is_free[body]);
-  return stabilisation_->commit(view(step.trial.displacements), view(step.start.displacements), is_supported,
-                                driven_work);
+  return stabilisation_->commit(owned_values(step.trial.displacements),
+                                owned_values(step.start.displacements), is_supported, driven_work);
 }
 
 void BodyStabilisation::save(StateWriter &writer) const {
   if (!stabilisation_)
     return;
   Vector forces = discretization_.make_owned_vector();
-  Epetra_Vector &values = *forces.trilinos_vector()(0);
+  const auto values = owned_values(forces);
   for (std::size_t k = 0; k < stabilisation_->nodes().size(); ++k)
     for (std::size_t i = 0; i < 3; ++i)
-      values[static_cast<int>(stabilisation_->nodes()[k].first + i)] =
-          stabilisation_->last_forces()[3 * k + i];
+      values[stabilisation_->nodes()[k].first + i] = stabilisation_->last_forces()[3 * k + i];
   writer.in("stabilisation", [&] {
     writer.write("bodies", stabilisation_->save());
     save_nodal(writer, "forces", OwnedNodes(discretization_, NodeKeys(discretization_)), forces);
@@ -178,7 +170,7 @@ void BodyStabilisation::load(StateReader &reader) {
     std::vector<double> last;
     for (const auto &node : stabilisation_->nodes())
       for (std::size_t i = 0; i < 3; ++i)
-        last.push_back(view(forces)[node.first + i]);
+        last.push_back(owned_values(forces)[node.first + i]);
     stabilisation_->set_last_forces(std::move(last));
   });
 }

@@ -23,44 +23,40 @@ void DrivenTools::commit() {
 
 void DrivenTools::choose_unknown(const std::vector<std::size_t> &tools) {
   unknown_ = tools;
-  const Vector any = discretization_.make_owned_vector();
-  const Epetra_BlockMap &dofs = as_epetra(any).Map();
-  std::vector<int> indices(dofs.MyGlobalElements(), dofs.MyGlobalElements() + dofs.NumMyElements());
-  if (dofs.Comm().MyPID() == 0)
-    for (std::size_t k = 0; k < tools.size(); ++k)
-      indices.push_back(dofs.NumGlobalElements() + static_cast<int>(k));
-  map_ = std::make_unique<Epetra_Map>(-1, static_cast<int>(indices.size()), indices.data(), 0, dofs.Comm());
+  layout_ = make_extended_vector(discretization_.owned_dofs(), static_cast<unsigned int>(tools.size()),
+                                 discretization_.communicator());
 }
 
-Epetra_Vector DrivenTools::pack(const Vector &displacements, const std::vector<double> &offsets) const {
-  Epetra_Vector x(*map_);
-  const Epetra_Vector &values = as_epetra(displacements);
-  std::copy(values.Values(), values.Values() + values.MyLength(), x.Values());
-  for (int i = values.MyLength(); i < x.MyLength(); ++i) {
-    const std::size_t tool = unknown_[static_cast<std::size_t>(i - values.MyLength())];
+Vector DrivenTools::pack(const Vector &displacements, const std::vector<double> &offsets) const {
+  Vector unknowns = layout_;
+  const auto x = owned_values(unknowns);
+  std::copy(displacements.begin(), displacements.end(), x.begin());
+  const std::size_t n_displacements = displacements.locally_owned_size();
+  for (std::size_t i = n_displacements; i < x.size(); ++i) {
+    const std::size_t tool = unknown_[i - n_displacements];
     x[i] = offsets[tool] * unit_of(tool);
   }
-  return x;
+  return unknowns;
 }
 
-void DrivenTools::unpack(const Epetra_Vector &x, Vector &displacements) {
-  Epetra_Vector &own = as_epetra(displacements);
-  std::copy(x.Values(), x.Values() + own.MyLength(), own.Values());
+void DrivenTools::unpack(const Vector &x, Vector &displacements) {
+  const auto first_offset = x.begin() + displacements.locally_owned_size();
+  std::copy(x.begin(), first_offset, displacements.begin());
   if (unknown_.empty())
     return;
   std::vector<double> values(unknown_.size());
   if (dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()) == 0)
-    std::copy(x.Values() + own.MyLength(), x.Values() + x.MyLength(), values.begin());
+    std::copy(first_offset, x.end(), values.begin());
   values = dealii::Utilities::MPI::broadcast(discretization_.communicator(), values, 0);
   for (std::size_t k = 0; k < unknown_.size(); ++k)
     offsets_[unknown_[k]] = values[k] / unit_of(unknown_[k]);
 }
 
-void DrivenTools::add_residual(const double t, const int n_displacements, Epetra_Vector &residual) const {
+void DrivenTools::add_residual(const double t, const std::size_t n_displacements, Vector &residual) const {
   for (std::size_t k = 0; k < unknown_.size(); ++k) {
     const double excess = imbalance(unknown_[k], t) / unit_of(unknown_[k]);
-    if (n_displacements + static_cast<int>(k) < residual.MyLength()) // on the rank that has it
-      residual[n_displacements + static_cast<int>(k)] = excess;
+    if (n_displacements + k < residual.locally_owned_size()) // on the rank that has it
+      residual.begin()[n_displacements + k] = excess;
   }
 }
 

@@ -6,8 +6,8 @@
 namespace billet {
 
 NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &displacements) {
-  const Epetra_Vector x_n = problem_.unknowns();
-  Epetra_Vector x = problem_.tools().pack(displacements, offsets);
+  const Vector x_n = problem_.unknowns();
+  Vector x = problem_.tools().pack(displacements, offsets);
   parameters::Solver settings = problem_.parameters().solver;
   const double accuracy = accuracy_ * problem_.scheme().wanted_accuracy();
   settings.force_tolerance *= accuracy;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace billet {
@@ -89,8 +90,7 @@ struct LumpedMass {
 
   void vmult(Vector &result, const Vector &x) const {
     result = x;
-    Epetra_Vector &values = *result.trilinos_vector()(0);
-    values.ReciprocalMultiply(1., *row_sums.trilinos_vector()(0), values, 0.);
+    std::transform(result.begin(), result.end(), row_sums.begin(), result.begin(), std::divides<>());
   }
 };
 

@@ -67,14 +67,14 @@ bool ImplicitProblem::on_all_ranks(const bool success) const {
   return dealii::Utilities::MPI::min(success ? 1 : 0, communicator()) == 1;
 }
 
-void ImplicitProblem::set_trial(const Epetra_Vector &x) {
+void ImplicitProblem::set_trial(const Vector &x) {
   tools_.unpack(x, step_.trial.displacements);
   step_.ghosted = step_.trial.displacements;
   if (!tools_.unknown().empty())
     tools_.place_contacts(step_.time);
 }
 
-bool ImplicitProblem::compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) {
+bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
   set_trial(x);
   raw_internal_ = 0.;
   raw_contact_ = 0.;
@@ -101,16 +101,15 @@ bool ImplicitProblem::compute_residual(const Epetra_Vector &x, Epetra_Vector &re
   trial.supports = total;
   measure(scheme().complete(trial.contact, total));
   supports_.condense(total);
-  const Epetra_Vector &values = as_epetra(total);
-  std::copy(values.Values(), values.Values() + values.MyLength(), residual.Values());
-  tools_.add_residual(step_.time, values.MyLength(), residual);
+  std::copy(total.begin(), total.end(), residual.begin());
+  tools_.add_residual(step_.time, total.locally_owned_size(), residual);
   status_changes_ = find_status_changes();
   const bool is_finite = std::isfinite(scales_.force);
   measure(scales_.lasting);
   return is_finite;
 }
 
-bool ImplicitProblem::compute_tangent(const Epetra_Vector &x) {
+bool ImplicitProblem::compute_tangent(const Vector &x) {
   set_trial(x);
   const bool success = assemble_tangent({supports_.homogeneous(), tangent_.matrix()});
   linearised_ = contacts_.slave_forces();
@@ -159,33 +158,31 @@ bool ImplicitProblem::solve_bordered(const Vector &r_u, const std::vector<double
       r_u, r_s, sense, relative_tolerance, du, ds);
 }
 
-bool ImplicitProblem::solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx,
-                                    const double relative_tolerance) {
+bool ImplicitProblem::solve_tangent(const Vector &residual, Vector &dx, const double relative_tolerance) {
   Vector r_u = discretization_.make_owned_vector(), du = r_u;
-  Epetra_Vector &r_values = as_epetra(r_u);
-  std::copy(residual.Values(), residual.Values() + r_values.MyLength(), r_values.Values());
+  const std::size_t n_displacements = r_u.locally_owned_size();
+  std::copy(residual.begin(), residual.begin() + n_displacements, r_u.begin());
   std::vector<double> r_s(tools_.unknown().size()), ds(r_s);
-  if (residual.MyLength() > r_values.MyLength())
-    std::copy(residual.Values() + r_values.MyLength(), residual.Values() + residual.MyLength(), r_s.begin());
+  if (residual.locally_owned_size() > n_displacements)
+    std::copy(residual.begin() + n_displacements, residual.end(), r_s.begin());
   if (!r_s.empty())
     r_s = dealii::Utilities::MPI::broadcast(communicator(), r_s, 0);
   if (!solve_bordered(r_u, r_s, -1., relative_tolerance, du, ds)) // what Newton subtracts
     return false;
-  const Epetra_Vector &values = as_epetra(du);
-  std::copy(values.Values(), values.Values() + values.MyLength(), dx.Values());
-  if (dx.MyLength() > values.MyLength())
-    std::copy(ds.begin(), ds.end(), dx.Values() + values.MyLength());
+  std::copy(du.begin(), du.end(), dx.begin());
+  if (dx.locally_owned_size() > n_displacements)
+    std::copy(ds.begin(), ds.end(), dx.begin() + n_displacements);
   return std::isfinite(du.l2_norm());
 }
 
-double ImplicitProblem::max_step_length(const Epetra_Vector &x, const Epetra_Vector &direction) {
+double ImplicitProblem::max_step_length(const Vector &x, const Vector &direction) {
   if (contacts_.empty())
     return 1.;
   set_trial(x);
   const Vector from = step_.ghosted;
   const std::vector<Placement> tools_from = tools_.placements(step_.time);
-  Epetra_Vector end(x);
-  end.Update(1., direction, 1.);
+  Vector end = x;
+  end += direction;
   set_trial(end);
   const double part = contacts_.find_free_part(
       {from, step_.ghosted, tools_from, tools_.placements(step_.time), false}, obstacle_);
@@ -227,7 +224,7 @@ void ImplicitProblem::evaluate_start() {
   step_.time = state_.time;
   tools_.restart();
   tools_.choose_unknown({});
-  Epetra_Vector x = unknowns(), ignored(x);
+  Vector x = unknowns(), ignored(x);
   compute_residual(x, ignored);
 }
 

@@ -207,7 +207,7 @@ void ImplicitSolution::balance(RestartReport &report) {
   StepState &step = problem_.step();
   SolutionState &state = problem_.state();
   Vector residual = problem_.discretization().make_owned_vector();
-  if (!problem_.compute_residual(as_epetra(step.start.displacements), as_epetra(residual)))
+  if (!problem_.compute_residual(step.start.displacements, residual))
     throw InputError("its state is not admissible here: elements are inside out, or forces not finite");
   report.imbalance = residual.l2_norm();
   report.force_scale = problem_.force_scale();

@@ -10,7 +10,7 @@ namespace billet {
 
 void InitialMotion::start() {
   check_before_start([&] {
-    Epetra_Vector x = problem_.unknowns(), ignored(x);
+    Vector x = problem_.unknowns(), ignored(x);
     if (!problem_.compute_residual(x, ignored))
       throw SolutionFailure(problem_.parameters().file_name +
                             ": the displacements that supports prescribe at time 0 turn an element inside "

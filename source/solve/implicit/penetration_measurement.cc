@@ -71,8 +71,7 @@ void PenetrationMeasurement::begin_with_augmentation() {
     measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
 }
 
-void PenetrationMeasurement::measure(const Epetra_Vector &accepted, const double accuracy,
-                                     NewtonReport &report) {
+void PenetrationMeasurement::measure(const Vector &accepted, const double accuracy, NewtonReport &report) {
   if (measured_ && measured_->with.empty()) // of no use any more
     return;
   if (!measured_ && (!(problem_.force_scale() > 0.) || !(problem_.contacts().find_penetration() > 0.))) {
@@ -95,9 +94,9 @@ void PenetrationMeasurement::measure(const Epetra_Vector &accepted, const double
           left / (1. - left) * (measured_->without[group][i] - measured_->with[group][i]);
 }
 
-double PenetrationMeasurement::augment_once(const Epetra_Vector &accepted, const double accuracy,
+double PenetrationMeasurement::augment_once(const Vector &accepted, const double accuracy,
                                             NewtonReport &report) {
-  Epetra_Vector x(accepted), residual(accepted), dx(accepted);
+  Vector x(accepted), residual(accepted), dx(accepted);
   double left = 0.;
   measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
   for (auto &contact : problem_.contacts())
@@ -105,17 +104,16 @@ double PenetrationMeasurement::augment_once(const Epetra_Vector &accepted, const
   const parameters::Solver &solver = problem_.parameters().solver;
   bool is_admissible = problem_.compute_residual(x, residual), is_accurate = false;
   while (is_admissible && !is_accurate && measured_->n_iterations < Limits::max_iterations) {
-    dx.PutScalar(0.);
+    dx = 0.;
     is_admissible =
         problem_.compute_tangent(x) && problem_.solve_tangent(residual, dx, solver.linear_tolerance);
     if (!is_admissible)
       break;
-    x.Update(-1., dx, 1.);
-    double energy = 0., norm = 0.;
-    residual.Dot(dx, &energy);
+    x -= dx;
+    const double energy = residual * dx;
     ++measured_->n_iterations;
     is_admissible = problem_.compute_residual(x, residual);
-    residual.Norm2(&norm);
+    const double norm = residual.l2_norm();
     report.iterations.push_back({norm / problem_.force_scale(), std::abs(energy), 1.});
     measured_->residual = norm / problem_.force_scale();
     is_accurate =

@@ -119,7 +119,7 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   Vector correction = problem_.discretization().make_owned_vector(), rhs = correction;
   const std::vector<std::size_t> unknown = tools.unknown();
   tools.leave_in_place();
-  const bool is_admissible = problem_.compute_residual(as_epetra(step.start.displacements), as_epetra(rhs));
+  const bool is_admissible = problem_.compute_residual(step.start.displacements, rhs);
   tools.free_again(unknown);
   if (!is_admissible)
     return false;
@@ -200,15 +200,14 @@ bool MotionPredictor::guess(const double t, double /*previous_step*/) {
   tools.set_offsets(offsets);
   problem_.start_step(t);
 
-  const Epetra_Vector at_end = tools.pack(guess, offsets);
-  Epetra_Vector residual(at_end);
+  const Vector at_end = tools.pack(guess, offsets);
+  Vector residual(at_end);
   if (!problem_.compute_residual(at_end, residual))
     return false;
-  double at_guess = 0., at_start = 0.;
-  residual.Norm2(&at_guess);
+  const double at_guess = residual.l2_norm();
   if (!problem_.compute_residual(problem_.unknowns(), residual))
     return false;
-  residual.Norm2(&at_start);
+  const double at_start = residual.l2_norm();
   step.trial.displacements = guess;
   tools.set_offsets(offsets);
   return at_guess <= at_start;

@@ -92,8 +92,8 @@ void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) 
 void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
   // The line search may have looked further since: the histories have to be those of the accepted state.
-  Epetra_Vector accepted = problem.tools().pack(x.displacements, x.offsets);
-  Epetra_Vector residual(accepted);
+  Vector accepted = problem.tools().pack(x.displacements, x.offsets);
+  Vector residual(accepted);
   problem.compute_residual(accepted, residual);
   if (!p_.measurement.is_wanted() || p_.solver.is_probing())
     return;

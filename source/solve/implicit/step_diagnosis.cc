@@ -52,11 +52,12 @@ std::string StepDiagnosis::describe_contacts() const {
 }
 
 std::string StepDiagnosis::describe_residual() {
-  const Epetra_Vector x = problem_.trial_unknowns();
-  Epetra_Vector residual(x);
+  const Vector x = problem_.trial_unknowns();
+  Vector residual(x);
   if (!problem_.compute_residual(x, residual))
     return "";
   const MPI_Comm communicator = problem_.communicator();
+  const dealii::IndexSet &owned = problem_.discretization().owned_dofs();
   // The largest nodal force that is out of balance, where, and of which body.
   std::array<double, 5> mine{};
   for (std::size_t body = 0; body < problem_.discretization().n_bodies(); ++body)
@@ -67,8 +68,7 @@ std::string StepDiagnosis::describe_residual() {
         for (unsigned int i = 0; i < 3; ++i) {
           const DofIndex dof = element.dofs[3 * v + i];
           position[i] = element.cell->vertex(v)[i] + problem_.step().ghosted(dof);
-          const int place = residual.Map().LID(static_cast<int>(dof));
-          square += place >= 0 ? residual[place] * residual[place] : 0.;
+          square += owned.is_element(dof) ? residual(dof) * residual(dof) : 0.;
         }
         if (square > mine[0])
           mine = {square, position[0], position[1], position[2], static_cast<double>(body)};

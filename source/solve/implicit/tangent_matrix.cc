@@ -4,7 +4,6 @@
 #include "billet/solve/implicit/step_state.h"
 
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 namespace billet {
 
@@ -39,7 +38,7 @@ void TangentMatrix::build(const bool couplings_are_known) {
       contact.find_couplings();
     contact.add_foreign_dofs(written);
   }
-  dealii::TrilinosWrappers::SparsityPattern pattern(owned, owned, written, discretization_.communicator());
+  SparsityPattern pattern(owned, owned, written, discretization_.communicator());
   dealii::DoFTools::make_sparsity_pattern(
       discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
@@ -49,7 +48,7 @@ void TangentMatrix::build(const bool couplings_are_known) {
   if (linear_) {
     linear_->release();
     matrix_.reinit(pattern);
-    linear_->set_matrix(matrix_.trilinos_matrix());
+    linear_->set_matrix(matrix_);
     return;
   }
   matrix_.reinit(pattern);
@@ -62,7 +61,7 @@ void TangentMatrix::build(const bool couplings_are_known) {
     kind = LinearSolver::automatic;
   linear_ =
       std::make_unique<TangentSolver>(settings, has_own_tangent && !scene_.capabilities().unsymmetric_matrix,
-                                      matrix_.trilinos_matrix(), discretization_.communicator());
+                                      matrix_, discretization_.communicator());
   if (linear_->is_iterative())
     undeformed_ = collect_geometry(discretization_, supports_.homogeneous());
 }
@@ -91,7 +90,7 @@ bool TangentMatrix::take_exact() {
 }
 
 bool TangentMatrix::solve(const Vector &b, const double relative_tolerance, Vector &x) {
-  if (!linear_->solve(as_epetra(b), as_epetra(x), relative_tolerance))
+  if (!linear_->solve(b, x, relative_tolerance))
     return false;
   supports_.homogeneous().distribute(x);
   return true;
@@ -101,9 +100,9 @@ void TangentMatrix::set_geometry(const Vector &displacements) {
   if (!linear_->is_iterative())
     return;
   NodalGeometry geometry = undeformed_;
-  const Epetra_Vector &values = as_epetra(displacements);
+  const auto values = owned_values(displacements);
   for (std::size_t i = 0; i < geometry.positions.size(); ++i)
-    geometry.positions[i] += values[static_cast<int>(i)];
+    geometry.positions[i] += values[i];
   linear_->set_geometry(geometry);
 }
 
@@ -120,11 +119,12 @@ std::vector<int> TangentMatrix::touching_dofs() const {
     contact.add_forces(additive);
   additive.compress(dealii::VectorOperation::add);
   forces = additive;
-  const Epetra_Vector &values = as_epetra(forces);
+  const auto values = owned_values(forces);
   std::vector<int> dofs;
-  for (int i = 0; i < values.MyLength(); i += 3)
+  for (std::size_t i = 0; i < values.size(); i += 3)
     if (values[i] != 0. || values[i + 1] != 0. || values[i + 2] != 0.)
-      dofs.insert(dofs.end(), {i, i + 1, i + 2});
+      for (std::size_t dof = i; dof < i + 3; ++dof)
+        dofs.push_back(static_cast<int>(dof));
   return dofs;
 }
 

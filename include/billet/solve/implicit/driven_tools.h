@@ -5,8 +5,6 @@
 #include "billet/solve/implicit/contact_set.h"
 #include "billet/solve/implicit/scheme.h"
 
-#include <Epetra_Map.h>
-
 #include <deal.II/lac/full_matrix.h>
 
 #include <functional>
@@ -44,11 +42,11 @@ public:
   /// ... then those of the last choose_unknown() are unknown again.
   void free_again(const std::vector<std::size_t> &tools) { unknown_ = tools; }
   /// Vector of displacements and unknown offsets.
-  Epetra_Vector pack(const Vector &displacements, const std::vector<double> &offsets) const;
+  Vector pack(const Vector &displacements, const std::vector<double> &offsets) const;
   /// Takes displacements and unknown offsets from such a vector. Collective.
-  void unpack(const Epetra_Vector &x, Vector &displacements);
+  void unpack(const Vector &x, Vector &displacements);
   /// Adds the residuals of the unknown tools at time t.
-  void add_residual(double t, int n_displacements, Epetra_Vector &residual) const;
+  void add_residual(double t, std::size_t n_displacements, Vector &residual) const;
 
   Placement place(std::size_t tool, double t, double offset) const;
   /// Of all tools with the trial offsets.
@@ -104,7 +102,7 @@ private:
   const ImplicitScheme &scheme_;
   std::vector<double> offsets_, offsets_n_, last_increments_;
   std::vector<std::size_t> unknown_;
-  std::unique_ptr<Epetra_Map> map_;                 ///< of displacements and unknown offsets
+  Vector layout_;                                   ///< zeros: displacements and unknown offsets
   std::vector<std::unique_ptr<Placement>> stopped_; ///< where tools have stopped for good
   Border border_;
   std::string failure_;

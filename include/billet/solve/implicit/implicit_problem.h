@@ -85,14 +85,14 @@ public:
   void evaluate_start();
   /// The unknowns, displacements and offsets of driven tools, at the start of the step and in the trial
   /// state.
-  Epetra_Vector unknowns() const { return tools_.pack(step_.start.displacements, tools_.start_offsets()); }
-  Epetra_Vector trial_unknowns() const { return tools_.pack(step_.trial.displacements, tools_.offsets()); }
-  void set_trial(const Epetra_Vector &x);
+  Vector unknowns() const { return tools_.pack(step_.start.displacements, tools_.start_offsets()); }
+  Vector trial_unknowns() const { return tools_.pack(step_.trial.displacements, tools_.offsets()); }
+  void set_trial(const Vector &x);
 
-  bool compute_residual(const Epetra_Vector &x, Epetra_Vector &residual) override;
-  bool compute_tangent(const Epetra_Vector &x) override;
-  bool solve_tangent(const Epetra_Vector &residual, Epetra_Vector &dx, double relative_tolerance) override;
-  double max_step_length(const Epetra_Vector &x, const Epetra_Vector &direction) override;
+  bool compute_residual(const Vector &x, Vector &residual) override;
+  bool compute_tangent(const Vector &x) override;
+  bool solve_tangent(const Vector &residual, Vector &dx, double relative_tolerance) override;
+  double max_step_length(const Vector &x, const Vector &direction) override;
   double force_scale() const override { return scales_.force; }
   double round_off_force() const override { return scales_.round_off + scheme().round_off_force(); }
   double contact_round_off_force() const override {

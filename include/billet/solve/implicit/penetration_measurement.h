@@ -67,7 +67,7 @@ public:
   void spoil() { measured_ = OfPenetration(); }
   /// Completes what augmentations in the step have begun to measure, or makes it, from the state `accepted`
   /// of a step that has converged. Adds its iterations. `accuracy`: see EquilibriumSolver. Collective.
-  void measure(const Epetra_Vector &accepted, double accuracy, NewtonReport &report);
+  void measure(const Vector &accepted, double accuracy, NewtonReport &report);
   /// Factor of what pairs ask for up to which penetrations are allowed, if they make too much; else 0.
   double find_allowed() const;
   /// Of the last accepted step; once.
@@ -83,7 +83,7 @@ private:
     static constexpr double max_left = 0.8;
   };
   /// Augments once and iterates. Returns the part of the penetrations that is left; 0 if nothing was found.
-  double augment_once(const Epetra_Vector &accepted, double accuracy, NewtonReport &report);
+  double augment_once(const Vector &accepted, double accuracy, NewtonReport &report);
 
   ImplicitProblem &problem_;
   StepResults results_;

@@ -4,12 +4,7 @@
 
 #include "billet/discretization/discretization.h"
 
-#include <Epetra_Vector.h>
-
 namespace billet {
-
-inline Epetra_Vector &as_epetra(Vector &vector) { return *vector.trilinos_vector()(0); }
-inline const Epetra_Vector &as_epetra(const Vector &vector) { return *vector.trilinos_vector()(0); }
 
 /// Displacements and forces of the bodies at one time, of owned dofs. Forces have the sign of the residual.
 struct ForceState {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_SOLVE_LINEAR_SOLVER_H
-#define BILLET_SOLVE_LINEAR_SOLVER_H
+#ifndef BILLET_ALGEBRA_LINEAR_SOLVER_H
+#define BILLET_ALGEBRA_LINEAR_SOLVER_H
+
+#include "billet/algebra/matrix.h"
+#include "billet/algebra/vector.h"
 
 #include <string>
-
-class Epetra_CrsMatrix;
-class Epetra_Vector;
 
 namespace billet {
 
@@ -20,12 +20,12 @@ public:
 
   /// Solves with the matrix of the last factorize(), so that |b − A x| <= relative_tolerance |b|. A direct
   /// solver is as exact as it can be. False on failure.
-  virtual bool solve(const Epetra_Vector &b, Epetra_Vector &x, double relative_tolerance) = 0;
+  virtual bool solve(const Vector &b, Vector &x, double relative_tolerance) = 0;
 
   virtual std::string name() const = 0;
-  /// That solves have taken since the last call; 0 of a direct solver.
+  /// Returns the iterations that solves have taken since the last call; 0 of a direct solver.
   virtual unsigned int take_iterations() { return 0; }
-  /// Of factors, or of what preconditions, on all ranks [bytes]; 0 where it is not known.
+  /// Returns the memory of factors, or of the preconditioner, on all ranks [bytes]; 0 if it is unknown.
   virtual double memory() const { return 0.; }
   const std::string &failure() const { return failure_; }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_SOLVE_ITERATIVE_SOLVER_H
-#define BILLET_SOLVE_ITERATIVE_SOLVER_H
+#ifndef BILLET_ALGEBRA_ITERATIVE_SOLVER_H
+#define BILLET_ALGEBRA_ITERATIVE_SOLVER_H
 
-#include "billet/solve/direct_solver.h"
+#include "billet/algebra/direct_solver.h"
 
 #include <functional>
 #include <memory>
@@ -46,13 +46,13 @@ public:
     double least_pace = 0.6;       ///< of a kept hierarchy, part of a fresh one's; > 1: none is kept
   };
 
-  IterativeSolver(const Settings &settings, const Epetra_CrsMatrix &matrix, MPI_Comm communicator);
+  IterativeSolver(const Settings &settings, const Matrix &matrix, MPI_Comm communicator);
   ~IterativeSolver() override;
 
   /// Forgets all that belongs to a matrix. To be called before the matrix goes, or gets another pattern;
   /// after that, the next one.
   void release();
-  void set_matrix(const Epetra_CrsMatrix &matrix) { matrix_ = &matrix; }
+  void set_matrix(const Matrix &matrix) { matrix_ = &matrix; }
 
   /// To be called before factorize() whenever nodes have moved much.
   void set_geometry(NodalGeometry geometry);
@@ -63,7 +63,7 @@ public:
   void start_contact(const std::vector<int> &dofs);
 
   bool factorize() override;
-  bool solve(const Epetra_Vector &b, Epetra_Vector &x, double relative_tolerance) override;
+  bool solve(const Vector &b, Vector &x, double relative_tolerance) override;
   std::string name() const override;
   unsigned int take_iterations() override;
   double memory() const override;
@@ -78,11 +78,10 @@ private:
 
   /// A new hierarchy, of the matrix as it is.
   bool renew();
-  bool iterate(const Epetra_Vector &b, Epetra_Vector &x, double relative_tolerance,
-               unsigned int most_iterations);
+  bool iterate(const Vector &rhs, Vector &solution, double relative_tolerance, unsigned int most_iterations);
 
   Settings settings_;
-  const Epetra_CrsMatrix *matrix_;
+  const Matrix *matrix_;
   MPI_Comm communicator_;
   NodalGeometry geometry_;
   std::unique_ptr<Multigrid> multigrid_;

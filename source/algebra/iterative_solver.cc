@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/solve/iterative_solver.h"
+#include "billet/algebra/iterative_solver.h"
+
+#include "billet/algebra/epetra.h"
 
 #include <AztecOO.h>
 #include <Epetra_Comm.h>
@@ -8,7 +10,6 @@
 #include <Epetra_IntVector.h>
 #include <Epetra_Map.h>
 #include <Epetra_Operator.h>
-#include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 
@@ -79,26 +80,27 @@ public:
 
   /// Takes over A_ΓΓ, and factorises it.
   bool factorize(const bool symmetric, MPI_Comm communicator) {
-    block_ = std::make_unique<Epetra_CrsMatrix>(Copy, *map_, 0);
-    std::vector<int> columns;
+    const dealii::IndexSet owned(*map_);
+    block_ = std::make_unique<Matrix>(owned, communicator);
+    std::vector<dealii::types::global_dof_index> columns;
     std::vector<double> values;
     for (std::size_t i = 0; i < dofs_.size(); ++i) {
       columns.clear();
       values.clear();
       for_each_entry(dofs_[i], [&](const int column, const double value) {
         if (number_[static_cast<std::size_t>(column)] >= 0) {
-          columns.push_back(number_[static_cast<std::size_t>(column)]);
+          columns.push_back(
+              static_cast<dealii::types::global_dof_index>(number_[static_cast<std::size_t>(column)]));
           values.push_back(value);
         }
       });
-      block_->InsertGlobalValues(map_->GID(static_cast<int>(i)), static_cast<int>(columns.size()),
-                                 values.data(), columns.data());
+      block_->set(owned.nth_index_in_set(i), columns, values);
     }
-    block_->FillComplete();
-    b_ = std::make_unique<Epetra_Vector>(*map_);
-    x_ = std::make_unique<Epetra_Vector>(*map_);
-    using Kind = parameters::Solver::LinearSolver;
-    solver_ = make_direct_solver(Kind::automatic, symmetric, *block_, communicator);
+    block_->compress(dealii::VectorOperation::insert);
+    b_.reinit(owned, communicator);
+    x_.reinit(owned, communicator);
+    solver_ = make_direct_solver(symmetric ? DirectMethod::mumps_symmetric : DirectMethod::mumps, *block_,
+                                 communicator);
     return solver_->factorize();
   }
 
@@ -149,11 +151,11 @@ public:
     for (std::size_t i = 0; i < dofs_.size(); ++i) {
       double value = r[dofs_[i]];
       for_each_entry(dofs_[i], [&](const int column, const double a) { value -= a * (*ghosted)[column]; });
-      (*b_)[static_cast<int>(i)] = value;
+      b_.begin()[i] = value;
     }
-    solver_->solve(*b_, *x_, 0.);
+    solver_->solve(b_, x_, 0.);
     for (std::size_t i = 0; i < dofs_.size(); ++i)
-      z[dofs_[i]] += (*x_)[static_cast<int>(i)];
+      z[dofs_[i]] += x_.begin()[i];
   }
 
 private:
@@ -176,9 +178,10 @@ private:
   std::vector<std::vector<double>> rows_; ///< of K
   std::unique_ptr<Epetra_Map> map_;       ///< of Γ, numbered by itself
   std::vector<int> number_;               ///< in Γ, of the matrix's columns; −1: not in it
-  std::unique_ptr<Epetra_CrsMatrix> block_;
+  std::unique_ptr<Matrix> block_;
   std::unique_ptr<LinearSolver> solver_;
-  mutable std::unique_ptr<Epetra_Vector> b_, x_, ghosted_;
+  mutable Vector b_, x_; ///< of Γ
+  mutable std::unique_ptr<Epetra_Vector> ghosted_;
 };
 
 /// Smoothed aggregation, and what else is done with each residual.
@@ -276,8 +279,7 @@ private:
   std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> ml_;
 };
 
-IterativeSolver::IterativeSolver(const Settings &settings, const Epetra_CrsMatrix &matrix,
-                                 MPI_Comm communicator)
+IterativeSolver::IterativeSolver(const Settings &settings, const Matrix &matrix, MPI_Comm communicator)
     : settings_(settings), matrix_(&matrix), communicator_(communicator) {}
 
 IterativeSolver::~IterativeSolver() = default;
@@ -294,7 +296,7 @@ void IterativeSolver::start_contact(const std::vector<int> &dofs) {
   started_.reset();
   if (!settings_.solve_contact)
     return;
-  started_ = std::make_unique<ContactBlock>(*matrix_, dofs);
+  started_ = std::make_unique<ContactBlock>(matrix_->trilinos_matrix(), dofs);
   if (started_->is_empty())
     started_.reset();
 }
@@ -323,7 +325,7 @@ bool IterativeSolver::renew() {
   is_lagging_ = false;
   fresh_pace_ = last_pace_ = 0.;
   multigrid_.reset();
-  multigrid_ = std::make_unique<Multigrid>(settings_, *matrix_, geometry_, contact_.get());
+  multigrid_ = std::make_unique<Multigrid>(settings_, matrix_->trilinos_matrix(), geometry_, contact_.get());
   ++n_hierarchies_;
   if (multigrid_->is_ready())
     return true;
@@ -332,7 +334,7 @@ bool IterativeSolver::renew() {
   return false;
 }
 
-bool IterativeSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const double relative_tolerance) {
+bool IterativeSolver::solve(const Vector &b, Vector &x, const double relative_tolerance) {
   if (!is_lagging_)
     return iterate(b, x, relative_tolerance, settings_.most_iterations);
   const double expected = -std::log(relative_tolerance) / (settings_.least_pace * fresh_pace_);
@@ -341,8 +343,11 @@ bool IterativeSolver::solve(const Epetra_Vector &b, Epetra_Vector &x, const doub
          (renew() && iterate(b, x, relative_tolerance, settings_.most_iterations));
 }
 
-bool IterativeSolver::iterate(const Epetra_Vector &b, Epetra_Vector &x, const double relative_tolerance,
+bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double relative_tolerance,
                               const unsigned int most_iterations) {
+  const Epetra_CrsMatrix &A = matrix_->trilinos_matrix();
+  const Epetra_Vector &b = as_epetra(rhs);
+  Epetra_Vector &x = as_epetra(solution);
   x.PutScalar(0.);
   relative_residual_ = 0.;
   const double size = norm(b);
@@ -352,7 +357,7 @@ bool IterativeSolver::iterate(const Epetra_Vector &b, Epetra_Vector &x, const do
     contact_->correct(b, x);
   Epetra_Vector residual(b);
   const auto compute_residual = [&] {
-    matrix_->Multiply(false, x, residual);
+    A.Multiply(false, x, residual);
     residual.Update(1., b, -1.);
     relative_residual_ = norm(residual) / size;
   };
@@ -364,9 +369,8 @@ bool IterativeSolver::iterate(const Epetra_Vector &b, Epetra_Vector &x, const do
        ++attempt) {
     const double before = relative_residual_;
     // Aztec takes non-const pointers, but changes neither the matrix nor the right-hand side.
-    auto *matrix = const_cast<Epetra_CrsMatrix *>(matrix_); // NOLINT(cppcoreguidelines-pro-type-const-cast)
-    auto *rhs = const_cast<Epetra_Vector *>(&b);            // NOLINT(cppcoreguidelines-pro-type-const-cast)
-    AztecOO solver(matrix, &x, rhs);
+    AztecOO solver(const_cast<Epetra_CrsMatrix *>(&A), &x, // NOLINT(cppcoreguidelines-pro-type-const-cast)
+                   const_cast<Epetra_Vector *>(&b));       // NOLINT(cppcoreguidelines-pro-type-const-cast)
     solver.SetAztecOption(AZ_output, AZ_none);
     solver.SetAztecOption(AZ_diagnostics, AZ_none);
     solver.SetPrecOperator(multigrid_.get());

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/solve/direct_solver.h"
+#include "billet/algebra/direct_solver.h"
 
+#include "billet/algebra/epetra.h"
 #include "billet/errors.h"
 
 #include <Amesos.h>
 #include <Amesos_BaseSolver.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_LinearProblem.h>
-#include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <dmumps_c.h>
 
@@ -21,10 +21,10 @@ namespace {
 /// Trilinos' interface to direct solvers: KLU, which it always has.
 class AmesosSolver final : public LinearSolver {
 public:
-  AmesosSolver(const std::string &amesos_name, const Epetra_CrsMatrix &matrix) : name_(amesos_name) {
+  AmesosSolver(const std::string &amesos_name, const Matrix &matrix) : name_(amesos_name) {
     // Amesos takes non-const pointers, but changes neither the matrix nor the right-hand side.
-    problem_.SetOperator(
-        const_cast<Epetra_CrsMatrix *>(&matrix)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    problem_.SetOperator(const_cast<Epetra_CrsMatrix *>(
+        &matrix.trilinos_matrix())); // NOLINT(cppcoreguidelines-pro-type-const-cast)
     Amesos factory;
     solver_.reset(factory.Create(amesos_name, problem_));
     if (solver_ == nullptr)
@@ -49,9 +49,10 @@ public:
     return true;
   }
 
-  bool solve(const Epetra_Vector &b, Epetra_Vector &x, double) override {
-    problem_.SetLHS(&x);
-    problem_.SetRHS(const_cast<Epetra_Vector *>(&b)); // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  bool solve(const Vector &b, Vector &x, double) override {
+    problem_.SetLHS(&as_epetra(x));
+    problem_.SetRHS(
+        const_cast<Epetra_Vector *>(&as_epetra(b))); // NOLINT(cppcoreguidelines-pro-type-const-cast)
     if (solver_->Solve() != 0) {
       failure_ = "back substitution failed";
       return false;
@@ -72,8 +73,8 @@ private:
 /// or LU of the whole, with more memory where its guess was too small, which Amesos does not do.
 class MumpsSolver final : public LinearSolver {
 public:
-  MumpsSolver(const bool is_symmetric, const Epetra_CrsMatrix &matrix, MPI_Comm communicator)
-      : is_symmetric_(is_symmetric), matrix_(matrix), communicator_(communicator) {
+  MumpsSolver(const bool is_symmetric, const Matrix &matrix, MPI_Comm communicator)
+      : is_symmetric_(is_symmetric), matrix_(matrix.trilinos_matrix()), communicator_(communicator) {
     MPI_Comm_rank(communicator, &rank_);
     mumps_.par = 1;
     mumps_.sym = is_symmetric ? 2 : 0;
@@ -111,14 +112,14 @@ public:
     return false;
   }
 
-  bool solve(const Epetra_Vector &b, Epetra_Vector &x, double) override {
+  bool solve(const Vector &b, Vector &x, double) override {
     // The right-hand side is gathered on the first rank, which owns the first rows.
     std::vector<double> whole(rank_ == 0 ? static_cast<std::size_t>(matrix_.NumGlobalRows()) : 0);
-    MPI_Gatherv(b.Values(), n_local_rows_, MPI_DOUBLE, whole.data(), counts_.data(), offsets_.data(),
+    MPI_Gatherv(b.begin(), n_local_rows_, MPI_DOUBLE, whole.data(), counts_.data(), offsets_.data(),
                 MPI_DOUBLE, 0, communicator_);
     mumps_.rhs = whole.data();
     const bool success = call(job_solve);
-    MPI_Scatterv(whole.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, x.Values(), n_local_rows_,
+    MPI_Scatterv(whole.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, x.begin(), n_local_rows_,
                  MPI_DOUBLE, 0, communicator_);
     return success;
   }
@@ -202,15 +203,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<LinearSolver> make_direct_solver(const parameters::Solver::LinearSolver kind,
-                                                 const bool symmetric, const Epetra_CrsMatrix &matrix,
+std::unique_ptr<LinearSolver> make_direct_solver(const DirectMethod method, const Matrix &matrix,
                                                  MPI_Comm communicator) {
-  using Kind = parameters::Solver::LinearSolver;
-  if (kind == Kind::klu)
+  if (method == DirectMethod::klu)
     return std::make_unique<AmesosSolver>("Amesos_Klu", matrix);
-  if (kind == Kind::mumps_symmetric || (kind == Kind::automatic && symmetric))
-    return std::make_unique<MumpsSolver>(true, matrix, communicator);
-  return std::make_unique<MumpsSolver>(false, matrix, communicator);
+  return std::make_unique<MumpsSolver>(method == DirectMethod::mumps_symmetric, matrix, communicator);
 }
 
 } // namespace billet

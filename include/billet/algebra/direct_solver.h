@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_ALGEBRA_DIRECT_SOLVER_H
+#define BILLET_ALGEBRA_DIRECT_SOLVER_H
+
+#include "billet/algebra/linear_solver.h"
+
+#include <mpi.h>
+
+#include <memory>
+
+namespace billet {
+
+enum class DirectMethod {
+  mumps_symmetric, ///< LDLᵀ of the matrix's upper triangle
+  mumps,           ///< LU
+  klu              ///< LU on the first rank
+};
+
+/// Makes a distributed sparse direct solver. The pattern is analysed once; a new factorisation reuses that.
+/// `matrix` must outlive the solver. Throws InputError if Trilinos was built without it.
+std::unique_ptr<LinearSolver> make_direct_solver(DirectMethod method, const Matrix &matrix,
+                                                 MPI_Comm communicator);
+
+} // namespace billet
+
+#endif

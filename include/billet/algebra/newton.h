@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_ALGEBRA_NEWTON_H
+#define BILLET_ALGEBRA_NEWTON_H
+
+#include "billet/algebra/vector.h"
+
+#include <functional>
+
+namespace billet {
+
+/// R(x) = 0 with its tangent K = ∂R/∂x. All members are called, and answer, alike on all ranks; false means
+/// that the state is not admissible.
+class NonlinearSystem {
+public:
+  virtual ~NonlinearSystem() = default;
+  virtual bool compute_residual(const Vector &x, Vector &residual) = 0;
+  virtual bool compute_tangent(const Vector &x) = 0;
+  /// Computes dx = K⁻¹ residual, so that |residual − K dx| <= relative_tolerance |residual| if the solver is
+  /// iterative.
+  virtual bool solve_tangent(const Vector &residual, Vector &dx, double relative_tolerance) = 0;
+  /// Returns the largest part of a correction that may be taken from x; 0 if it must not be taken at all.
+  virtual double max_step_length(const Vector & /*x*/, const Vector & /*direction*/) { return 1.; }
+  /// Returns what a residual is small against, at the last x.
+  virtual double residual_scale() const = 0;
+};
+
+/// A state of Newton's method, and the residual there.
+struct NewtonState {
+  const Vector &x, &residual;
+  double norm;  ///< |R|
+  double scale; ///< that R is small against
+};
+
+/// The last correction of Newton's method.
+struct NewtonCorrection {
+  NewtonState from;
+  const Vector &full; ///< −K⁻¹ R, of which the line search may have taken a part
+};
+
+enum class NewtonVerdict { unconverged, converged, failed };
+
+/// Judges the iterations: the number of corrections so far, where they have led, and the last of them, which
+/// is null at the start. Collective.
+using NewtonJudge =
+    std::function<NewtonVerdict(unsigned int n, const NewtonState &now, const NewtonCorrection *last)>;
+
+struct NewtonOptions {
+  double residual_tolerance; ///< part of the scale: no linear solution is asked for half of that or less
+  double linear_tolerance;   ///< of linear solutions; with `adapts_tolerance` the smallest that is asked for
+  double max_linear_tolerance = 1e-2; ///< the loosest, with `adapts_tolerance`
+  bool adapts_tolerance = false;      ///< to the pace of the iterations, after Eisenstat and Walker
+  bool searches_lines = false;        ///< shortens corrections whose residual does more work at their end
+};
+
+enum class NewtonEnd {
+  converged,
+  failed, ///< as judged, or no admissible correction was found
+  not_admissible_at_start
+};
+
+/// Solves by Newton's method, from x, and overwrites x by the last state; x stays if no correction was found.
+/// Collective.
+NewtonEnd solve_by_newton(NonlinearSystem &system, const NewtonOptions &options, const NewtonJudge &judge,
+                          Vector &x);
+
+} // namespace billet
+
+#endif
