@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Field quantities that the library does not know, registered here and read back from the file that is
-// written: the largest principal stress and the triaxiality of the elements of a pulled cube, and twice
-// the displacements of its nodes.
+// Output that the library does not know, registered here and read back from the files that are written: the
+// largest principal stress and the triaxiality of the elements of a pulled cube, twice the displacements of
+// its nodes, and a column of the history with the sum of all energies.
 
 #include "pulled_cube.h"
 
 #include "billet/output/field_quantity.h"
 #include "billet/output/field_writer.h"
+#include "billet/output/history_file.h"
 
 #include <deal.II/base/hdf5.h>
 #include <deal.II/lac/full_matrix.h>
@@ -43,6 +44,11 @@ NodalQuantity doubled_displacement() {
           }};
 }
 
+HistoryQuantity total_energy() {
+  return {"total energy", [](const Scene &) -> std::vector<std::string> { return {"total_energy"}; },
+          [](const HistorySample &sample) -> std::vector<double> { return {sample.state.energies.total()}; }};
+}
+
 /// The component of a field at each vertex of each element.
 std::vector<double> read(const std::string &file_name, const std::string &field,
                          const unsigned int component) {
@@ -75,6 +81,8 @@ int main(int argc, char *argv[]) {
   }
   check("a second one of the same name is refused", is_refused);
 
+  history_quantities().add(total_energy());
+
   constexpr double stretch = 1.05;
   parameters::Scene scene = testing::read_pulled_cube(
       "mean dilatation", "set Law = elastic\nset Young modulus = 200e3\nset Poisson ratio = 0.3", stretch, 1.,
@@ -100,5 +108,14 @@ int main(int argc, char *argv[]) {
   for (double &value : twice)
     value *= 2.;
   check("nodes", largest_difference(read(file, "doubled_z", 0), twice), 1e-8);
+
+  HistoryFile(run.scene, "fields").write({}, run.problem.state());
+  std::ifstream history("fields/history.csv");
+  std::string columns, values;
+  std::getline(history, columns);
+  std::getline(history, values);
+  check("column", columns.substr(columns.rfind(',') + 1) == "total_energy");
+  const double energy = run.problem.state().energies.total();
+  check("its value", std::abs(std::stod(values.substr(values.rfind(',') + 1)) / energy - 1.), 1e-12);
   return testing::exit_code();
 }
