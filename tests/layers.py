@@ -15,8 +15,8 @@ import sys
 from pathlib import Path
 
 FLOORS = (
-    "geometry material friction integration mechanics algebra parameters scene discretization forces contact"
-    " solve output run"
+    "geometry material friction integration mechanics loads algebra parameters scene discretization forces"
+    " contact solve output run"
 ).split()
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every floor

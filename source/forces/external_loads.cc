@@ -5,8 +5,6 @@
 #include "billet/errors.h"
 #include "billet/usage.h"
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <algorithm>
 
 namespace billet {
@@ -22,45 +20,42 @@ std::array<unsigned int, 4> local_corners(const BoundaryFacet &facet, const Loca
   return corners;
 }
 
+dealii::Point<3> centre_of(const BoundaryFacet &facet) {
+  dealii::Point<3> centre;
+  for (const auto &corner : facet.corners)
+    centre += 0.25 * corner;
+  return centre;
+}
+
+/// Returns the values of the expressions, once where they are the same everywhere.
+template <class Site>
+LoadValues evaluate(const AppliedLoad &load, const double t, const std::vector<Site> &sites) {
+  const auto &expressions = load.expressions;
+  const bool is_uniform = std::all_of(expressions.begin(), expressions.end(),
+                                      [](const Expression &value) { return value.is_uniform(); });
+  const std::size_t n_sets = is_uniform ? 1 : sites.size();
+  LoadValues values(expressions.size(), n_sets, is_uniform);
+  for (std::size_t k = 0; k < n_sets; ++k)
+    for (std::size_t i = 0; i < expressions.size(); ++i)
+      values.at(k)[i] = is_uniform ? expressions[i].value(t) : expressions[i].value(t, sites[k].centre);
+  return values;
+}
+
+template <class Placed> std::size_t memory_of(const std::vector<Placed> &loads) {
+  std::size_t bytes = 0;
+  for (const Placed &placed : loads)
+    bytes += sizeof(placed) + placed.sites.size() * sizeof(placed.sites.front());
+  return bytes;
+}
+
 } // namespace
 
 ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses)
     : nodes_(nodes), masses_(std::move(masses)) {
   for (std::size_t b = 0; b < scene.bodies().size(); ++b)
-    for (const auto &load : scene.bodies()[b].loads)
-      switch (load.kind) {
-      case Load::Kind::acceleration: {
-        Acceleration acceleration{&load, {}};
-        for (const auto &element : nodes.elements(b))
-          acceleration.nodes.insert(acceleration.nodes.end(), element.begin(), element.end());
-        auto &all = acceleration.nodes;
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        accelerations_.push_back(acceleration);
-        break;
-      }
-      case Load::Kind::pressure: {
-        Pressure pressure{&load, {}};
-        for (const auto &facet : collect_boundary_facets(nodes.discretization(), b, load.boundary_ids)) {
-          dealii::Point<3> centre;
-          for (const auto &corner : facet.corners)
-            centre += 0.25 * corner;
-          pressure.facets.push_back({local_corners(facet, nodes), centre});
-        }
-        pressures_.push_back(pressure);
-        break;
-      }
-      case Load::Kind::spring:
-      case Load::Kind::dashpot:
-        add_resistances(load, b);
-        break;
-      }
-  std::size_t bytes = resistances_.size() * sizeof(Resistance);
-  for (const auto &acceleration : accelerations_)
-    bytes += sizeof(acceleration) + acceleration.nodes.size() * sizeof(unsigned int);
-  for (const auto &pressure : pressures_)
-    bytes += sizeof(pressure) + pressure.facets.size() * sizeof(PressedFacet);
-  memory_.set(bytes);
+    for (const AppliedLoad &load : scene.bodies()[b].loads)
+      std::visit([&](const auto &action) { place(load, *action, b); }, load.load.action);
+  memory_.set(memory_of(on_bodies_) + memory_of(on_faces_) + memory_of(on_nodes_));
   // An expression without a value shows before anything is written.
   fail_together(nodes.discretization().communicator(), [&] {
     check_before_start([&] {
@@ -71,7 +66,24 @@ ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::v
   });
 }
 
-void ExternalLoads::add_resistances(const Load &load, const std::size_t body) {
+void ExternalLoads::place(const AppliedLoad &load, const BodyLoad &action, const std::size_t body) {
+  std::vector<unsigned int> nodes;
+  for (const auto &element : nodes_.elements(body))
+    nodes.insert(nodes.end(), element.begin(), element.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  on_bodies_.push_back({&load, &action, std::move(nodes)});
+}
+
+void ExternalLoads::place(const AppliedLoad &load, const FaceLoad &action, const std::size_t body) {
+  std::vector<LoadedFace> faces;
+  for (const auto &facet : collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids))
+    faces.push_back({local_corners(facet, nodes_), centre_of(facet)});
+  on_faces_.push_back({&load, &action, std::move(faces)});
+}
+
+void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, const std::size_t body) {
+  std::vector<LoadedNode> nodes;
   for (const auto &facet : collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids)) {
     std::array<double, 4> areas{};
     for (const auto &point : facet_points()) {
@@ -81,105 +93,74 @@ void ExternalLoads::add_resistances(const Load &load, const std::size_t body) {
         areas[a] += point.N[a] * area.norm();
     }
     const auto corners = local_corners(facet, nodes_);
-    for (unsigned int a = 0; a < 4; ++a) {
-      Resistance resistance{corners[a], load.direction != Load::Direction::all, load.vector, 0., 0.};
-      if (load.direction == Load::Direction::normal)
-        resistance.direction = facet.area_vector() / facet.area_vector().norm();
-      (load.kind == Load::Kind::spring ? resistance.stiffness : resistance.damping) =
-          load.coefficient * areas[a];
-      resistances_.push_back(resistance);
-    }
+    const Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
+    for (unsigned int a = 0; a < 4; ++a)
+      nodes.push_back({corners[a], areas[a], normal, centre_of(facet)});
   }
+  on_nodes_.push_back({&load, &action, std::move(nodes)});
 }
 
 void ExternalLoads::add_forces(const double t, const NodalVectors &displacements,
                                const NodalVectors &velocities, NodalVectors &forces) const {
-  const std::size_t n_loads = accelerations_.size() + pressures_.size() + resistances_.size();
+  std::size_t n_loads = on_bodies_.size() + on_faces_.size();
+  for (const auto &placed : on_nodes_)
+    n_loads += placed.sites.size();
   Usage::count_if(n_loads > 0, Capability::loads, n_loads);
-  for (const auto &acceleration : accelerations_) {
-    Tensor<1, 3> a;
-    for (unsigned int i = 0; i < 3; ++i)
-      a[i] = acceleration.load->values[i].value(t);
-    for (const unsigned int node : acceleration.nodes)
+  const NodalMotion at = motion(displacements, velocities);
+  for (const auto &[load, action, nodes] : on_bodies_) {
+    std::vector<double> values;
+    for (const Expression &expression : load->expressions)
+      values.push_back(expression.value(t));
+    const Tensor<1, 3> a = action->acceleration(values.data());
+    for (const unsigned int node : nodes)
       add_vector(forces.data(), node, masses_[node] * a);
   }
-  for (const auto &pressure : pressures_) {
-    const Expression &pressure_at = pressure.load->values[0];
-    double p = pressure_at.is_uniform() ? pressure_at.value(t) : 0.;
-    for (const auto &facet : pressure.facets) {
-      if (!pressure_at.is_uniform())
-        p = pressure_at.value(t, facet.centre);
-      std::array<Tensor<1, 3>, 4> positions;
-      for (unsigned int a = 0; a < 4; ++a)
-        positions[a] = get_vector(nodes_.positions().data(), facet.nodes[a]) +
-                       get_vector(displacements.data(), facet.nodes[a]);
-      for (const auto &point : facet_points()) {
-        const Tensor<1, 3> area = point.area_vector([&](const unsigned int a) { return positions[a]; });
-        for (unsigned int a = 0; a < 4; ++a)
-          add_vector(forces.data(), facet.nodes[a], -p * point.N[a] * area);
-      }
-    }
-  }
-  for (const auto &resistance : resistances_) {
-    Tensor<1, 3> force = -resistance.stiffness * get_vector(displacements.data(), resistance.node) -
-                         resistance.damping * get_vector(velocities.data(), resistance.node);
-    if (resistance.has_direction)
-      force = (force * resistance.direction) * resistance.direction;
-    add_vector(forces.data(), resistance.node, force);
-  }
+  for (const auto &[load, action, faces] : on_faces_)
+    action->add_forces(faces, evaluate(*load, t, faces), at, forces.data());
+  for (const auto &[load, action, nodes] : on_nodes_)
+    action->add_forces(nodes, evaluate(*load, t, nodes), at, forces.data());
 }
 
 void ExternalLoads::add_tangent(const double t, const NodalVectors &displacements,
-                                const double damping_factor, const TangentSystem &system) const {
-  for (const auto &pressure : pressures_)
-    for (const auto &facet : pressure.facets)
-      add_pressure_tangent(facet, pressure.load->values[0].value(t, facet.centre), displacements, system);
-
-  dealii::FullMatrix<double> matrix(3, 3);
-  std::vector<DofIndex> dofs(3);
-  for (const auto &resistance : resistances_) {
-    const double factor = resistance.stiffness + damping_factor * resistance.damping;
-    for (unsigned int i = 0; i < 3; ++i) {
-      dofs[i] = nodes_.dofs(resistance.node)[i];
-      for (unsigned int j = 0; j < 3; ++j)
-        matrix(i, j) = factor * (resistance.has_direction ? resistance.direction[i] * resistance.direction[j]
-                                                          : (i == j ? 1. : 0.));
+                                const NodalVectors &velocities, const double damping_factor,
+                                const TangentSystem &system) const {
+  const NodalMotion at = motion(displacements, velocities);
+  dealii::FullMatrix<double> of_face(12, 12), of_node(3, 3);
+  std::vector<DofIndex> face_dofs(12), node_dofs(3);
+  for (const auto &[load, action, faces] : on_faces_) {
+    if (action->tangent() == LoadTangent::none)
+      continue;
+    const LoadValues values = evaluate(*load, t, faces);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int i = 0; i < 3; ++i)
+          face_dofs[3 * a + i] = nodes_.dofs(faces[f].nodes[a])[i];
+      of_face = 0.;
+      action->add_tangent(faces[f], values.at(f), at, damping_factor, of_face);
+      system.add(of_face, face_dofs);
     }
-    system.add(matrix, dofs);
   }
-}
-
-void ExternalLoads::add_pressure_tangent(const PressedFacet &facet, const double pressure,
-                                         const NodalVectors &displacements,
-                                         const TangentSystem &system) const {
-  dealii::FullMatrix<double> matrix(12, 12);
-  std::vector<DofIndex> dofs(12);
-  std::array<Tensor<1, 3>, 4> positions;
-  for (unsigned int a = 0; a < 4; ++a) {
-    positions[a] = get_vector(nodes_.positions().data(), facet.nodes[a]) +
-                   get_vector(displacements.data(), facet.nodes[a]);
-    for (unsigned int i = 0; i < 3; ++i)
-      dofs[3 * a + i] = nodes_.dofs(facet.nodes[a])[i];
+  for (const auto &[load, action, nodes] : on_nodes_) {
+    if (action->tangent() == LoadTangent::none)
+      continue;
+    const LoadValues values = evaluate(*load, t, nodes);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      std::copy_n(nodes_.dofs(nodes[k].node).begin(), 3, node_dofs.begin());
+      of_node = 0.;
+      action->add_tangent(nodes[k], values.at(k), at, damping_factor, of_node);
+      system.add(of_node, node_dofs);
+    }
   }
-  for (const auto &point : facet_points()) {
-    const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return positions[a]; });
-    for (unsigned int b = 0; b < 4; ++b)
-      for (unsigned int j = 0; j < 3; ++j) {
-        Tensor<1, 3> e;
-        e[j] = 1.;
-        const Tensor<1, 3> change = point.N_xi[b] * dealii::cross_product_3d(e, g_2) +
-                                    point.N_eta[b] * dealii::cross_product_3d(g_1, e);
-        for (unsigned int a = 0; a < 4; ++a)
-          for (unsigned int i = 0; i < 3; ++i)
-            matrix(3 * a + i, 3 * b + j) += pressure * point.N[a] * change[i];
-      }
-  }
-  system.add(matrix, dofs);
 }
 
 void ExternalLoads::add_bounds(NodalVectors &bounds) const {
-  for (const auto &resistance : resistances_)
-    add_vector(bounds.data(), resistance.node, Tensor<1, 3>({resistance.stiffness, resistance.damping, 0.}));
+  for (const auto &placed : on_nodes_) {
+    if (!placed.load->load.limits_steps())
+      continue;
+    const auto [stiffness, damping] = placed.action->bound();
+    for (const LoadedNode &at : placed.sites)
+      add_vector(bounds.data(), at.node, Tensor<1, 3>({stiffness * at.area, damping * at.area, 0.}));
+  }
 }
 
 } // namespace billet

@@ -2,6 +2,7 @@
 #include "billet/output/field_writer.h"
 
 #include "billet/errors.h"
+#include "billet/output/field_quantity.h"
 
 #include <deal.II/fe/mapping_q_eulerian.h>
 #include <deal.II/lac/vector.h>
@@ -13,8 +14,6 @@
 #include <boost/serialization/vector.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -31,115 +30,60 @@ struct CellFields {
   std::vector<dealii::Vector<double>> values;
 };
 
-constexpr std::array<const char *, 8> stress_names = {"stress_xx",        "stress_yy", "stress_zz",
-                                                      "stress_xy",        "stress_xz", "stress_yz",
-                                                      "von_mises_stress", "pressure"};
-
-/// Values of `stress_names`.
-template <class Add> void add_stress(const dealii::SymmetricTensor<2, 3> &sigma, const Add &add) {
-  for (const auto &ij : {std::pair<int, int>{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}})
-    add(sigma[ij.first][ij.second]);
-  add(std::sqrt(1.5) * dealii::deviator(sigma).norm());
-  add(-dealii::trace(sigma) / 3.);
-}
-
 CellFields collect_cell_fields(const Scene &scene, const Discretization &discretization,
                                const Solution &solution) {
-  const bool stress = scene.parameters().output.stress;
-  const bool strain = scene.parameters().output.plastic_strain && scene.capabilities().plasticity;
+  std::vector<const ElementQuantity *> written, layered;
+  for (const ElementQuantity &quantity : field_quantities().of_elements())
+    if (quantity.is_written(scene)) {
+      written.push_back(&quantity);
+      if (quantity.has_layers)
+        layered.push_back(&quantity);
+    }
   CellFields fields;
-  const auto add_names = [&](const std::string &layer) {
-    if (stress)
-      for (const char *name : stress_names)
-        fields.names.push_back(layer + name);
-    if (strain)
-      fields.names.push_back(layer + "equivalent_plastic_strain");
+  const auto add_names = [&](const std::string &layer, const auto &quantities) {
+    for (const ElementQuantity *quantity : quantities)
+      for (const std::string &component : quantity->components)
+        fields.names.push_back(layer + component);
   };
-  add_names("");
-  fields.names.emplace_back("body");
+  add_names("", written);
   const bool has_layers = std::any_of(scene.bodies().begin(), scene.bodies().end(),
                                       [](const Body &body) { return body.formulation.points_through > 2; }) &&
                           !scene.parameters().is_explicit();
   if (has_layers)
     for (const std::string name : layer_names)
-      add_names(name + "_");
+      add_names(name + "_", layered);
   const auto n_cells = discretization.dof_handler().get_triangulation().n_active_cells();
   fields.values.assign(fields.names.size(), dealii::Vector<double>(n_cells));
 
   for (std::size_t body = 0; body < scene.bodies().size(); ++body) {
     const auto &elements = discretization.elements(body);
     std::vector<ElementSummary> summaries(elements.size());
-    if (stress || strain)
+    if (!layered.empty())
       summaries = solution.summarize(body);
     std::vector<LayerSummaries> layers;
-    if (has_layers && (stress || strain))
+    if (has_layers && !layered.empty())
       layers = solution.summarize_layers(body);
     for (std::size_t e = 0; e < elements.size(); ++e) {
       const auto cell = elements[e].cell->active_cell_index();
       std::size_t next = 0;
-      const auto add = [&](const double value) { fields.values[next++](cell) = value; };
-      const auto add_all = [&](const auto &summary) {
-        if (stress)
-          add_stress(summary.cauchy_stress, add);
-        if (strain)
-          add(summary.equivalent_plastic_strain);
+      const auto add = [&](const auto &summary, const auto &quantities) {
+        const ElementAverage average{body, summary.cauchy_stress, summary.equivalent_plastic_strain};
+        for (const ElementQuantity *quantity : quantities)
+          for (const double value : quantity->evaluate(average))
+            fields.values[next++](cell) = value;
       };
-      add_all(summaries[e]);
-      add(static_cast<double>(body));
+      add(summaries[e], written);
       if (!has_layers)
         continue;
       if (layers.empty()) // two points: a layer has what the element has
         for (std::size_t layer = 0; layer < layer_names.size(); ++layer)
-          add_all(summaries[e]);
+          add(summaries[e], layered);
       else
         for (const LayerSummary &layer : layers[e])
-          add_all(layer);
+          add(layer, layered);
     }
   }
   return fields;
-}
-
-/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap 0
-/// and status −1.
-std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const Solution &solution) {
-  std::array<Vector, 3> owned;
-  for (auto &vector : owned)
-    vector = discretization.make_owned_vector();
-  Vector area_sums = discretization.make_additive_vector();
-  // The dofs of a node follow each other, and have one owner.
-  for (const auto i : discretization.owned_dofs())
-    if ((i - *discretization.owned_dofs().begin()) % 3 != 1)
-      owned[1](i) = -1.;
-  const auto reports = solution.report_contacts();
-  for (std::size_t p = 0; p < reports.size(); ++p)
-    for (const auto &node : reports[p]) {
-      area_sums.add(1, &node.dofs[1], &node.area);
-      if (!discretization.owned_dofs().is_element(node.dofs[0]))
-        continue;
-      // Of several pairs at a node the one with the smallest gap is shown.
-      const bool is_shown = owned[1](node.dofs[0]) >= 0.;
-      if (is_shown && owned[0](node.dofs[1]) <= node.gap)
-        continue;
-      owned[0](node.dofs[0]) = node.pressure;
-      owned[0](node.dofs[1]) = node.gap;
-      owned[0](node.dofs[2]) = node.slip;
-      owned[1](node.dofs[0]) = static_cast<double>(node.status);
-      owned[1](node.dofs[2]) = static_cast<double>(p);
-      for (unsigned int i = 0; i < 3; ++i)
-        owned[2](node.dofs[i]) = node.traction[i];
-    }
-  area_sums.compress(dealii::VectorOperation::add);
-  Vector area_owned = discretization.make_owned_vector();
-  area_owned = area_sums;
-  std::array<Vector, 3> ghosted;
-  for (unsigned int k = 0; k < 3; ++k) {
-    owned[k].compress(dealii::VectorOperation::insert);
-    if (k == 1)
-      owned[k] += area_owned;
-    ghosted[k] = discretization.make_ghosted_vector();
-    ghosted[k] = owned[k];
-  }
-  return ghosted;
 }
 
 std::string numbered(const std::string &name, const unsigned int number, const std::string &ending) {
@@ -177,27 +121,20 @@ void FieldWriter::write(const Solution &solution) {
   const dealii::MappingQEulerian<3, Vector> mapping(1, discretization.dof_handler(), state.displacements);
   dealii::DataOut<3> data_out;
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
-  const std::vector<Interpretation> as_vector(
-      3, dealii::DataComponentInterpretation::component_is_part_of_vector);
-  const std::vector<Interpretation> as_scalars(3, dealii::DataComponentInterpretation::component_is_scalar);
-  data_out.add_data_vector(discretization.dof_handler(), state.displacements,
-                           std::vector<std::string>(3, "displacement"), as_vector);
-  if (state.velocities.size() > 0)
-    data_out.add_data_vector(discretization.dof_handler(), state.velocities,
-                             std::vector<std::string>(3, "velocity"), as_vector);
+  std::vector<NodalField> nodal_fields;
+  for (const NodalQuantity &quantity : field_quantities().nodal())
+    for (NodalField &field : quantity.evaluate(scene_, discretization, solution))
+      nodal_fields.push_back(std::move(field));
+  for (const NodalField &field : nodal_fields)
+    data_out.add_data_vector(
+        discretization.dof_handler(), field.values,
+        std::vector<std::string>(field.components.begin(), field.components.end()),
+        std::vector<Interpretation>(3, field.is_vector
+                                           ? dealii::DataComponentInterpretation::component_is_part_of_vector
+                                           : dealii::DataComponentInterpretation::component_is_scalar));
   const CellFields cell_fields = collect_cell_fields(scene_, discretization, solution);
   for (std::size_t i = 0; i < cell_fields.names.size(); ++i)
     data_out.add_data_vector(cell_fields.values[i], cell_fields.names[i], dealii::DataOut<3>::type_cell_data);
-  std::array<Vector, 3> contact_fields;
-  if (scene_.parameters().output.contact && scene_.capabilities().contact) {
-    contact_fields = collect_contact_fields(discretization, solution);
-    data_out.add_data_vector(discretization.dof_handler(), contact_fields[0],
-                             {"contact_pressure", "contact_gap", "contact_slip"}, as_scalars);
-    data_out.add_data_vector(discretization.dof_handler(), contact_fields[1],
-                             {"contact_status", "contact_area", "contact_pair"}, as_scalars);
-    data_out.add_data_vector(discretization.dof_handler(), contact_fields[2],
-                             std::vector<std::string>(3, "contact_traction"), as_vector);
-  }
   data_out.build_patches(mapping);
 
   Snapshot snapshot;

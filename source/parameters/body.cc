@@ -176,59 +176,22 @@ void Support::parse(Reader &reader) {
 }
 
 void Load::declare(ParameterHandler &prm) {
-  prm.declare_entry(
-      "Type", "pressure", Patterns::Selection("acceleration|pressure|spring|dashpot"),
-      "acceleration: of the whole body, such as gravity; pressure: on the deformed faces, against their "
-      "outward normal; spring, dashpot: resist displacements, velocities, of the faces.");
-  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
-                    "Boundary ids of the faces, separated by commas; all but accelerations need them.");
-  prm.declare_entry("Acceleration", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Three muParser expressions of the time t and the names of amplitudes. [length/time^2]");
-  prm.declare_entry("Pressure", "0", Patterns::Anything(),
-                    "Expression of the undeformed face's centre x, y, z, the time t and the names of "
-                    "amplitudes. [stress]");
-  prm.declare_entry("Stiffness", "0", Patterns::Double(),
-                    "Of a spring, > 0, per undeformed area. [force/length^3]");
-  prm.declare_entry("Damping", "0", Patterns::Double(),
-                    "Of a dashpot, > 0, per undeformed area. [force time/length^3]");
-  prm.declare_entry("Direction", "all", Patterns::Anything(),
-                    "Of a spring or dashpot: all, normal (of the undeformed face), or a vector 'x, y, z'.");
+  declare_selection(prm, "Type", "pressure", load_types(), "Kind of the load.");
 }
 
 void Load::parse(Reader &reader) {
-  const std::string type = reader.text("Type");
-  kind = type == "acceleration" ? Kind::acceleration
-         : type == "pressure"   ? Kind::pressure
-         : type == "spring"     ? Kind::spring
-                                : Kind::dashpot;
-  const std::vector<std::pair<std::string, std::vector<Kind>>> users = {
-      {"Boundary ids", {Kind::pressure, Kind::spring, Kind::dashpot}},
-      {"Acceleration", {Kind::acceleration}},
-      {"Pressure", {Kind::pressure}},
-      {"Stiffness", {Kind::spring}},
-      {"Damping", {Kind::dashpot}},
-      {"Direction", {Kind::spring, Kind::dashpot}}};
-  for (const auto &[key, kinds] : users)
-    if (reader.is_set(key) && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-      reader.reject(key, "no value: a load of type '" + type + "' does not use it");
-
+  type = reader.text("Type");
+  const LoadType *chosen = load_types().find(type);
+  if (chosen == nullptr) // the selection has refused all other names
+    throw std::logic_error("unknown load '" + type + "'");
+  join_parameters(load_types())
+      .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it");
   boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
-  if (kind != Kind::acceleration && boundary_ids.value.empty())
+  load = chosen->make(reader);
+  if (load.acts_on_faces() && boundary_ids.value.empty())
     reader.reject("Boundary ids", "at least one boundary id");
-  const auto expressions = reader.parts("Acceleration");
-  if (expressions.size() != 3)
-    reader.reject("Acceleration", "three expressions, separated by semicolons");
-  acceleration = reader.located("Acceleration",
-                                std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
-  pressure = reader.located("Pressure", reader.text("Pressure"));
-  if (kind == Kind::spring)
-    coefficient = reader.positive("Stiffness");
-  if (kind == Kind::dashpot)
-    coefficient = reader.positive("Damping");
-  const std::string where = reader.text("Direction");
-  direction = where == "all" ? Direction::all : where == "normal" ? Direction::normal : Direction::vector;
-  if (direction == Direction::vector)
-    vector = reader.direction("Direction");
+  for (const LoadExpression &expression : load.expressions)
+    origins.push_back(reader.origin(expression.key));
 }
 
 void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names,

@@ -47,17 +47,17 @@ bool is_zero(const std::string &expression) {
   }
 }
 
-Load make_load(const parameters::Load &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
-  Load load{parameters.kind,        parameters.boundary_ids.value, {},
-            parameters.coefficient, parameters.direction,          parameters.vector};
-  if (load.kind == Load::Kind::acceleration)
-    for (const auto &component : parameters.acceleration.value)
-      load.values.emplace_back(component, Expression::Variables::time, amplitudes,
-                               parameters.acceleration.origin);
-  if (load.kind == Load::Kind::pressure)
-    load.values.emplace_back(parameters.pressure.value, Expression::Variables::time_and_position, amplitudes,
-                             parameters.pressure.origin);
-  return load;
+AppliedLoad make_load(const parameters::Load &parameters,
+                      const std::vector<parameters::Amplitude> &amplitudes) {
+  AppliedLoad applied{parameters.type, parameters.load, parameters.boundary_ids.value, {}};
+  for (std::size_t i = 0; i < applied.load.expressions.size(); ++i) {
+    const LoadExpression &expression = applied.load.expressions[i];
+    applied.expressions.emplace_back(expression.text,
+                                     expression.uses_position ? Expression::Variables::time_and_position
+                                                              : Expression::Variables::time,
+                                     amplitudes, parameters.origins[i]);
+  }
+  return applied;
 }
 
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
@@ -227,7 +227,7 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
                      "', but this scene's contact tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
   if (parameters.is_dynamic() && !parameters.is_explicit())
-    allow_for_pressure();
+    allow_for_loads();
   if (!parameters.is_explicit())
     choose_material_tangents();
 }
@@ -258,18 +258,17 @@ void Scene::choose_material_tangents() {
   }
 }
 
-void Scene::allow_for_pressure() {
-  // The stiffness of a pressure that follows its faces is unsymmetric where it has a free border.
+void Scene::allow_for_loads() {
   for (const auto &body : bodies_)
-    for (const auto &load : body.loads)
-      if (load.kind == Load::Kind::pressure) {
+    for (const AppliedLoad &load : body.loads)
+      if (load.load.has_unsymmetric_tangent()) {
         capabilities_.unsymmetric_matrix = true;
         const auto &solver = parameters_.solver.linear_solver;
         using Kind = parameters::Solver::LinearSolver;
         if (solver.value == Kind::mumps_symmetric || solver.value == Kind::conjugate_gradients)
           throw InputError(solver.origin + ": found '" +
                            (solver.value == Kind::conjugate_gradients ? "CG" : "MUMPS symmetric") +
-                           "', but the pressure on body '" + body.name +
+                           "', but the " + load.type + " on body '" + body.name +
                            "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU, GMRES");
       }
 }
@@ -382,7 +381,9 @@ bool drives_something(const std::string &amplitude, const parameters::Scene &sce
                body.supports.begin(), body.supports.end(),
                [&](const parameters::Support &support) { return any_has_it(support.displacement.value); }) ||
            std::any_of(body.loads.begin(), body.loads.end(), [&](const parameters::Load &load) {
-             return any_has_it(load.acceleration.value) || has_it(load.pressure.value);
+             const auto &expressions = load.load.expressions;
+             return std::any_of(expressions.begin(), expressions.end(),
+                                [&](const LoadExpression &expression) { return has_it(expression.text); });
            });
   };
   return std::any_of(scene.tools.begin(), scene.tools.end(), moves) ||

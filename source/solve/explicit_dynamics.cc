@@ -162,8 +162,8 @@ void ExplicitDynamics::find_touched_nodes() {
   for (const auto &body : scene_.bodies())
     for (const auto &load : body.loads) {
       has_loads = true;
-      has_accelerations = has_accelerations || load.kind == Load::Kind::acceleration;
-      has_bounds_ = has_bounds_ || load.kind == Load::Kind::spring || load.kind == Load::Kind::dashpot;
+      has_accelerations = has_accelerations || !load.load.acts_on_faces();
+      has_bounds_ = has_bounds_ || load.load.limits_steps();
     }
   // All else acts on boundaries, of elements of any rank.
   NodalVectors is_touched = nodes_.make_vectors();

@@ -6,6 +6,7 @@
 #include "materials.h"
 
 #include "../geometry/make_surface.h"
+#include "../loads/make_load.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -133,11 +134,7 @@ void test_hops() {
     parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
     scene.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
     scene.bodies[0].initial_velocity.value = {"10", "0", "0"};
-    parameters::Load gravity;
-    gravity.kind = parameters::Load::Kind::acceleration;
-    gravity.acceleration.value = {"0", "0", "-2000"};
-    gravity.pressure.value = "0";
-    scene.bodies[0].loads.push_back(gravity);
+    scene.bodies[0].loads = {testing::make_load("acceleration", "set Acceleration = 0 ; 0 ; -2000")};
     scene.pairs[0].friction_law = law;
     scene.pairs[0].friction_coefficient = 2.;
     scene.pairs[0].kinetic_coefficient = 1.;

@@ -3,6 +3,8 @@
 // dashpots, pressure, prescribed displacements; momentum and energy.
 #include "explicit_run.h"
 
+#include "../loads/make_load.h"
+
 #include <deal.II/base/mpi.h>
 
 using namespace billet;
@@ -25,14 +27,9 @@ parameters::Scene bar_alone(const double end) {
   return scene;
 }
 
-parameters::Load make_load(const parameters::Load::Kind kind, const double coefficient = 0.) {
-  parameters::Load load;
-  load.kind = kind;
-  load.boundary_ids.value = {0, 1, 2, 3, 4, 5};
-  load.acceleration.value = {"0", "0", "0"};
-  load.pressure.value = "0";
-  load.coefficient = coefficient;
-  return load;
+/// Puts a load of these lines on the bar.
+void add_load(parameters::Scene &scene, const std::string &type, const std::string &lines) {
+  scene.bodies[0].loads.push_back(testing::make_load(type, lines));
 }
 
 /// Mean displacement along an axis.
@@ -62,8 +59,7 @@ void test_flight() {
 
 void test_fall() {
   parameters::Scene scene = bar_alone(100.);
-  scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::acceleration));
-  scene.bodies[0].loads.back().acceleration.value = {"0", "0", "-1e6"};
+  add_load(scene, "acceleration", "set Acceleration = 0 ; 0 ; -1e6");
   ExplicitRun run(scene);
   run.finish(100e-6, [] {});
   // Central differences are exact at a constant acceleration but for steps that vary.
@@ -75,8 +71,7 @@ void test_fall() {
 void test_mass_scaling() {
   // The fall again, with four times the mass and the same weight.
   parameters::Scene scene = bar_alone(100.);
-  scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::acceleration));
-  scene.bodies[0].loads.back().acceleration.value = {"0", "0", "-1e6"};
+  add_load(scene, "acceleration", "set Acceleration = 0 ; 0 ; -1e6");
   ExplicitRun plain(scene);
   plain.problem.prepare_step(1.); // one step of 0.75 times the bound, but for what divides the second
   scene.explicit_dynamics.scaled_step = 2. * plain.problem.step_length();
@@ -100,9 +95,7 @@ void test_spring() {
   const double k = 4e7, omega = std::sqrt(k * 4e-4 / mass), quarter = 0.5 * dealii::numbers::PI / omega;
   parameters::Scene scene = bar_alone(1e6 * quarter);
   scene.bodies[0].initial_velocity.value = {"1", "0", "0"};
-  scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::spring, k));
-  scene.bodies[0].loads[0].boundary_ids.value = {0};
-  scene.bodies[0].loads[0].direction = parameters::Load::Direction::normal;
+  add_load(scene, "spring", "set Boundary ids = 0\nset Direction = normal\nset Stiffness = 4e7");
   ExplicitRun run(scene);
   run.finish(quarter, [] {});
   check("spring: amplitude", std::abs(mean_displacement(run, 0) * omega - 1.), 1e-3);
@@ -113,12 +106,7 @@ void test_dashpot() {
   const double c = 5e5, rate = c * 4e-4 / mass; // slow: the bar's ends hardly lag behind
   parameters::Scene scene = bar_alone(1e6 / rate);
   scene.bodies[0].initial_velocity.value = {"0", "0", "1"};
-  scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::dashpot, c));
-  scene.bodies[0].loads[0].boundary_ids.value = {0};
-  scene.bodies[0].loads.push_back(scene.bodies[0].loads[0]); // at both ends half of it
-  scene.bodies[0].loads[1].boundary_ids.value = {1};
-  for (auto &load : scene.bodies[0].loads)
-    load.coefficient *= 0.5;
+  add_load(scene, "dashpot", "set Boundary ids = 0, 1\nset Damping = 2.5e5"); // at both ends half of it
   ExplicitRun run(scene);
   run.finish(1. / rate, [] {});
   check("dashpot: decay", std::abs(run.state().momentum[2] / mass * std::exp(1.) - 1.), 1e-3);
@@ -129,8 +117,7 @@ void test_pressure() {
   // A closed surface feels no resultant, however it is deformed; the bar shrinks by p (1 - 2 ν)/E, with ν =
   // 0.
   parameters::Scene scene = bar_alone(2000.);
-  scene.bodies[0].loads.push_back(make_load(parameters::Load::Kind::pressure));
-  scene.bodies[0].loads[0].pressure.value = "2e8*min(1, t/1e-3)";
+  add_load(scene, "pressure", "set Boundary ids = 0, 1, 2, 3, 4, 5\nset Pressure = 2e8*min(1, t/1e-3)");
   ExplicitRun run(scene);
   testing::WorstError momentum;
   double change = 0.;

@@ -3,6 +3,8 @@
 // steps that accuracy chooses, steps that fail.
 #include "implicit_run.h"
 
+#include "../loads/make_load.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <cstdlib>
@@ -172,12 +174,7 @@ void check_removal() {
 void check_pressure() {
   // A pressure that comes at once stretches the bar to twice what it does slowly, at 2 L/c.
   parameters::Scene scene = testing::read_test_scene("implicit_bar.prm");
-  parameters::Load pull{};
-  pull.name = "pull";
-  pull.kind = parameters::Load::Kind::pressure;
-  pull.boundary_ids.value = {1};
-  pull.pressure.value = "-1e-5";
-  scene.bodies[0].loads.push_back(pull);
+  scene.bodies[0].loads = {testing::make_load("pressure", "set Boundary ids = 1\nset Pressure = -1e-5")};
   scene.bodies[0].mesh.arguments = "32, 1, 1 : 0, 0, 0 : 8, 1, 1 : true";
   scene.time_stepping.initial_step = 0.1;
   scene.time_stepping.end_time = 16.;
@@ -190,8 +187,7 @@ void check_pressure() {
   check("  energy", std::abs(energies.drift()) / energies.external, 1e-3);
 
   // A dashpot of the bar's impedance, ρ c, at the end takes the wave that its root sends out, whole.
-  scene.bodies[0].loads[0].kind = parameters::Load::Kind::dashpot;
-  scene.bodies[0].loads[0].coefficient = 1.;
+  scene.bodies[0].loads = {testing::make_load("dashpot", "set Boundary ids = 1\nset Damping = 1")};
   scene.bodies[0].supports[0].displacement.value = {"1e-4*(t < 6 ? 0.5*(1 - cos(2*pi*t/6)) : 0)", "0", "0"};
   scene.time_stepping.end_time = 24.;
   SceneRun quiet(scene);

@@ -6,6 +6,8 @@
 
 #include "tangent_check.h"
 
+#include "../loads/make_load.h"
+
 #include <deal.II/base/mpi.h>
 
 using namespace billet;
@@ -13,17 +15,6 @@ using billet::testing::check;
 using billet::testing::SceneRun;
 
 namespace {
-
-parameters::Load make_load(const parameters::Load::Kind kind, const unsigned int id) {
-  parameters::Load load{};
-  load.name = "load";
-  load.kind = kind;
-  load.boundary_ids.value = {id};
-  load.acceleration.value = {"0.1", "0", "-t"};
-  load.pressure.value = "20*t*(1 + x)";
-  load.coefficient = kind == parameters::Load::Kind::spring ? 300. : 30.;
-  return load;
-}
 
 parameters::Scene make_scene() {
   parameters::Scene scene =
@@ -33,17 +24,14 @@ parameters::Scene make_scene() {
   body.material.density.value = 10.;
   body.supports[0].displacement.value = {"0.04*t", "0.03*t^2 - 0.01*z*t", "-0.08*t"};
   body.initial_velocity.value = {"0.04", "0", "-0.08*z"};
-  using Kind = parameters::Load::Kind;
-  body.loads.push_back(make_load(Kind::acceleration, 0));
-  body.loads.back().boundary_ids.value.clear();
-  body.loads.push_back(make_load(Kind::pressure, 0));
-  body.loads.push_back(make_load(Kind::spring, 1));
-  body.loads.push_back(make_load(Kind::spring, 2));
-  body.loads.back().direction = parameters::Load::Direction::normal;
-  body.loads.push_back(make_load(Kind::dashpot, 3));
-  body.loads.push_back(make_load(Kind::dashpot, 2));
-  body.loads.back().direction = parameters::Load::Direction::vector;
-  body.loads.back().vector = dealii::Tensor<1, 3>({0.6, 0., 0.8});
+  for (const auto &[type, lines] : std::initializer_list<std::array<std::string, 2>>{
+           {"acceleration", "set Acceleration = 0.1 ; 0 ; -t"},
+           {"pressure", "set Boundary ids = 0\nset Pressure = 20*t*(1 + x)"},
+           {"spring", "set Boundary ids = 1\nset Stiffness = 300"},
+           {"spring", "set Boundary ids = 2\nset Stiffness = 300\nset Direction = normal"},
+           {"dashpot", "set Boundary ids = 3\nset Damping = 30"},
+           {"dashpot", "set Boundary ids = 2\nset Damping = 30\nset Direction = 0.6, 0, 0.8"}})
+    body.loads.push_back(testing::make_load(type, lines));
   return scene;
 }
 

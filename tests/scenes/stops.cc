@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Where steps have to end, and in which directions nothing holds what moves.
+
 #include "scene_run.h"
+
+#include "../loads/make_load.h"
 
 #include "billet/scene/expression.h"
 
@@ -97,10 +100,7 @@ void check_free_directions() {
   check("symmetry planes hold along their normals",
         directions(tubes, halved) == Directions{{false, true, true}});
   const auto loaded = [](parameters::Scene &scene) {
-    scene.bodies[1].loads.resize(1);
-    parameters::Load &gravity = scene.bodies[1].loads[0];
-    gravity.kind = parameters::Load::Kind::acceleration;
-    gravity.acceleration.value = {{"0", "0", "-9.81"}};
+    scene.bodies[1].loads = {testing::make_load("acceleration", "set Acceleration = 0 ; 0 ; -9.81")};
   };
   check("loads hold or drive", directions(tubes, loaded) == Directions{});
   const auto supported = [](parameters::Scene &scene) {

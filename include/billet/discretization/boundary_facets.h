@@ -3,6 +3,7 @@
 #define BILLET_DISCRETIZATION_BOUNDARY_FACETS_H
 
 #include "billet/discretization/discretization.h"
+#include "billet/geometry/facet_point.h"
 
 #include <array>
 #include <cstdint>
@@ -41,28 +42,6 @@ struct FacetSize {
 /// At each node of these facets, by its first dof, with those of other ranks. Collective.
 std::map<DofIndex, FacetSize> compute_facet_sizes(const Discretization &discretization,
                                                   const std::vector<BoundaryFacet> &facets);
-
-/// Shape functions and their derivatives at one of the four Gauss points (±1/√3, ±1/√3), weights 1, of a
-/// facet.
-struct FacetPoint {
-  std::array<double, 4> N, N_xi, N_eta;
-
-  /// ∂x/∂ξ and ∂x/∂η; position(a) is that of corner a.
-  template <class Position> std::array<dealii::Tensor<1, 3>, 2> tangents(const Position &position) const {
-    std::array<dealii::Tensor<1, 3>, 2> g;
-    for (unsigned int a = 0; a < 4; ++a) {
-      g[0] += N_xi[a] * position(a);
-      g[1] += N_eta[a] * position(a);
-    }
-    return g;
-  }
-  /// Their cross product.
-  template <class Position> dealii::Tensor<1, 3> area_vector(const Position &position) const {
-    const auto g = tangents(position);
-    return dealii::cross_product_3d(g[0], g[1]);
-  }
-};
-const std::array<FacetPoint, 4> &facet_points();
 
 } // namespace billet
 

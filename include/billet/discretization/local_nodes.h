@@ -3,6 +3,7 @@
 #define BILLET_DISCRETIZATION_LOCAL_NODES_H
 
 #include "billet/discretization/discretization.h"
+#include "billet/mechanics/nodal_vectors.h"
 
 #include <deal.II/base/aligned_vector.h>
 
@@ -11,19 +12,8 @@
 
 namespace billet {
 
-/// A vector at each local node: x, y, z and one more, so that a node begins at a multiple of 32 bytes.
+/// A vector at each local node, `nodal_stride` numbers apart.
 using NodalVectors = dealii::AlignedVector<double>;
-constexpr unsigned int nodal_stride = 4;
-
-inline dealii::Tensor<1, 3> get_vector(const double *nodal_vectors, const unsigned int node) {
-  const double *v = nodal_vectors + std::size_t{nodal_stride} * node;
-  return dealii::Tensor<1, 3>({v[0], v[1], v[2]});
-}
-inline void add_vector(double *nodal_vectors, const unsigned int node, const dealii::Tensor<1, 3> &value) {
-  double *v = nodal_vectors + std::size_t{nodal_stride} * node;
-  for (unsigned int i = 0; i < 3; ++i)
-    v[i] += value[i];
-}
 
 /// The nodes of the elements that a rank owns, numbered from 0 as its elements name them, for schemes without
 /// a matrix. A node at elements of several ranks is on each of them; what they add to it is summed up by

@@ -10,57 +10,44 @@
 
 namespace billet {
 
-/// Accelerations, pressures, springs and dashpots on the elements and faces of a rank.
+/// Loads of all bodies on the elements and faces of a rank: first those on bodies, then those on deformed
+/// faces, then those on nodes.
 class ExternalLoads {
 public:
-  /// `masses` of the nodes, this rank's share, as accelerations act on them.
+  /// `masses` of the nodes, this rank's share, as loads on bodies act on them.
   ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses);
 
-  /// Adds the forces [force] at time t. Pressures act on the faces where they are, F_a = −∫ p N_a n dA;
-  /// springs and dashpots on their undeformed area A_a at a node, F_a = −A_a (k P u + c P v), P = I, or d ⊗ d
-  /// along a direction d.
+  /// Adds the forces [force] at time t.
   void add_forces(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                   NodalVectors &forces) const;
 
-  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v [force/length]. Of a pressure
-  ///   −∂F_a/∂x_b = ∫ p N_a (N_b,ξ [· × x,η] + N_b,η [x,ξ × ·]) dξdη,
-  /// which is symmetric only where the pressure is uniform and its border held, or none.
-  void add_tangent(double t, const NodalVectors &displacements, double damping_factor,
-                   const TangentSystem &system) const;
+  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v [force/length].
+  void add_tangent(double t, const NodalVectors &displacements, const NodalVectors &velocities,
+                   double damping_factor, const TangentSystem &system) const;
 
   /// Adds to bounds at the nodes: on the stiffness [force/length], component 0, and on the damping [force
   /// time/length], component 1.
   void add_bounds(NodalVectors &bounds) const;
 
 private:
-  struct Acceleration {
-    const Load *load;
-    std::vector<unsigned int> nodes;
+  /// Sites on this rank of one load.
+  template <class Action, class Site> struct Placed {
+    const AppliedLoad *load;
+    const Action *action;
+    std::vector<Site> sites;
   };
-  struct PressedFacet {
-    std::array<unsigned int, 4> nodes;
-    dealii::Point<3> centre; ///< undeformed
-  };
-  struct Pressure {
-    const Load *load;
-    std::vector<PressedFacet> facets;
-  };
-  /// A spring or dashpot at a node.
-  struct Resistance {
-    unsigned int node;
-    bool has_direction;
-    dealii::Tensor<1, 3> direction;
-    double stiffness, damping; ///< [force/length], [force time/length]
-  };
-  void add_resistances(const Load &load, std::size_t body);
-  void add_pressure_tangent(const PressedFacet &facet, double pressure, const NodalVectors &displacements,
-                            const TangentSystem &system) const;
+  void place(const AppliedLoad &load, const BodyLoad &action, std::size_t body);
+  void place(const AppliedLoad &load, const FaceLoad &action, std::size_t body);
+  void place(const AppliedLoad &load, const NodalLoad &action, std::size_t body);
+  NodalMotion motion(const NodalVectors &displacements, const NodalVectors &velocities) const {
+    return {nodes_.positions().data(), displacements.data(), velocities.data()};
+  }
 
   const LocalNodes &nodes_;
   std::vector<double> masses_;
-  std::vector<Acceleration> accelerations_;
-  std::vector<Pressure> pressures_;
-  std::vector<Resistance> resistances_;
+  std::vector<Placed<BodyLoad, unsigned int>> on_bodies_;
+  std::vector<Placed<FaceLoad, LoadedFace>> on_faces_;
+  std::vector<Placed<NodalLoad, LoadedNode>> on_nodes_;
   HeldMemory memory_{Capability::loads};
 };
 

@@ -2,21 +2,13 @@
 #ifndef BILLET_OUTPUT_HISTORY_FILE_H
 #define BILLET_OUTPUT_HISTORY_FILE_H
 
-#include "billet/solve/newton.h"
-#include "billet/solve/solution.h"
+#include "billet/output/history_quantity.h"
 
 #include <fstream>
+#include <string>
+#include <vector>
 
 namespace billet {
-
-/// What a step took to solve.
-struct StepReport {
-  unsigned int step = 0;
-  double length = 0.;
-  NewtonReport newton;
-  unsigned int total_iterations = 0; ///< since time 0, those of failed tries included
-  unsigned int total_cuts = 0;
-};
 
 /// history.csv: a line for every accepted step, or of an explicit scene as often as it asks, on disk as soon
 /// as it is known. Written by the first rank.
@@ -39,15 +31,12 @@ public:
   void write(unsigned int step, double length, const SolutionState &state);
 
 private:
-  static std::string columns(const Scene &scene);
   void begin(const Scene &scene);
-  void write_loads(const SolutionState &state);
-  void write_momenta(const SolutionState &state);
-  void end_line();
+  void write(const HistorySample &sample);
 
-  std::string name_, columns_;
-  bool has_stabilisation_;
-  bool has_viscous_forces_; ///< of stabilised bodies, in statics
+  std::string name_;
+  std::vector<HistoryQuantity> quantities_; ///< those that the scene has
+  std::string columns_;
   std::ofstream stream_;
 };
 

@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_BODY_H
 #define BILLET_PARAMETERS_BODY_H
 
+#include "billet/loads/load.h"
 #include "billet/material/elasticity.h"
 #include "billet/mechanics/element_type.h"
 #include "billet/parameters/reader.h"
@@ -60,19 +61,11 @@ struct Support {
 
 /// One named subsection of Loads: what acts on a body besides tools and other bodies.
 struct Load {
-  enum class Kind { acceleration, pressure, spring, dashpot };
-  /// Of springs and dashpots: in every direction, along the outward normal of the undeformed face, or along
-  /// a vector.
-  enum class Direction { all, normal, vector };
-
   std::string name;
-  Kind kind;
-  Located<std::vector<unsigned int>> boundary_ids;  ///< of all but accelerations
-  Located<std::array<std::string, 3>> acceleration; ///< expressions of t and the amplitudes
-  Located<std::string> pressure;                    ///< expression of x, y, z (reference), t, amplitudes
-  double coefficient = 0.;                          ///< of springs and dashpots, per reference area
-  Direction direction = Direction::all;
-  dealii::Tensor<1, 3> vector; ///< unit
+  std::string type;
+  billet::Load load;
+  std::vector<std::string> origins;                ///< of its expressions, for messages
+  Located<std::vector<unsigned int>> boundary_ids; ///< of loads on faces
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

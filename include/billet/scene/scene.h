@@ -32,16 +32,12 @@ struct Hold {
   const Expression *value = nullptr; ///< none: 0
 };
 
-/// What acts on a body besides tools and other bodies.
-struct Load {
-  using Kind = parameters::Load::Kind;
-  using Direction = parameters::Load::Direction;
-  Kind kind;
-  std::vector<unsigned int> boundary_ids;
-  std::vector<Expression> values; ///< of an acceleration three, of a pressure one
-  double coefficient;             ///< of springs [force/length³], of dashpots [force time/length³]
-  Direction direction;
-  dealii::Tensor<1, 3> vector; ///< unit, where the direction is one
+/// Load on a body of the scene.
+struct AppliedLoad {
+  std::string type; ///< for messages
+  Load load;
+  std::vector<unsigned int> boundary_ids; ///< none where it acts on the whole body
+  std::vector<Expression> expressions;    ///< those of the load
 };
 
 /// Element of a body.
@@ -57,7 +53,7 @@ struct Body {
   double density;         ///< of the undeformed body
   std::vector<Hold> holds;
   std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by the holds
-  std::vector<Load> loads;
+  std::vector<AppliedLoad> loads;
   std::vector<Expression> initial_velocity; ///< three, of the position
   /// Three, of the undeformed position; none with two points through the thickness.
   std::vector<Expression> thickness_direction;
@@ -187,7 +183,7 @@ private:
   std::vector<CapabilityUse> capability_uses() const;
   void add_corners(std::vector<double> &times) const;
   void make_pairs();
-  void allow_for_pressure();
+  void allow_for_loads();
   void choose_material_tangents();
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;

@@ -31,9 +31,9 @@ double LoadForces::subtract(const double t, const Vector &displacements, const V
   if (loads_ == nullptr)
     return 0.;
   displaced_ = nodal(displacements);
-  const NodalVectors rates = nodal(velocities);
+  rates_ = nodal(velocities);
   NodalVectors forces = nodes_.make_vectors();
-  fail_together(discretization_.communicator(), [&] { loads_->add_forces(t, displaced_, rates, forces); });
+  fail_together(discretization_.communicator(), [&] { loads_->add_forces(t, displaced_, rates_, forces); });
   Vector sum = discretization_.make_additive_vector();
   for (unsigned int node = 0; node < nodes_.size(); ++node)
     sum.add(3, nodes_.dofs(node).data(), &forces[std::size_t{nodal_stride} * node]);
@@ -45,7 +45,7 @@ double LoadForces::subtract(const double t, const Vector &displacements, const V
 
 void LoadForces::add_tangent(const double t, const double damping_factor, const TangentSystem &system) const {
   if (loads_ != nullptr)
-    loads_->add_tangent(t, displaced_, damping_factor, system);
+    loads_->add_tangent(t, displaced_, rates_, damping_factor, system);
 }
 
 double LoadForces::commit(const Vector &increment) {

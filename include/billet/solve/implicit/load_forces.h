@@ -36,7 +36,7 @@ private:
   const LocalNodes &nodes_;
   std::unique_ptr<ExternalLoads> loads_; ///< none where there are none
   Vector forces_n_, forces_;             ///< F
-  NodalVectors displaced_;               ///< at the last subtract()
+  NodalVectors displaced_, rates_;       ///< at the last subtract()
 };
 
 } // namespace billet

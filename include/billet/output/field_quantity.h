@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_FIELD_QUANTITY_H
+#define BILLET_OUTPUT_FIELD_QUANTITY_H
+
+#include "billet/solve/solution.h"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Averages over the points of an element, or of one of its layers.
+struct ElementAverage {
+  std::size_t body;
+  dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
+  double equivalent_plastic_strain;
+};
+
+/// Quantity that is constant in an element: a scalar, or the components of a vector or tensor.
+struct ElementQuantity {
+  std::string name;                    ///< as the manual calls it
+  std::string unit;                    ///< of all components; empty if they have none
+  std::vector<std::string> components; ///< their names in files
+  bool has_layers;                     ///< whether it follows from points, so that layers have it, too
+  std::function<bool(const Scene &)> is_written;
+  /// Returns one value for each component.
+  std::function<std::vector<double>(const ElementAverage &)> evaluate;
+};
+
+/// Vector, or three scalars, at the nodes.
+struct NodalField {
+  std::array<std::string, 3> components; ///< their names in files; those of a vector are the same
+  bool is_vector;
+  Vector values; ///< ghosted, three at each node
+};
+
+/// Quantity at the nodes.
+struct NodalQuantity {
+  std::string name; ///< as the manual calls it
+  std::string unit; ///< empty if there is none, or if its components have different ones
+  /// Returns its fields; none where the scene does not have it or does not ask for it. Collective.
+  std::function<std::vector<NodalField>(const Scene &, const Discretization &, const Solution &)> evaluate;
+};
+
+/// Quantities that field output can show, in the order of the files. A new one is a file in
+/// source/output/fields/ with a function that returns it, and its name in the table of field_quantity.cc; or,
+/// outside the library, one call of add() before fields are written.
+class FieldQuantities {
+public:
+  FieldQuantities(const std::vector<NodalQuantity> &nodal, const std::vector<ElementQuantity> &of_elements);
+
+  /// Throws std::logic_error if the name, or that of a component, is taken.
+  void add(const NodalQuantity &quantity);
+  void add(const ElementQuantity &quantity);
+
+  const std::vector<NodalQuantity> &nodal() const { return nodal_; }
+  const std::vector<ElementQuantity> &of_elements() const { return of_elements_; }
+
+private:
+  void check_new(const std::string &name) const;
+
+  std::vector<NodalQuantity> nodal_;
+  std::vector<ElementQuantity> of_elements_;
+};
+
+FieldQuantities &field_quantities();
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_HISTORY_QUANTITY_H
+#define BILLET_OUTPUT_HISTORY_QUANTITY_H
+
+#include "billet/solve/newton.h"
+#include "billet/solve/solution.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// What a step of an implicit scene took to solve.
+struct StepReport {
+  unsigned int step = 0;
+  double length = 0.;
+  NewtonReport newton;
+  unsigned int total_iterations = 0; ///< since time 0, those of failed tries included
+  unsigned int total_cuts = 0;
+};
+
+/// What a line of the history is made from.
+struct HistorySample {
+  const SolutionState &state;
+  unsigned int step;
+  double length;            ///< of an explicit scene: of the next step [time]
+  const StepReport *report; ///< none in explicit scenes
+};
+
+/// Columns of the history that belong together.
+struct HistoryQuantity {
+  std::string name;
+  /// Returns the columns' names; none where the scene does not have the quantity.
+  std::function<std::vector<std::string>(const Scene &)> columns;
+  /// Returns one value for each column.
+  std::function<std::vector<double>(const HistorySample &)> evaluate;
+};
+
+/// Quantities of the history, in the order of its columns. A new one is a file in source/output/history/
+/// with a function that returns it, and its name in the table of history_quantity.cc; or, outside the
+/// library, one call of add() before the history begins.
+class HistoryQuantities {
+public:
+  explicit HistoryQuantities(const std::vector<HistoryQuantity> &quantities);
+
+  /// Throws std::logic_error if the name is taken.
+  void add(const HistoryQuantity &quantity);
+
+  auto begin() const { return quantities_.begin(); }
+  auto end() const { return quantities_.end(); }
+
+private:
+  std::vector<HistoryQuantity> quantities_;
+};
+
+HistoryQuantities &history_quantities();
+
+} // namespace billet
+
+#endif

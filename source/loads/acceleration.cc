@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/loads/load.h"
+
+namespace billet {
+
+LoadType acceleration_type();
+
+namespace {
+
+/// F_a = m_a a.
+class Acceleration final : public BodyLoad {
+public:
+  dealii::Tensor<1, 3> acceleration(const double *values) const override {
+    return dealii::Tensor<1, 3>({values[0], values[1], values[2]});
+  }
+};
+
+} // namespace
+
+LoadType acceleration_type() {
+  return {"acceleration",
+          "of the whole body, such as gravity",
+          {{"Acceleration", "0 ; 0 ; 0", TypeParameter::Kind::text,
+            "Three muParser expressions of the time t and the names of amplitudes. [length/time^2]"}},
+          [](const TypeInput &input) {
+            const auto components = input.parts("Acceleration");
+            if (components.size() != 3)
+              input.reject("Acceleration", "three expressions, separated by semicolons");
+            Load load{{}, std::make_shared<const Acceleration>()};
+            for (const std::string &component : components)
+              load.expressions.push_back({"Acceleration", component, false});
+            return load;
+          }};
+}
+
+} // namespace billet

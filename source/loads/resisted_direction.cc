@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/loads/resisted_direction.h"
+
+namespace billet {
+
+TypeParameter ResistedDirection::parameter() {
+  return {"Direction", "all", TypeParameter::Kind::text,
+          "all, normal (of the undeformed face), or a vector 'x, y, z'."};
+}
+
+ResistedDirection::ResistedDirection(const TypeInput &input) {
+  const std::string text = input.text("Direction");
+  kind_ = text == "all" ? Kind::all : text == "normal" ? Kind::normal : Kind::vector;
+  if (kind_ == Kind::vector)
+    vector_ = input.direction("Direction");
+}
+
+void ResistedDirection::add(const double c, const LoadedNode &node,
+                            dealii::FullMatrix<double> &matrix) const {
+  const dealii::Tensor<1, 3> &d = along(node);
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      matrix(i, j) += c * (kind_ == Kind::all ? (i == j ? 1. : 0.) : d[i] * d[j]);
+}
+
+} // namespace billet

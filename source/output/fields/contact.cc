@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/field_quantity.h"
+
+namespace billet {
+
+NodalQuantity contact_quantity();
+
+namespace {
+
+/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap 0
+/// and status −1.
+std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const Solution &solution) {
+  std::array<Vector, 3> owned;
+  for (auto &vector : owned)
+    vector = discretization.make_owned_vector();
+  Vector area_sums = discretization.make_additive_vector();
+  // The dofs of a node follow each other, and have one owner.
+  for (const auto i : discretization.owned_dofs())
+    if ((i - *discretization.owned_dofs().begin()) % 3 != 1)
+      owned[1](i) = -1.;
+  const auto reports = solution.report_contacts();
+  for (std::size_t p = 0; p < reports.size(); ++p)
+    for (const auto &node : reports[p]) {
+      area_sums.add(1, &node.dofs[1], &node.area);
+      if (!discretization.owned_dofs().is_element(node.dofs[0]))
+        continue;
+      // Of several pairs at a node the one with the smallest gap is shown.
+      const bool is_shown = owned[1](node.dofs[0]) >= 0.;
+      if (is_shown && owned[0](node.dofs[1]) <= node.gap)
+        continue;
+      owned[0](node.dofs[0]) = node.pressure;
+      owned[0](node.dofs[1]) = node.gap;
+      owned[0](node.dofs[2]) = node.slip;
+      owned[1](node.dofs[0]) = static_cast<double>(node.status);
+      owned[1](node.dofs[2]) = static_cast<double>(p);
+      for (unsigned int i = 0; i < 3; ++i)
+        owned[2](node.dofs[i]) = node.traction[i];
+    }
+  area_sums.compress(dealii::VectorOperation::add);
+  Vector area_owned = discretization.make_owned_vector();
+  area_owned = area_sums;
+  std::array<Vector, 3> ghosted;
+  for (unsigned int k = 0; k < 3; ++k) {
+    owned[k].compress(dealii::VectorOperation::insert);
+    if (k == 1)
+      owned[k] += area_owned;
+    ghosted[k] = discretization.make_ghosted_vector();
+    ghosted[k] = owned[k];
+  }
+  return ghosted;
+}
+
+} // namespace
+
+NodalQuantity contact_quantity() {
+  return {"contact", "",
+          [](const Scene &scene, const Discretization &discretization,
+             const Solution &solution) -> std::vector<NodalField> {
+            if (!scene.parameters().output.contact || !scene.capabilities().contact)
+              return {};
+            const auto [pressures, states, tractions] = collect_contact_fields(discretization, solution);
+            return {{{"contact_pressure", "contact_gap", "contact_slip"}, false, pressures},
+                    {{"contact_status", "contact_area", "contact_pair"}, false, states},
+                    {{"contact_traction", "contact_traction", "contact_traction"}, true, tractions}};
+          }};
+}
+
+} // namespace billet

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/history_quantity.h"
+
+#include <algorithm>
+
+namespace billet {
+
+HistoryQuantity tool_loads_quantity();
+HistoryQuantity body_pair_loads_quantity();
+
+namespace {
+
+/// A name of the scene as part of a column's name.
+std::string column_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');
+  return name;
+}
+
+/// Names of the values of add_load().
+constexpr std::array<const char *, 8> load_names = {
+    "force_x",  "force_y",  "force_z",      "moment_x",
+    "moment_y", "moment_z", "contact_area", "deepest_penetration"};
+
+void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values) {
+  for (unsigned int c = 0; c < 3; ++c)
+    values.push_back(vector[c]);
+}
+
+void add_load(const ContactLoad &load, std::vector<double> &values) {
+  add_vector(load.force, values);
+  add_vector(load.moment, values);
+  values.push_back(load.area);
+  values.push_back(load.deepest);
+}
+
+} // namespace
+
+HistoryQuantity tool_loads_quantity() {
+  return {"loads and places of tools",
+          [](const Scene &scene) {
+            std::vector<std::string> columns;
+            for (const auto &tool : scene.tools()) {
+              const std::string name = column_name(tool.name()) + ".";
+              for (const char *quantity : load_names)
+                columns.push_back(name + quantity);
+              for (const char *quantity : {"travel_x", "travel_y", "travel_z", "turn"})
+                columns.push_back(name + quantity);
+            }
+            return columns;
+          },
+          [](const HistorySample &sample) {
+            std::vector<double> values;
+            for (std::size_t i = 0; i < sample.state.tool_loads.size(); ++i) {
+              add_load(sample.state.tool_loads[i], values);
+              add_vector(sample.state.placements[i].translation, values);
+              values.push_back(sample.state.placements[i].rotation_angle);
+            }
+            return values;
+          }};
+}
+
+HistoryQuantity body_pair_loads_quantity() {
+  return {"loads between bodies",
+          [](const Scene &scene) {
+            std::vector<std::string> columns;
+            for (const auto &pair : scene.body_pairs())
+              for (const char *quantity : load_names)
+                columns.push_back(column_name(pair.name) + "." + quantity);
+            return columns;
+          },
+          [](const HistorySample &sample) {
+            std::vector<double> values;
+            for (const ContactLoad &load : sample.state.body_pair_loads)
+              add_load(load, values);
+            return values;
+          }};
+}
+
+} // namespace billet

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/history_quantity.h"
+
+namespace billet {
+
+HistoryQuantity step_quantity();
+HistoryQuantity solver_quantity();
+
+HistoryQuantity step_quantity() {
+  return {"step",
+          [](const Scene &) -> std::vector<std::string> {
+            return {"step", "time", "step_length"};
+          },
+          [](const HistorySample &sample) -> std::vector<double> {
+            return {static_cast<double>(sample.step), sample.state.time, sample.length};
+          }};
+}
+
+HistoryQuantity solver_quantity() {
+  return {"solver",
+          [](const Scene &scene) -> std::vector<std::string> {
+            if (scene.parameters().is_explicit())
+              return {};
+            return {"iterations", "residual", "total_iterations", "total_cuts", "linear_iterations"};
+          },
+          [](const HistorySample &sample) -> std::vector<double> {
+            const StepReport &report = *sample.report;
+            return {static_cast<double>(report.newton.iterations.size()), report.newton.force,
+                    static_cast<double>(report.total_iterations), static_cast<double>(report.total_cuts),
+                    static_cast<double>(report.newton.linear_iterations)};
+          }};
+}
+
+} // namespace billet

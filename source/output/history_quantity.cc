@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/history_quantity.h"
+
+#include <stdexcept>
+
+namespace billet {
+
+HistoryQuantity step_quantity();
+HistoryQuantity solver_quantity();
+HistoryQuantity tool_loads_quantity();
+HistoryQuantity body_pair_loads_quantity();
+std::vector<HistoryQuantity> energy_quantities();
+HistoryQuantity momenta_quantity();
+
+HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
+  for (const HistoryQuantity &quantity : quantities)
+    add(quantity);
+}
+
+void HistoryQuantities::add(const HistoryQuantity &quantity) {
+  for (const HistoryQuantity &other : quantities_)
+    if (other.name == quantity.name)
+      throw std::logic_error("the quantity '" + quantity.name + "' of the history is registered twice");
+  quantities_.push_back(quantity);
+}
+
+HistoryQuantities &history_quantities() {
+  static HistoryQuantities quantities = [] {
+    HistoryQuantities all(
+        {step_quantity(), solver_quantity(), tool_loads_quantity(), body_pair_loads_quantity()});
+    for (const HistoryQuantity &energy : energy_quantities())
+      all.add(energy);
+    all.add(momenta_quantity());
+    return all;
+  }();
+  return quantities;
+}
+
+} // namespace billet
