@@ -8,7 +8,7 @@
 #include "billet/output/checkpoint.h"
 #include "billet/run/output_folder.h"
 #include "billet/scene/plausibility.h"
-#include "billet/solve/explicit_dynamics.h"
+#include "billet/solve/explicit/explicit_dynamics.h"
 #include "billet/solve/implicit/implicit_solution.h"
 
 #include <ostream>

@@ -3,7 +3,7 @@
 #define BILLET_TESTS_EXPLICIT_RUN_H
 
 #include "billet/errors.h"
-#include "billet/solve/explicit_dynamics.h"
+#include "billet/solve/explicit/explicit_dynamics.h"
 
 #include "../testing.h"
 

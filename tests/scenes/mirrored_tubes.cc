@@ -3,7 +3,7 @@
 // enter each other; with their ends in the pair or without.
 #include "billet/errors.h"
 #include "billet/parameters/scene.h"
-#include "billet/solve/explicit_dynamics.h"
+#include "billet/solve/explicit/explicit_dynamics.h"
 
 #include "../testing.h"
 

@@ -7,7 +7,7 @@
 #include "billet/run/stops.h"
 #include "billet/run/stopwatch.h"
 #include "billet/solve/energy_errors.h"
-#include "billet/solve/explicit_dynamics.h"
+#include "billet/solve/explicit/explicit_dynamics.h"
 
 #include <memory>
 #include <string>

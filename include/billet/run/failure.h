@@ -3,7 +3,7 @@
 #define BILLET_RUN_FAILURE_H
 
 #include "billet/output/history_file.h"
-#include "billet/solve/explicit_dynamics.h"
+#include "billet/solve/explicit/explicit_dynamics.h"
 
 namespace billet {
 

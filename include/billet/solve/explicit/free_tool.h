@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_SOLVE_FREE_TOOL_H
-#define BILLET_SOLVE_FREE_TOOL_H
+#ifndef BILLET_SOLVE_EXPLICIT_FREE_TOOL_H
+#define BILLET_SOLVE_EXPLICIT_FREE_TOOL_H
 
 #include "billet/contact/contact_load.h"
 #include "billet/scene/scene.h"

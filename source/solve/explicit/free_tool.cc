@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/solve/free_tool.h"
+#include "billet/solve/explicit/free_tool.h"
+
+#include "billet/solve/restart.h"
 
 namespace billet {
 
@@ -59,6 +61,37 @@ double FreeTool::motion_work(const ContactLoad &local) const {
   if (tool_.is_driven())
     work -= resistance(local) * (offset_ - offset_before_);
   return 0.5 * work;
+}
+
+void FreeTool::save(StateWriter &writer) const {
+  writer.write("offset", {offset_before_, offset_ - offset_before_});
+  writer.write("flags", {has_stopped_ ? 1. : 0., is_removed_ ? 1. : 0.});
+  writer.write("placement", to_numbers(before_));
+  writer.write("placement now", to_numbers(now_));
+  writer.write("free", {offset_, offset_before_, rate_, rate_before_, load_});
+  if (inertia_ > 0.)
+    writer.write("rate", {0.5 * (rate_ + rate_before_)}); // at the placement
+}
+
+void FreeTool::load(const StateReader &reader, const bool is_exact) {
+  const std::vector<double> flags = reader.read("flags");
+  has_stopped_ = flags.at(0) != 0.;
+  is_removed_ = flags.at(1) != 0.;
+  offset_ = offset_before_ = reader.read("offset").at(0);
+  before_ = now_ = to_placement(reader.read("placement"));
+  if (is_removed_)
+    rate_ = rate_before_ = 0.;
+  else if (inertia_ > 0. && reader.has("rate"))
+    rate_ = rate_before_ = reader.number("rate");
+  if (!is_exact)
+    return;
+  now_ = to_placement(reader.read("placement now"));
+  const std::vector<double> free = reader.read("free");
+  offset_ = free.at(0);
+  offset_before_ = free.at(1);
+  rate_ = free.at(2);
+  rate_before_ = free.at(3);
+  load_ = free.at(4);
 }
 
 } // namespace billet

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_EXPLICIT_CROSSING_LIMIT_H
+#define BILLET_SOLVE_EXPLICIT_CROSSING_LIMIT_H
+
+#include "billet/solve/explicit/explicit_parts.h"
+
+#include <limits>
+
+namespace billet {
+
+/// The step in which nodes that come through surfaces make a small error of energy.
+class CrossingLimit {
+public:
+  explicit CrossingLimit(const ExplicitParts &parts) : parts_(parts) {}
+
+  /// Computes the step at the last forces. Errors are measured against `energy`, or the kinetic energy of all
+  /// bodies at the speed with which nodes come. Collective.
+  void update(double stable_step, double energy);
+  /// Returns that step; infinite if no node comes through a surface [time].
+  double value() const { return value_; }
+
+private:
+  /// What comes through surfaces, of this rank, in a step.
+  struct Coming {
+    Crossings crossings;
+    double step;
+    bool is_unknown; ///< on all ranks alike: only the first step shows how fast it comes
+  };
+  Coming at_start(double stable_step) const;
+
+  const ExplicitParts &parts_;
+  double value_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_EXPLICIT_EXPLICIT_CLOCK_H
+#define BILLET_SOLVE_EXPLICIT_EXPLICIT_CLOCK_H
+
+#include "billet/errors.h"
+#include "billet/state.h"
+
+#include <string>
+
+namespace billet {
+
+/// Time of explicit dynamics, and the steps that lead to the next event. Energies are kept best by equal
+/// steps, and by steps that change slowly. Steps grow by 2 % at a time, faster while they are much shorter
+/// than they may be.
+class ExplicitClock {
+public:
+  /// Failures name the scene's file.
+  explicit ExplicitClock(std::string file_name) : file_name_(std::move(file_name)) {}
+
+  double time() const { return time_; }
+  /// Returns the step from time() on; before plan(), the one that leads to time() [time].
+  double step() const { return step_; }
+  /// Returns the step before that, after plan().
+  double step_before() const { return step_before_; }
+  unsigned int n_steps() const { return n_steps_; }
+  /// Whether no step has been taken since the start, or since a restart that is not exact.
+  bool is_at_start() const { return n_steps_ == 0; }
+  /// Returns the time since the last forces, 0 for the first ones; before plan().
+  double since_forces() const { return is_at_start() ? 0. : step_; }
+
+  /// Chooses the step from time() on, at most `allowed`: a whole number of equal steps leads to `event`, as
+  /// long as they may stay equal. Throws SolutionFailure where time would not advance.
+  void plan(double event, double allowed);
+  /// Moves to the end of the step.
+  void advance();
+
+  /// Makes steps that were planned before lead to this event.
+  void plan_to(double event);
+  /// Starts at time t in place of 0.
+  void begin(const double t) { time_ = t; }
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
+  /// Returns a failure at this time, of which `why` tells the reason.
+  SolutionFailure failure(const std::string &why) const;
+
+private:
+  std::string file_name_;
+  double time_ = 0., step_ = 0., step_before_ = 0.;
+  bool is_growing_ = false;                  ///< steps were much shorter than allowed, and are not yet long
+  double event_ = 0.;                        ///< to which the planned steps lead
+  unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
+  double time_before_ = 0.;                  ///< time of the last forces, after advance()
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_EXPLICIT_EXPLICIT_ELEMENTS_H
+#define BILLET_SOLVE_EXPLICIT_EXPLICIT_ELEMENTS_H
+
+#include "billet/discretization/local_nodes.h"
+#include "billet/mechanics/explicit_block.h"
+#include "billet/scene/scene.h"
+#include "billet/solve/explicit/explicit_clock.h"
+#include "billet/solve/restart.h"
+#include "billet/usage.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Works since time 0, of one rank [energy].
+struct ExplicitWorks {
+  double external = 0., plastic = 0., friction = 0., viscous = 0.;
+};
+
+/// The elements of all bodies on a rank, by central differences.
+class ExplicitElements {
+public:
+  /// Throws InputError, on all ranks, for a formulation or an element that is not admissible. Collective.
+  ExplicitElements(const Scene &scene, const LocalNodes &nodes);
+
+  /// Returns this rank's share of the lumped mass of each of its nodes [mass].
+  std::vector<double> lumped_masses() const;
+  /// Multiplies densities so that no element has a shorter stable step than `min_step` [time]. Returns the
+  /// mass that this adds on this rank.
+  double scale_mass(double min_step);
+
+  /// Subtracts internal and viscous forces from those of `nodes`, advances histories by the time since the
+  /// last forces, and adds to `works`. Returns the stable step of this rank's elements [time]. Throws
+  /// SolutionFailure, on this rank alone, where an element is inverted.
+  double add_forces(const ExplicitBlock::Nodes &nodes, const ExplicitClock &clock, ExplicitWorks &works);
+  /// Return energies of this rank at the last forces [energy].
+  double elastic_energy() const { return elastic_energy_; }
+  double hourglass_energy() const { return hourglass_energy_; }
+
+  std::vector<ElementSummary> summarize(std::size_t body, const NodalVectors &displacements) const;
+  /// Returns the doubles of history on this rank.
+  std::size_t history_size() const;
+
+  // For checkpoints. Groups are those of bodies.
+  void save(StateWriter &writer) const;
+  /// Whether the histories of the checkpoint are of the same formulations.
+  bool has_same_formulations(StateReader &reader) const;
+  void load(StateReader &reader);
+  /// Makes histories those that have the stresses of another formulation at these displacements, which it
+  /// takes in both forms (ghosted).
+  void load_stresses(StateReader &reader, const NodalVectors &displacements, const Vector &ghosted);
+
+private:
+  void make_blocks();
+  void count_memory();
+  std::string describe_formulation(std::size_t body) const;
+  SolutionFailure describe_inverted(std::size_t body, std::size_t element, const double *displacements,
+                                    const ExplicitClock &clock) const;
+
+  const Scene &scene_;
+  const LocalNodes &nodes_;
+  std::vector<std::unique_ptr<ExplicitBlock>> blocks_; ///< by body
+  HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
+  double elastic_energy_ = 0., hourglass_energy_ = 0.;
+};
+
+} // namespace billet
+
+#endif

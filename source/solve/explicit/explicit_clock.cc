@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/explicit/explicit_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+void ExplicitClock::plan(const double event, const double allowed) {
+  // What a change of the step by a part p costs goes with p (ω Δt)²: short steps may grow faster.
+  constexpr double growth = 0.02, max_growth = 2., short_step = 0.9, long_step = 0.99;
+  constexpr double rounding = 1e-9; // a remainder that is so much too long is one step
+  step_before_ = step_;
+  const double length = step_ / allowed;
+  const double longest =
+      n_steps_ > 0 ? std::min(allowed, std::min(max_growth, 1. + growth / (length * length)) * step_)
+                   : allowed;
+  const double remaining = event - time_;
+  const double n = std::max(1., std::ceil(remaining / longest * (1. - rounding)));
+  const double fresh = remaining / n;
+  is_growing_ = step_ < (is_growing_ ? long_step : short_step) * allowed;
+  const bool is_planned = n_planned_ > 0 && event_ == event && step_ <= allowed;
+  // Near the event, n steps may have to be shorter than those planned: then these are kept.
+  if (is_planned && !(is_growing_ && fresh > step_)) {
+    --n_planned_;
+    return;
+  }
+  event_ = event;
+  step_ = fresh;
+  n_planned_ = static_cast<unsigned int>(std::min(n, 1e9)) - 1;
+  if (!(time_ + step_ > time_) || !(n < 1e15)) {
+    std::ostringstream why;
+    why << "the stable step, " << longest
+        << ", is too short for the clock: is an element nearly flat, a density tiny or a penalty huge? 'Mass "
+           "scaling "
+           "step' makes it longer";
+    throw failure(why.str());
+  }
+}
+
+void ExplicitClock::advance() {
+  time_before_ = time_;
+  time_ = n_planned_ == 0 ? event_ : time_ + step_;
+  ++n_steps_;
+}
+
+void ExplicitClock::plan_to(const double event) {
+  if (event_ != event)
+    n_planned_ = 0;
+}
+
+void ExplicitClock::save(StateWriter &writer) const {
+  writer.write("time", {time_});
+  writer.write("time before", {time_before_});
+  writer.write("clock", {static_cast<double>(n_steps_), static_cast<double>(n_planned_), step_, step_before_,
+                         is_growing_ ? 1. : 0., event_, time_before_});
+}
+
+void ExplicitClock::load(const StateReader &reader) {
+  time_ = reader.number("time");
+  const std::vector<double> clock = reader.read("clock");
+  n_steps_ = static_cast<unsigned int>(clock.at(0));
+  n_planned_ = static_cast<unsigned int>(clock.at(1));
+  step_ = clock.at(2);
+  step_before_ = clock.at(3);
+  is_growing_ = clock.at(4) != 0.;
+  event_ = clock.at(5);
+  time_before_ = clock.at(6);
+}
+
+SolutionFailure ExplicitClock::failure(const std::string &why) const {
+  std::ostringstream message;
+  message << file_name_ << ": at time " << time_ << " after " << n_steps_ << " steps " << why;
+  return SolutionFailure(message.str());
+}
+
+} // namespace billet

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/explicit/explicit_dynamics.h"
+
+namespace billet {
+
+ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
+    : parts_(scene, discretization), ledger_(parts_), stable_step_(parts_.settings().safety_factor),
+      crossing_limit_(parts_), penalties_(parts_) {
+  state_.body_pair_loads.resize(parts_.contacts.of_bodies().size());
+  state_.tool_loads.resize(parts_.tools.size());
+  state_.placements.resize(parts_.tools.size());
+  state_.displacements = discretization.make_ghosted_vector();
+  state_.velocities = discretization.make_ghosted_vector();
+}
+
+void ExplicitDynamics::compute_forces() {
+  const ExplicitForces::Failure failure = parts_.forces.compute(
+      parts_.clock, parts_.motion, parts_.elements, parts_.contacts, parts_.tools, ledger_.works());
+  const double resolution = parts_.settings().contact_resolution;
+  if (!stable_step_.update(parts_.forces.bounds(parts_.masses.inverse()),
+                           resolution * resolution * parts_.tools.max_frequency_square(),
+                           parts_.communicator()))
+    fail_together(parts_.communicator(), [&failure] {
+      if (failure)
+        std::rethrow_exception(failure);
+    });
+  if (const std::string collapse = stable_step_.describe_collapse(); !collapse.empty())
+    throw parts_.clock.failure(collapse);
+  crossing_limit_.update(stable_step_.value(), ledger_.max_energy_when_due());
+}
+
+void ExplicitDynamics::prepare_step(const double event) {
+  compute_forces();
+  parts_.clock.plan(event, stable_step_.allowed(crossing_limit_.value()));
+  parts_.motion.kick(parts_.clock, parts_.masses, parts_.forces.values());
+  parts_.tools.kick(parts_.clock);
+  if (!parts_.clock.is_at_start())
+    ledger_.add_works(parts_.motion.velocities_before(), 0.5 * parts_.clock.step_before());
+}
+
+void ExplicitDynamics::raise_penalties() {
+  if (!penalties_.are_controlled() || !ledger_.is_due())
+    return;
+  update_ledger();
+  penalties_.raise(*this, ledger_.works().external);
+}
+
+void ExplicitDynamics::finish_step() {
+  raise_penalties(); // what is given to springs shows in the next ledger, as that of this time is written
+  parts_.motion.move(parts_.clock.step());
+  parts_.tools.move(parts_.clock);
+  ledger_.add_works(parts_.motion.velocities(), 0.5 * parts_.clock.step());
+  parts_.clock.advance();
+}
+
+void ExplicitDynamics::update_ledger() { ledger_.update(state_); }
+
+void ExplicitDynamics::update_state() {
+  update_ledger();
+  parts_.nodes.copy(parts_.motion.displacements(), state_.displacements);
+  parts_.nodes.copy(parts_.motion.mean_velocities(), state_.velocities);
+}
+
+DiagnosticList ExplicitDynamics::check_steps() const {
+  return stable_step_.check(time(), parts_.contacts, parts_.communicator());
+}
+
+std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
+  std::array<std::size_t, 2> sizes{parts_.elements.history_size(), parts_.contacts.history_size()};
+  for (auto &size : sizes)
+    size = dealii::Utilities::MPI::sum(size, parts_.communicator());
+  return sizes;
+}
+
+std::string ExplicitDynamics::method() const {
+  return parts_.settings().number_type == parameters::ExplicitDynamics::NumberType::float_precision
+             ? "central differences, elements in float"
+             : "central differences";
+}
+
+void ExplicitDynamics::save(StateWriter &writer) const {
+  const NodalRows rows(parts_.nodes);
+  writer.write_text("scheme", "explicit");
+  parts_.clock.save(writer);
+  parts_.motion.save(writer, rows, parts_.clock.step());
+  ledger_.save(writer, state_.energies);
+  penalties_.save(writer);
+  parts_.elements.save(writer);
+  parts_.tools.save(writer, rows, parts_.forces.loaded_nodes());
+  for (const auto &contact : parts_.contacts)
+    writer.in(group(contact.group_kind(), contact.group_index()), [&] {
+      save_pair(writer, contact);
+      contact.save(writer, rows.keys());
+    });
+}
+
+RestartReport ExplicitDynamics::load(StateReader &reader) {
+  const NodalRows rows(parts_.nodes);
+  RestartReport report;
+  // Other tools or pairs change nothing in how the rest resumes.
+  const bool is_exact =
+      reader.read_text("scheme") == "explicit" && parts_.elements.has_same_formulations(reader);
+  report.is_exact = is_exact;
+  compare_parts(reader, parts_.scene, report);
+  if (is_exact) {
+    parts_.clock.load(reader);
+    parts_.motion.load(reader, rows);
+    parts_.elements.load(reader);
+  } else {
+    parts_.clock.begin(reader.number(reader.has("time before") ? "time before" : "time"));
+    parts_.motion.load_foreign(reader, rows);
+    parts_.nodes.copy(parts_.motion.displacements(), state_.displacements);
+    parts_.elements.load_stresses(reader, parts_.motion.displacements(), state_.displacements);
+  }
+  parts_.tools.load(reader, rows, is_exact, time());
+  load_contacts(reader, rows.keys());
+  state_.energies = ledger_.load(reader, is_exact);
+  if (is_exact)
+    penalties_.load(reader);
+  report.time = time();
+  return report;
+}
+
+void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) {
+  // Contact was committed with the forces at the time before. The step is 0 where that is now.
+  const NodalVectors u_before = parts_.motion.displacements_before(step_length());
+  const std::vector<Placement> placements = parts_.tools.placements_before();
+  for (auto &contact : parts_.contacts)
+    if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }))
+      contact.begin({0., 0., 0., placements, placements}, u_before);
+}
+
+} // namespace billet

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/explicit/explicit_elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+InstructionSet instruction_set_of(const parameters::ExplicitDynamics::Instructions instructions) {
+  using Instructions = parameters::ExplicitDynamics::Instructions;
+  switch (instructions) {
+  case Instructions::automatic:
+    break;
+  case Instructions::scalar:
+    return InstructionSet::scalar;
+  case Instructions::sse2:
+    return InstructionSet::sse2;
+  case Instructions::avx2:
+    return InstructionSet::avx2;
+  case Instructions::avx512:
+    return InstructionSet::avx512;
+  }
+  return InstructionSet::automatic;
+}
+
+/// Returns what the scene says of a body's elements.
+ExplicitFormulation formulation_of(const parameters::Scene &scene, const parameters::Body &body) {
+  const auto &dynamics = scene.explicit_dynamics;
+  ExplicitFormulation formulation;
+  formulation.element = make_formulation(body).element;
+  formulation.linear_viscosity = dynamics.linear_viscosity;
+  formulation.quadratic_viscosity = dynamics.quadratic_viscosity;
+  formulation.instructions = instruction_set_of(dynamics.instructions);
+  formulation.number_type = dynamics.number_type == parameters::ExplicitDynamics::NumberType::float_precision
+                                ? ExplicitFormulation::NumberType::float_precision
+                                : ExplicitFormulation::NumberType::double_precision;
+  return formulation;
+}
+
+} // namespace
+
+ExplicitElements::ExplicitElements(const Scene &scene, const LocalNodes &nodes)
+    : scene_(scene), nodes_(nodes) {
+  fail_together(nodes.discretization().communicator(), [this] { make_blocks(); });
+  count_memory();
+}
+
+void ExplicitElements::make_blocks() {
+  for (std::size_t b = 0; b < scene_.bodies().size(); ++b) {
+    const Body &body = scene_.bodies()[b];
+    const auto &input = scene_.parameters().bodies[b];
+    try {
+      blocks_.push_back(
+          make_explicit_block(body.law, body.density, formulation_of(scene_.parameters(), input)));
+    } catch (const std::invalid_argument &error) {
+      throw InputError(input.origin + ": " + error.what());
+    }
+    std::size_t offender = 0;
+    if (!blocks_.back()->initialize(nodes_.elements(b), nodes_.positions().data(), offender)) {
+      std::ostringstream message;
+      message << input.origin << ": the element with its centre at ("
+              << nodes_.discretization().elements(b)[offender].cell->center()
+              << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
+      throw InputError(message.str());
+    }
+  }
+}
+
+void ExplicitElements::count_memory() {
+  std::size_t plastic = 0, stabilised = 0; // bytes
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (scene_.bodies()[b].law->has_plasticity())
+      plastic += blocks_[b]->history_memory();
+    stabilised += blocks_[b]->stabilisation_memory();
+  }
+  plastic_memory_.set(plastic);
+  stabilised_memory_.set(stabilised);
+}
+
+std::vector<double> ExplicitElements::lumped_masses() const {
+  std::vector<double> masses(nodes_.size(), 0.);
+  for (const auto &block : blocks_)
+    block->add_masses(masses.data());
+  return masses;
+}
+
+double ExplicitElements::scale_mass(const double min_step) {
+  double added = 0.;
+  for (const auto &block : blocks_)
+    added += block->scale_mass(min_step);
+  return added;
+}
+
+SolutionFailure ExplicitElements::describe_inverted(const std::size_t body, const std::size_t element,
+                                                    const double *displacements,
+                                                    const ExplicitClock &clock) const {
+  dealii::Point<3> centre, at_start;
+  for (const unsigned int node : nodes_.elements(body)[element]) {
+    at_start += 0.125 * get_vector(nodes_.positions().data(), node);
+    centre += 0.125 * (get_vector(nodes_.positions().data(), node) + get_vector(displacements, node));
+  }
+  std::ostringstream why;
+  why << "element " << nodes_.discretization().elements(body)[element].cell->global_active_cell_index()
+      << " of body '" << scene_.bodies()[body].name << "', which started at (" << at_start << "), is ";
+  if (std::isfinite(centre.norm()))
+    why << "inside out at (" << centre
+        << "): try a smaller 'Safety factor', more bulk viscosity, a softer penalty or a mesh that is "
+           "less "
+           "distorted there";
+  else
+    why << "at no finite place: a velocity, a load or a penalty may be too large for its units";
+  return clock.failure(why.str());
+}
+
+double ExplicitElements::add_forces(const ExplicitBlock::Nodes &nodes, const ExplicitClock &clock,
+                                    ExplicitWorks &works) {
+  double stable_step = std::numeric_limits<double>::infinity();
+  elastic_energy_ = hourglass_energy_ = 0.;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const auto result = blocks_[b]->advance(nodes, clock.since_forces());
+    if (result.inverted < blocks_[b]->size())
+      throw describe_inverted(b, result.inverted, nodes.displacements, clock);
+    if (!clock.is_at_start() && clock.n_steps() % ExplicitBlock::renewal_interval == 0)
+      blocks_[b]->renew(nodes.displacements);
+    const Body &body = scene_.bodies()[b];
+    Usage::count_if(body.law->has_plasticity(), Capability::plasticity, blocks_[b]->size());
+    Usage::count_if(body.formulation.element.is_stabilised(), Capability::stabilisation, blocks_[b]->size());
+    stable_step = std::min(stable_step, result.stable_step);
+    elastic_energy_ += result.elastic_energy;
+    works.plastic += result.plastic_work;
+    works.viscous += result.viscous_work;
+    hourglass_energy_ += result.hourglass_energy;
+  }
+  return stable_step;
+}
+
+std::vector<ElementSummary> ExplicitElements::summarize(const std::size_t body,
+                                                        const NodalVectors &displacements) const {
+  std::vector<ElementSummary> summaries;
+  for (std::size_t e = 0; e < blocks_[body]->size(); ++e)
+    summaries.push_back(blocks_[body]->summarize(e, displacements.data()));
+  return summaries;
+}
+
+std::size_t ExplicitElements::history_size() const {
+  std::size_t size = 0;
+  for (const auto &block : blocks_)
+    size += block->history_memory() / sizeof(double);
+  return size;
+}
+
+std::string ExplicitElements::describe_formulation(const std::size_t body) const {
+  return describe(formulation_of(scene_.parameters(), scene_.parameters().bodies[body]),
+                  *scene_.bodies()[body].law);
+}
+
+void ExplicitElements::save(StateWriter &writer) const {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    writer.in(group("body", b), [&] {
+      const ExplicitBlock &block = *blocks_[b];
+      writer.write_text("formulation", describe_formulation(b));
+      const std::size_t width = block.history_size();
+      std::vector<double> rows(width * block.size());
+      for (std::size_t e = 0; e < block.size(); ++e)
+        block.get_state(e, rows.data() + width * e);
+      writer.write_rows("history", width, element_keys(nodes_.discretization(), b), rows);
+    });
+}
+
+bool ExplicitElements::has_same_formulations(StateReader &reader) const {
+  bool are_same = true;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    reader.in(group("body", b),
+              [&] { are_same = are_same && reader.read_text("formulation") == describe_formulation(b); });
+  return are_same;
+}
+
+void ExplicitElements::load(StateReader &reader) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    reader.in(group("body", b), [&] {
+      const std::size_t width = blocks_[b]->history_size();
+      const auto rows = reader.read_rows("history", width, element_keys(nodes_.discretization(), b));
+      for (std::size_t e = 0; e < blocks_[b]->size(); ++e)
+        blocks_[b]->set_state(e, rows.data() + width * e);
+    });
+}
+
+void ExplicitElements::load_stresses(StateReader &reader, const NodalVectors &displacements,
+                                     const Vector &ghosted) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    reader.in(group("body", b), [&] {
+      const auto stresses = load_stress(reader, scene_, b, nodes_.discretization(), ghosted);
+      for (std::size_t e = 0; e < blocks_[b]->size(); ++e)
+        blocks_[b]->set_stress(e, displacements.data(), stresses[e]);
+    });
+}
+
+} // namespace billet

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/explicit/explicit_forces.h"
+
+#include <algorithm>
+
+namespace billet {
+
+namespace {
+
+void clear(NodalVectors &vectors, const std::vector<unsigned int> &nodes) {
+  for (const unsigned int node : nodes)
+    std::fill_n(&vectors[std::size_t{nodal_stride} * node], nodal_stride, 0.);
+}
+
+/// Marks the nodes on boundaries of elements of any rank by 1 in their first component. Collective.
+NodalVectors mark_boundaries(const LocalNodes &nodes, const std::size_t n_bodies) {
+  const Discretization &discretization = nodes.discretization();
+  NodalVectors is_at_boundary = nodes.make_vectors();
+  for (std::size_t b = 0; b < n_bodies; ++b)
+    for (std::size_t e = 0; e < nodes.elements(b).size(); ++e) {
+      const auto &cell = discretization.elements(b)[e].cell;
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          for (unsigned int v = 0; v < 4; ++v)
+            is_at_boundary[std::size_t{nodal_stride} *
+                           nodes.elements(b)[e][dealii::GeometryInfo<3>::face_to_cell_vertices(f, v)]] = 1.;
+    }
+  nodes.sum_shared(is_at_boundary);
+  return is_at_boundary;
+}
+
+} // namespace
+
+ExplicitForces::ExplicitForces(const Scene &scene, const LocalNodes &nodes, const ExplicitElements &elements,
+                               const double contact_resolution)
+    : nodes_(nodes), loads_(scene, nodes, elements.lumped_masses()),
+      bound_factor_(contact_resolution * contact_resolution), forces_(nodes.make_vectors()),
+      external_(forces_), bounds_(forces_) {
+  find_touched_nodes(scene);
+}
+
+void ExplicitForces::find_touched_nodes(const Scene &scene) {
+  bool has_accelerations = false, has_loads = false;
+  has_bounds_ = !scene.pairs().empty() || !scene.body_pairs().empty();
+  for (const auto &body : scene.bodies())
+    for (const auto &load : body.loads) {
+      has_loads = true;
+      has_accelerations = has_accelerations || !load.load.acts_on_faces();
+      has_bounds_ = has_bounds_ || load.load.limits_steps();
+    }
+  const NodalVectors is_touched = mark_boundaries(nodes_, scene.bodies().size()); // all else acts there
+  const bool may_be_loaded = has_loads || !scene.tools().empty(); // tools fade when they are removed
+  for (unsigned int node = 0; node < nodes_.size(); ++node) {
+    const bool touched = is_touched[std::size_t{nodal_stride} * node] > 0.;
+    if (has_accelerations || (may_be_loaded && touched))
+      loaded_nodes_.push_back(node);
+    if (has_bounds_ && touched)
+      bounded_nodes_.push_back(node);
+  }
+}
+
+std::string ExplicitForces::add_contact_forces(const ExplicitClock &clock, const ExplicitMotion &motion,
+                                               Contacts &contacts, ExplicitTools &tools,
+                                               ExplicitWorks &works) {
+  std::string passage;
+  tools.clear_loads();
+  const std::vector<Placement> before = tools.placements_before(), now = tools.placements_now();
+  // Overlaps that are allowed do not fade in explicit scenes: they have the times of the start.
+  const ContactStep step{0., 0., clock.since_forces(), before, now};
+  for (auto &contact : contacts) {
+    contact.start_step(step);
+    contact.update(motion.displacements());
+    if (passage.empty() && contact.lets_nodes_through())
+      passage = contact.describe_passage();
+    const ContactLoad load = contact.add_forces(forces_, bounds_);
+    if (const auto &tool = contact.rigid_tool())
+      tools.add_load(contact, *tool, load);
+    works.friction += load.dissipation;
+    contact.add_crossings(crossings_);
+    contact.commit();
+  }
+  return passage;
+}
+
+ExplicitForces::Failure ExplicitForces::compute(const ExplicitClock &clock, const ExplicitMotion &motion,
+                                                ExplicitElements &elements, Contacts &contacts,
+                                                ExplicitTools &tools, ExplicitWorks &works) {
+  clear(bounds_, bounded_nodes_);
+  clear(external_, loaded_nodes_);
+  crossings_ = Crossings();
+  Failure failure;
+  const NodalVectors &u = motion.displacements(), &v = motion.velocities();
+  try {
+    motion.check();
+    tools.remove_due(clock.time(), contacts, loaded_nodes_, external_, works.external);
+    element_step_ = elements.add_forces({u.data(), v.data(), forces_.data()}, clock, works);
+    loads_.add_forces(clock.time(), u, v, external_);
+  } catch (const SolutionFailure &) { // of this rank
+    failure = std::current_exception();
+  }
+  // Ranks talk to each other in it, also where one has failed.
+  if (const std::string passage = add_contact_forces(clock, motion, contacts, tools, works);
+      !failure && !passage.empty())
+    failure = std::make_exception_ptr(clock.failure(passage));
+  if (failure)
+    element_step_ = -1.;
+  for (const unsigned int node : bounded_nodes_)
+    bounds_[std::size_t{nodal_stride} * node] *= bound_factor_;
+  loads_.add_bounds(bounds_);
+  for (const unsigned int node : loaded_nodes_)
+    add_vector(forces_.data(), node, get_vector(external_.data(), node));
+  nodes_.sum_shared(forces_);
+  if (has_bounds_)
+    nodes_.sum_shared(bounds_);
+  return failure;
+}
+
+StepBounds ExplicitForces::bounds(const std::vector<double> &inverse_masses) const {
+  StepBounds bounds{element_step_, 0., 0.};
+  for (const unsigned int node : bounded_nodes_) {
+    const double *of_node = &bounds_[std::size_t{nodal_stride} * node];
+    bounds.frequency_square = std::max(bounds.frequency_square, of_node[0] * inverse_masses[node]);
+    bounds.damping_rate = std::max(bounds.damping_rate, of_node[1] * inverse_masses[node]);
+  }
+  return bounds;
+}
+
+double ExplicitForces::max_stiffness() const {
+  double largest = 0.;
+  for (const unsigned int node : bounded_nodes_)
+    largest = std::max(largest, bounds_[std::size_t{nodal_stride} * node]);
+  return largest;
+}
+
+} // namespace billet

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/explicit/stable_step.h"
+
+#include "billet/contact/overlap.h"
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace billet {
+
+namespace {
+
+constexpr const char *flat_element_advice =
+    "try a mesh that is finer, or of better shape, where it deforms most, or a material that hardens";
+
+} // namespace
+
+bool StableStep::update(const StepBounds &own, const double of_tools, const MPI_Comm communicator) {
+  // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
+  // Each over all ranks before they are put together: else the step would depend on which rank has what.
+  std::array<double, 3> bounds{own.element_step, -own.frequency_square, -own.damping_rate};
+  MPI_Allreduce(MPI_IN_PLACE, bounds.data(), 3, MPI_DOUBLE, MPI_MIN, communicator);
+  value_ = bounds[0];
+  if (value_ < 0.)
+    return false;
+  of_elements_ = bounds[0];
+  if (of_elements_first_ == 0.)
+    of_elements_first_ = of_elements_;
+  bounds[1] -= of_tools;
+  const double a = 1. / (bounds[0] * bounds[0]) - 0.25 * bounds[1], b = -0.5 * bounds[2];
+  value_ = 2. / (b + std::sqrt(b * b + 4. * a));
+  return true;
+}
+
+double StableStep::allowed(const double crossing_step) const {
+  constexpr double shortest = 0.25; // part of the stable step, for what comes through surfaces
+  const double stable = usual();
+  return std::min(stable, std::max(factor_ * crossing_step, shortest * stable));
+}
+
+std::string StableStep::describe_flat_elements() const {
+  std::ostringstream text;
+  text.precision(3);
+  text << "the stable step of the elements has fallen to " << of_elements_ << ", from " << of_elements_first_
+       << " at the start, as one is nearly flat";
+  return text.str();
+}
+
+std::string StableStep::describe_collapse() const {
+  constexpr double collapsed = 1e-5;
+  if (!(of_elements_ < collapsed * of_elements_first_))
+    return "";
+  return describe_flat_elements() + ". So the run would hardly end: " + flat_element_advice;
+}
+
+DiagnosticList StableStep::check(const double t, const Contacts &contacts,
+                                 const MPI_Comm communicator) const {
+  constexpr double much_shorter = 0.1, flat = 0.01;
+  DiagnosticList messages;
+  if (value_ < much_shorter * of_elements_) {
+    std::vector<double> room = // by pair, on all ranks
+        contacts.collect([](const auto &contact) { return contact.stiffening_left(); });
+    dealii::Utilities::MPI::min(room, communicator, room);
+    const auto stiffest = std::min_element(room.begin(), room.end());
+    const auto i = static_cast<std::size_t>(stiffest - room.begin());
+    if (stiffest != room.end() && *stiffest < 1. && contacts[i].settings().input->has_own_penalty) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "The penalty, " << enough_penalty / *stiffest << " E/h, makes steps "
+           << std::round(of_elements_ / value_) << " times shorter than the elements require";
+      messages.push_back(Diagnostic(diagnostic::penalty_too_high, text.str())
+                             .pair(contacts[i].name())
+                             .time(t)
+                             .value("penalty [E/h]", enough_penalty / *stiffest));
+    }
+  }
+  if (of_elements_ < flat * of_elements_first_) {
+    std::string text = describe_flat_elements();
+    text.front() = 'T';
+    messages.push_back(Diagnostic(diagnostic::flat_elements, text)
+                           .time(t)
+                           .value("stable step", of_elements_)
+                           .advice(flat_element_advice));
+  }
+  return messages;
+}
+
+} // namespace billet
