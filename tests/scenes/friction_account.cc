@@ -4,6 +4,8 @@
 #include "implicit_run.h"
 #include "materials.h"
 
+#include "../loads/make_load.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -61,7 +63,7 @@ int main(int argc, char *argv[]) {
 
     // Down a slope: the force of friction over the way.
     scene.bodies[0].initial_velocity.value = {"0", "0", "0"};
-    scene.bodies[0].loads[0].acceleration.value = {"35", "0", "-50"};
+    scene.bodies[0].loads = {testing::make_load("acceleration", "set Acceleration = 35 ; 0 ; -50")};
     scene.time_stepping.end_time = 0.05;
     // Where it hops at the end the mean of N is not its weight, and the last bit decides whether it does.
     std::array<double, 3> errors{};
