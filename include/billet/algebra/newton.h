@@ -9,7 +9,8 @@
 namespace billet {
 
 /// R(x) = 0 with its tangent K = ∂R/∂x. All members are called, and answer, alike on all ranks; false means
-/// that the state is not admissible.
+/// that the state is not admissible. Residuals and corrections are written in place: they have the layout of
+/// x, and keep it.
 class NonlinearSystem {
 public:
   virtual ~NonlinearSystem() = default;
@@ -39,8 +40,8 @@ struct NewtonCorrection {
 
 enum class NewtonVerdict { unconverged, converged, failed };
 
-/// Judges the iterations: the number of corrections so far, where they have led, and the last of them, which
-/// is null at the start. Collective.
+/// Judges the iterations by the number of corrections so far, the state they have led to, and the last of
+/// them, which is null at the start. Collective.
 using NewtonJudge =
     std::function<NewtonVerdict(unsigned int n, const NewtonState &now, const NewtonCorrection *last)>;
 
