@@ -2,8 +2,8 @@
 #ifndef BILLET_SOLVE_IMPLICIT_PENETRATION_MEASUREMENT_H
 #define BILLET_SOLVE_IMPLICIT_PENETRATION_MEASUREMENT_H
 
-#include "billet/solve/result_group.h"
 #include "billet/solve/implicit/implicit_problem.h"
+#include "billet/solve/result_group.h"
 
 #include <limits>
 #include <optional>
