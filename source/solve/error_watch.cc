@@ -253,7 +253,7 @@ void ErrorWatch::save(StateWriter &writer) const {
       writer.write_text("name", names[i]);
       controls_[i].save(writer);
       // Between two steps that are compared with one: that one, too.
-      ErrorControl::save(writer, "probed", probe_length_ > 0. ? probe_.results[i] : ErrorControl::Forces());
+      billet::save(writer, "probed", probe_length_ > 0. ? probe_.results[i] : ResultGroup());
     });
   writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
   writer.write("comparison", {probe_length_, probe_end_, last_residual_, probe_.newton.force});
@@ -269,7 +269,7 @@ void ErrorWatch::load(StateReader &reader) {
     if (found)
       reader.in(group("results", *found), [&] {
         controls_[i].load(reader);
-        probe_.results[i] = ErrorControl::load(reader, "probed");
+        probe_.results[i] = load_result_group(reader, "probed");
       });
   }
   if (!reader.has("comparison")) // a run that kept no account

@@ -268,7 +268,7 @@ RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
   return mode;
 }
 
-RigidBodySupport::Result RigidBodySupport::find() const {
+RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const {
   const std::size_t size = n(), n_of_bodies = 6 * bodies_.size();
   std::vector<double> gram(gram_);
   dealii::Utilities::MPI::sum(gram_, communicator_, gram);
@@ -283,14 +283,14 @@ RigidBodySupport::Result RigidBodySupport::find() const {
   dealii::FullMatrix<double> vectors(size, size);
   matrix.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(),
                                        std::numeric_limits<double>::max(), 0., values, vectors);
-  // Of modes that differ in the motion of tools only one counts.
   constexpr double none = 1e-10, alike = 1e-3;
-  Rows basis, bodies, all;
+  Unresisted found;
+  Rows bodies;
   for (std::size_t k = 0; k < size && (largest == 0. || values[k] <= none * largest); ++k) {
     Row motion(size), of_bodies;
     for (std::size_t i = 0; i < size; ++i)
       motion[i] = vectors(i, k);
-    all.push_back(motion);
+    found.all.push_back(motion);
     of_bodies.assign(motion.begin(), motion.begin() + static_cast<std::ptrdiff_t>(n_of_bodies));
     for (const auto &other : bodies) {
       const double along = dot(of_bodies, other);
@@ -303,61 +303,80 @@ RigidBodySupport::Result RigidBodySupport::find() const {
     for (double &component : of_bodies)
       component /= left;
     bodies.push_back(of_bodies);
-    basis.push_back(motion);
+    found.of_bodies.push_back(motion);
   }
+  return found;
+}
+
+std::vector<RigidBodySupport::Row> RigidBodySupport::gather_one_way() const {
+  Rows rows;
+  const auto size = static_cast<std::ptrdiff_t>(n());
+  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator_, one_way_))
+    for (auto row = part.begin(); row != part.end(); row += size)
+      rows.emplace_back(row, row + size);
+  return rows;
+}
+
+RigidBodySupport::Mode RigidBodySupport::find_sliding(const std::vector<Row> &motions) const {
+  constexpr double none = 1e-10;
+  Row slide(n()), sliding(n());
+  dealii::Utilities::MPI::sum(slide_, communicator_, slide);
+  for (const auto &motion : motions)
+    for (std::size_t i = 0; i < n(); ++i)
+      sliding[i] += dot(motion, slide) * motion[i];
+  const bool has_direction = dot(sliding, sliding) > none * none * dot(slide, slide);
+  return mode_of(has_direction ? sliding : motions.front());
+}
+
+void RigidBodySupport::find_pushed(const std::vector<Row> &motions, const std::vector<Row> &one_way,
+                                   Result &result) const {
+  Rows parts;
+  for (const auto &row : one_way) {
+    std::vector<double> part;
+    for (const auto &motion : motions)
+      part.push_back(dot(row, motion));
+    parts.push_back(std::move(part));
+  }
+  result.free.reset();
+  for (std::size_t i = 0; i < 6 * bodies_.size(); ++i)
+    for (const double sign : {-1., 1.}) {
+      if (result.is_free[i / 6])
+        continue;
+      std::vector<double> aim;
+      for (const auto &motion : motions)
+        aim.push_back(sign * motion[i]);
+      const auto factors = project_on_cone(parts, std::move(aim));
+      if (!factors)
+        continue;
+      result.is_free[i / 6] = true;
+      Row motion(n(), 0.);
+      for (std::size_t k = 0; k < motions.size(); ++k)
+        for (std::size_t j = 0; j < n(); ++j)
+          motion[j] += (*factors)[k] * motions[k][j];
+      if (!result.free)
+        result.free = mode_of(motion);
+    }
+}
+
+RigidBodySupport::Result RigidBodySupport::find() const {
+  Unresisted motions = find_unresisted_both_ways();
+  Rows &basis = motions.of_bodies;
   Result result;
   if (pushes_)
     result.is_free.assign(bodies_.size(), false);
   if (basis.empty() && !pushes_)
     return result;
-  Rows one_way;
-  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator_, one_way_))
-    for (auto row = part.begin(); row != part.end(); row += static_cast<std::ptrdiff_t>(size))
-      one_way.emplace_back(row, row + static_cast<std::ptrdiff_t>(size));
-  if (!basis.empty()) {
-    Row slide(size), sliding(size);
-    dealii::Utilities::MPI::sum(slide_, communicator_, slide);
-    for (const auto &motion : basis)
-      for (std::size_t i = 0; i < size; ++i)
-        sliding[i] += dot(motion, slide) * motion[i];
-    const bool has_direction = dot(sliding, sliding) > none * none * dot(slide, slide);
-    result.sliding = mode_of(has_direction ? sliding : basis.front());
-  }
+  const Rows one_way = gather_one_way();
+  if (!basis.empty())
+    result.sliding = find_sliding(basis);
   while (const auto motion = find_unresisted(basis, one_way)) {
     if (!result.free)
       result.free = mode_of(*motion);
     ++result.n_free;
     deflate(*motion, basis);
   }
-  if (!pushes_)
-    return result;
-  // Tools that move without bodies count here: a body may follow them.
-  Rows parts;
-  for (const auto &row : one_way) {
-    std::vector<double> part;
-    for (const auto &motion : all)
-      part.push_back(dot(row, motion));
-    parts.push_back(std::move(part));
-  }
-  result.free.reset();
-  for (std::size_t i = 0; i < n_of_bodies; ++i)
-    for (const double sign : {-1., 1.}) {
-      if (result.is_free[i / 6])
-        continue;
-      std::vector<double> aim;
-      for (const auto &motion : all)
-        aim.push_back(sign * motion[i]);
-      const auto factors = project_on_cone(parts, std::move(aim));
-      if (!factors)
-        continue;
-      result.is_free[i / 6] = true;
-      Row motion(size, 0.);
-      for (std::size_t k = 0; k < all.size(); ++k)
-        for (std::size_t j = 0; j < size; ++j)
-          motion[j] += (*factors)[k] * all[k][j];
-      if (!result.free)
-        result.free = mode_of(motion);
-    }
+  if (pushes_)
+    find_pushed(motions.all, one_way, result);
   return result;
 }
 

@@ -19,7 +19,7 @@ namespace {
 double difference(const ImplicitSolution::Results &a, const ImplicitSolution::Results &b) {
   double largest = a.size() == b.size() ? 0. : 1.;
   for (std::size_t group = 0; group < a.size() && largest < 1.; ++group)
-    largest = std::max(largest, ErrorControl::distance(a[group], b[group]) / ErrorControl::size(b[group]));
+    largest = std::max(largest, distance_of(a[group], b[group]) / size_of(b[group]));
   return largest;
 }
 

@@ -87,6 +87,19 @@ private:
   void add_one_way(const Row &row) { one_way_.insert(one_way_.end(), row.begin(), row.end()); }
   void add_friction(const SupportingPoint &point, const Side &of, const Side &on);
   Mode mode_of(const Row &motion) const;
+  /// Orthonormal motions that nothing resists in both directions.
+  struct Unresisted {
+    std::vector<Row> all;       ///< tools that move without bodies among them: a body may follow them
+    std::vector<Row> of_bodies; ///< of those that differ in the motion of tools only, one
+  };
+  /// Collective, as the next two.
+  Unresisted find_unresisted_both_ways() const;
+  /// Returns the rows of all ranks that resist in one direction only.
+  std::vector<Row> gather_one_way() const;
+  /// Returns the combination of these motions along which points slip.
+  Mode find_sliding(const std::vector<Row> &motions) const;
+  /// Finds the bodies that take part in a combination of these motions which `one_way` does not resist.
+  void find_pushed(const std::vector<Row> &motions, const std::vector<Row> &one_way, Result &result) const;
 
   MPI_Comm communicator_;
   std::vector<Body> bodies_;

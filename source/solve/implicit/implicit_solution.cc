@@ -12,7 +12,8 @@ ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &dis
       augmentation_(problem_, solver_, measurement_), continuation_(problem_, solver_), paths_(problem_),
       round_off_(problem_), books_(problem_), diagnosis_(problem_),
       rules_(make_step_rules(problem_, paths_, books_)),
-      attempt_({problem_, solver_, measurement_, augmentation_, continuation_, paths_, round_off_, *rules_}) {
+      attempt_({problem_, solver_, measurement_, augmentation_, continuation_, paths_, round_off_, *rules_}),
+      checkpoint_(problem_) {
   if (scene.parameters().restart.is_wanted()) // load() does the rest
     return;
   ContactSet &contacts = problem_.contacts();

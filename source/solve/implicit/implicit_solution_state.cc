@@ -10,7 +10,6 @@ namespace billet {
 
 void ImplicitSolution::save(StateWriter &writer) const {
   const Discretization &discretization = problem_.discretization();
-  const Scene &scene = problem_.scene();
   const NodeKeys keys(discretization);
   const OwnedNodes nodes(discretization, keys);
   const StepState &step = problem_.step();
@@ -31,47 +30,10 @@ void ImplicitSolution::save(StateWriter &writer) const {
     writer.write("exact tangent", {1.});
   rules.predictor().save(writer, nodes);
   rules.save(writer);
-  for (std::size_t b = 0; b < scene.bodies().size(); ++b)
-    writer.in(group("body", b), [&] { save_body(b, writer); });
-  for (std::size_t i = 0; i < scene.tools().size(); ++i)
-    writer.in(group("tool", i), [&] {
-      problem_.tools().save(i, state().placements[i], writer);
-      writer.write("flags",
-                   {problem_.tools().is_stopped(i) ? 1. : 0., problem_.removal().is_removed(i) ? 1. : 0.});
-      writer.write("load", to_numbers(state().tool_loads[i]));
-      problem_.scheme().save_tool(i, writer);
-      problem_.removal().save(i, writer, nodes);
-    });
-  save_contacts(writer, keys);
+  checkpoint_.save_bodies(writer);
+  checkpoint_.save_tools(writer, nodes);
+  checkpoint_.save_contacts(writer, keys);
   problem_.released().save(writer, nodes);
-}
-
-void ImplicitSolution::save_body(const std::size_t body, StateWriter &writer) const {
-  const ElementFormulation &formulation = problem_.scene().bodies()[body].formulation;
-  writer.write_text("formulation", describe(formulation, *problem_.scene().bodies()[body].law));
-  const ElementBlock &block = problem_.internal().block(body);
-  const std::vector<std::uint64_t> keys = element_keys(problem_.discretization(), body);
-  if (formulation.points_through > 2)
-    save_thickness_axes(writer, block, keys);
-  const std::size_t width = block.state_size();
-  if (width == 0)
-    return;
-  std::vector<double> rows(width * block.size());
-  for (std::size_t e = 0; e < block.size(); ++e)
-    block.get_state(e, rows.data() + width * e);
-  writer.write_rows("history", width, keys, rows);
-}
-
-void ImplicitSolution::save_contacts(StateWriter &writer, const NodeKeys &keys) const {
-  auto body_pair_load = state().body_pair_loads.begin();
-  for (const auto &contact : problem_.contacts())
-    writer.in(group(contact.group_kind(), contact.group_index()), [&] {
-      save_pair(writer, contact);
-      if (!contact.rigid_tool())
-        writer.write("load", to_numbers(*body_pair_load++));
-      contact.save(writer, keys);
-      contact.save_couplings(writer);
-    });
 }
 
 RestartReport ImplicitSolution::load(StateReader &reader, const double release_time) {
@@ -92,11 +54,10 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   state.time = step.time = report.time = reader.number(is_implicit ? "time" : "time before");
   if (!problem_.scheme().has_inertia() && reader.has("kinetic energy"))
     report.kinetic_energy = reader.number("kinetic energy");
-  for (std::size_t b = 0; b < problem_.scene().bodies().size(); ++b)
-    load_body(b, reader, report);
-  load_tools(reader, nodes);
-  load_contacts(reader, keys);
-  update_contacts(reader, report.is_exact);
+  checkpoint_.load_bodies(reader, report);
+  checkpoint_.load_tools(reader, nodes);
+  checkpoint_.load_contacts(reader, keys);
+  checkpoint_.update_contacts(reader, report.is_exact);
   problem_.scales().spring_round_off =
       problem_.contacts().find_spring_round_off(); // of penalties as they are
   if (is_own)
@@ -106,33 +67,6 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   rules_->finish_load(reader, release_time, report);
   report.release_end = problem_.released().are_there() ? problem_.released().end() : state.time;
   return report;
-}
-
-void ImplicitSolution::load_body(const std::size_t body, StateReader &reader, RestartReport &report) {
-  const Discretization &discretization = problem_.discretization();
-  const Vector &displacements = state().displacements;
-  reader.in(group("body", body), [&] {
-    ElementBlock &block = problem_.internal().block(body);
-    const ElementFormulation &formulation = problem_.scene().bodies()[body].formulation;
-    bool is_same =
-        reader.read_text("formulation") == describe(formulation, *problem_.scene().bodies()[body].law);
-    if (is_same && formulation.points_through > 2)
-      is_same = problem_.on_all_ranks(load_thickness_axes(reader, element_keys(discretization, body)) ==
-                                      block.thickness_axes());
-    if (is_same) {
-      const std::size_t width = block.state_size();
-      if (width == 0)
-        return;
-      const auto rows = reader.read_rows("history", width, element_keys(discretization, body));
-      for (std::size_t e = 0; e < block.size(); ++e)
-        block.set_state(e, rows.data() + width * e);
-      return;
-    }
-    report.is_exact = false;
-    const auto stresses = load_stress(reader, problem_.scene(), body, discretization, displacements);
-    for (std::size_t e = 0; e < block.size(); ++e)
-      block.set_stress(e, gather(displacements, discretization.elements(body)[e].dofs), stresses[e]);
-  });
 }
 
 void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, const bool is_exact) {
@@ -151,53 +85,6 @@ void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, co
     problem_.tangent().take_exact();
   problem_.scales().lasting = reader.read("scales").at(0);
   problem_.released().load(reader, nodes, problem_.discretization());
-}
-
-void ImplicitSolution::load_tools(StateReader &reader, const OwnedNodes &nodes) {
-  const auto &tools = problem_.scene().tools();
-  SolutionState &state = problem_.state();
-  problem_.tools().begin();
-  for (std::size_t i = 0; i < tools.size(); ++i) {
-    state.placements[i] = tools[i].placement(state.time);
-    const auto found = find_group(reader, "tool", tools[i].name());
-    if (!found)
-      continue;
-    reader.in(group("tool", *found), [&] {
-      state.placements[i] = to_placement(reader.read("placement"));
-      state.tool_loads[i] = to_contact_load(reader.read("load"));
-      problem_.tools().load(i, reader, state.placements[i]);
-      problem_.removal().load(i, reader, nodes);
-    });
-  }
-  problem_.tools().restart();
-}
-
-void ImplicitSolution::load_contacts(StateReader &reader, const NodeKeys &keys) {
-  SolutionState &state = problem_.state();
-  auto body_pair_load = state.body_pair_loads.begin();
-  for (auto &contact : problem_.contacts()) {
-    ContactLoad *const load = contact.rigid_tool() ? nullptr : &*body_pair_load++;
-    const bool is_known = load_pair(reader, contact, [&] {
-      contact.load(reader, keys);
-      if (load != nullptr && reader.has("load"))
-        *load = to_contact_load(reader.read("load"));
-    });
-    if (!is_known)
-      contact.begin({state.time, state.time, 0., state.placements, state.placements}, state.displacements);
-  }
-}
-
-void ImplicitSolution::update_contacts(StateReader &reader, const bool is_exact) {
-  if (problem_.contacts().of_bodies().empty())
-    return;
-  bool couplings_are_known = is_exact;
-  problem_.start_at_rest();
-  for (auto &contact : problem_.contacts().of_bodies()) {
-    contact.update(state().displacements);
-    if (couplings_are_known)
-      load_pair(reader, contact, [&] { couplings_are_known = contact.load_couplings(reader); });
-  }
-  problem_.tangent().build(couplings_are_known);
 }
 
 void ImplicitSolution::balance(RestartReport &report) {

@@ -12,9 +12,9 @@ namespace {
 double difference(const StepResults::Groups &a, const StepResults::Groups &b) {
   double largest = 0.;
   for (std::size_t group = 0; group < a.size(); ++group) {
-    const double scale = ErrorControl::size(b[group]);
+    const double scale = size_of(b[group]);
     if (scale > 0.)
-      largest = std::max(largest, ErrorControl::distance(a[group], b[group]) / scale);
+      largest = std::max(largest, distance_of(a[group], b[group]) / scale);
   }
   return largest;
 }

@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 #define BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 
+#include "billet/solve/implicit/problem_checkpoint.h"
 #include "billet/solve/implicit/step_attempt.h"
 #include "billet/solve/implicit/step_diagnosis.h"
 #include "billet/solve/solution.h"
@@ -117,13 +118,6 @@ private:
   void commit_loads(double t);
 
   // Of save() and load(), in implicit_solution_state.cc:
-  void save_body(std::size_t body, StateWriter &writer) const;
-  void save_contacts(StateWriter &writer, const NodeKeys &keys) const;
-  void load_body(std::size_t body, StateReader &reader, RestartReport &report);
-  void load_tools(StateReader &reader, const OwnedNodes &nodes);
-  void load_contacts(StateReader &reader, const NodeKeys &keys);
-  /// What touches what now, and a matrix for it.
-  void update_contacts(StateReader &reader, bool is_exact);
   void load_own(StateReader &reader, const OwnedNodes &nodes, bool is_exact);
   /// All forces at the state as it is: those of supports and tools, and what is out of balance.
   void balance(RestartReport &report);
@@ -139,6 +133,7 @@ private:
   StepDiagnosis diagnosis_;
   std::unique_ptr<StepRules> rules_;
   StepAttempt attempt_;
+  ProblemCheckpoint checkpoint_;
   double penetration_ = 0.;
 };
 

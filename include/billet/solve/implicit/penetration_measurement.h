@@ -2,8 +2,8 @@
 #ifndef BILLET_SOLVE_IMPLICIT_PENETRATION_MEASUREMENT_H
 #define BILLET_SOLVE_IMPLICIT_PENETRATION_MEASUREMENT_H
 
-#include "billet/solve/error_control.h"
 #include "billet/solve/implicit/implicit_problem.h"
+#include "billet/solve/result_group.h"
 
 #include <limits>
 #include <optional>
@@ -19,7 +19,7 @@ namespace billet {
 /// far that has taken it.
 class StepResults {
 public:
-  using Groups = std::vector<ErrorControl::Forces>;
+  using Groups = std::vector<ResultGroup>;
 
   explicit StepResults(const ImplicitProblem &problem) : problem_(problem) {}
   /// "forces", "travel of 'die'": of each group.

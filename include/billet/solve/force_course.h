@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_FORCE_COURSE_H
+#define BILLET_SOLVE_FORCE_COURSE_H
+
+#include <algorithm>
+#include <vector>
+
+namespace billet {
+
+/// The sum of forces S = Σ|F| over time, and its integral, which errors are parts of.
+class ForceCourse {
+public:
+  explicit ForceCourse(const double end_time) : end_time_(end_time) {}
+
+  /// Begins at this time.
+  void begin(const double time) { time_ = start_ = time; }
+  /// Adds an accepted step of length `h` at whose end S is `force`.
+  void accept(double h, double force);
+
+  double start() const { return start_; }
+  double time() const { return time_; }
+  double end_time() const { return end_time_; }
+  /// Returns the time from start to end.
+  double span() const { return end_time_ - start_; }
+  /// Returns the time that is left; not negative.
+  double left() const { return std::max(0., end_time_ - time_); }
+  /// Returns S at the last step.
+  double force() const { return force_; }
+  /// Returns ∫S dt.
+  double work() const { return work_; }
+  /// Returns the size of forces: what S is, has been, or will be in the mean if it grows on.
+  double scale() const;
+
+  // For checkpoints: the numbers that are of this class among those of ErrorControl.
+  void save(std::vector<double> &numbers) const;
+  void load(const std::vector<double> &numbers);
+
+private:
+  double end_time_;
+  double start_ = 0., time_ = 0.;
+  double force_ = 0., force_rate_ = 0.; ///< S, dS/dt in the last step
+  double work_ = 0.;
+};
+
+} // namespace billet
+
+#endif

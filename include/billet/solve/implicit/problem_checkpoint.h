@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_PROBLEM_CHECKPOINT_H
+#define BILLET_SOLVE_IMPLICIT_PROBLEM_CHECKPOINT_H
+
+#include "billet/solve/implicit/implicit_problem.h"
+#include "billet/solve/restart.h"
+
+namespace billet {
+
+/// Bodies, tools and contacts of an implicit problem in checkpoints, each in its own group.
+class ProblemCheckpoint {
+public:
+  explicit ProblemCheckpoint(ImplicitProblem &problem) : problem_(problem) {}
+
+  void save_bodies(StateWriter &writer) const;
+  void save_tools(StateWriter &writer, const OwnedNodes &nodes) const;
+  void save_contacts(StateWriter &writer, const NodeKeys &keys) const;
+  /// Loads histories at the displacements of the state; the report is no more exact where a body was of
+  /// another formulation, from which it takes its stresses.
+  void load_bodies(StateReader &reader, RestartReport &report);
+  void load_tools(StateReader &reader, const OwnedNodes &nodes);
+  void load_contacts(StateReader &reader, const NodeKeys &keys);
+  /// Finds what touches what at the state, and makes a matrix for it.
+  void update_contacts(StateReader &reader, bool is_exact);
+
+private:
+  void save_body(std::size_t body, StateWriter &writer) const;
+  /// False where the formulation was another one.
+  bool load_body(std::size_t body, StateReader &reader);
+
+  ImplicitProblem &problem_;
+};
+
+} // namespace billet
+
+#endif

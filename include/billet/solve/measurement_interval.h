@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_MEASUREMENT_INTERVAL_H
+#define BILLET_SOLVE_MEASUREMENT_INTERVAL_H
+
+#include <algorithm>
+
+namespace billet {
+
+/// How many steps are taken between two measurements of errors: the more, the less the errors change.
+class MeasurementInterval {
+public:
+  /// Steps between measurements. With fewer they cost more than they save.
+  static constexpr unsigned int min = 4, max = 8;
+  /// Part of the target below which errors are little: measurements become rare.
+  static constexpr double little = 0.1;
+  /// Whether one measurement after the other found the same, but for a factor of 2.
+  static bool is_steady(const double slope, const double last_slope) {
+    constexpr double steady = 2.;
+    return slope <= steady * last_slope && slope >= last_slope / steady;
+  }
+
+  /// The first measurement is due after so many steps.
+  explicit MeasurementInterval(const unsigned int first) : until_(first) {}
+
+  bool is_due() const { return until_ == 0; }
+  void count_step() { until_ -= until_ > 0 ? 1 : 0; }
+  /// Start the interval, after a measurement: a longer one, or one of this length.
+  void start_longer() { start(std::clamp(2 * length_, min, max)); }
+  void start(const unsigned int length) {
+    length_ = length;
+    repeat();
+  }
+  /// Starts one as long as the last.
+  void repeat() { until_ = length_; }
+  /// Makes the next measurement due after so many steps, once.
+  void wait(const unsigned int n_steps) { until_ = n_steps; }
+
+  unsigned int until() const { return until_; }
+  unsigned int length() const { return length_; }
+  void load(const double until, const double length) {
+    until_ = static_cast<unsigned int>(until);
+    length_ = static_cast<unsigned int>(length);
+  }
+
+private:
+  unsigned int until_, length_ = 1;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/penetration_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+void PenetrationErrors::accept(const double h, const double force, const double penetration) {
+  integral_ += slope_ * penetration * force * h;
+  unmeasured_ += penetration * force * h;
+  interval_.count_step();
+}
+
+void PenetrationErrors::measure(const ForceCourse &course, const double penetration,
+                                const ResultGroup &forces, const ResultGroup &without,
+                                const double residuals) {
+  const double force = size_of(forces), noise = residuals * force,
+               error = std::max(0., distance_of(forces, without) - noise);
+  if (!(force > 0. && penetration > 0.)) {
+    miss(false);
+    return;
+  }
+  const bool is_first = !is_measured_;
+  is_measured_ = true;
+  const double last_slope = slope_;
+  slope_ = error / (force * penetration);
+  // Steps since the last measurement have something in between.
+  integral_ += ((is_first ? slope_ : std::sqrt(last_slope * slope_)) - last_slope) * unmeasured_;
+  unmeasured_ = 0.;
+  if (error <= MeasurementInterval::little * tolerance_ * force)
+    interval_.start(MeasurementInterval::max);
+  else if (!is_first && MeasurementInterval::is_steady(slope_, last_slope))
+    interval_.start_longer();
+  else
+    interval_.start(MeasurementInterval::min);
+  if (tolerance_ == 0. || !(error > 0.))
+    return;
+  // In proportion; tighter than what is the tightest is not to be had.
+  const double allowed = most_over_mean * tolerance_ * std::max(course.scale(), force);
+  allowed_ = std::max(1., penetration * allowed / error);
+}
+
+void PenetrationErrors::save(std::vector<double> &numbers) const {
+  numbers[8] = integral_;
+  numbers[10] = slope_;
+  numbers[13] = unmeasured_;
+  numbers[15] = is_measured_ ? 1. : 0.;
+  numbers[20] = allowed_;
+  numbers[21] = interval_.until();
+  numbers[22] = interval_.length();
+}
+
+void PenetrationErrors::load(const std::vector<double> &numbers) {
+  integral_ = numbers[8];
+  slope_ = numbers[10];
+  unmeasured_ = numbers[13];
+  is_measured_ = numbers[15] > 0.;
+  allowed_ = numbers[20];
+  interval_.load(numbers[21], numbers[22]);
+}
+
+} // namespace billet

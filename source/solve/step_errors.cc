@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/step_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace billet {
+
+namespace {
+
+double product(const ResultGroup &a, const ResultGroup &b) {
+  double sum = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/// Constants of error control; factors unless they say otherwise.
+struct Factors {
+  /// Steps until the next measurement where one was not possible: the next step may be the occasion.
+  static constexpr unsigned int soon = 1;
+  /// Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they
+  /// fade. This is what the first makes of them.
+  static constexpr double growth_of_errors = 1.4;
+  /// Sum of 1, 1/2, 1/4, ...: of errors that fade by half in each pair of steps.
+  static constexpr double sum_of_halves = 2.;
+  /// Least part of the span that is left for errors to grow in.
+  static constexpr double min_left = 1e-3;
+  /// Of an even rate of errors. Forces may be others by the end: nothing is saved at any price, nor spent at
+  /// once. What is spent late adds little, which is true of what is saved, too.
+  static constexpr double min_rate = 0.2, max_rate = 6.;
+  /// By which steps may become shorter or longer at once.
+  static constexpr double min_stretch = 0.5, max_stretch = 4.;
+  /// Of the slope of errors from one measurement to the next: what is above happens once.
+  static constexpr double max_sudden = 3.;
+  /// Part of the target from which on steps matter at all: then they are not longer than `max_span` times the
+  /// root of the tolerance in spans of the run, so that slopes do not change beyond recognition between two
+  /// measurements; nor made shorter than `min_span` times the tolerance, so that what happens once in a
+  /// while, whatever the step, does not decide.
+  static constexpr double matters = 0.05, max_span = 0.65, min_span = 3.;
+  /// Steps that are `shorter` than the last ones, and err `as_much` in the same time, are of no use: where
+  /// nodes touch, or begin to slip, one by one.
+  static constexpr double shorter = 0.75, as_much = 0.8;
+  /// Of a step after which comparisons fail twice in a row.
+  static constexpr double cut = 0.5;
+};
+
+/// Returns what is left of the forces by steps of length h of which each pair makes 2 c h², in parts of c,
+/// and forgets half of what was: the sum of 1, ½, ¼, ...
+double left_where_errors_fade(const double h) { return Factors::sum_of_halves * 2. * h * h; }
+
+} // namespace
+
+void StepErrors::add_step(const double h) {
+  errors_.resize(slopes_.size()); // after a restart there may be other tools
+  for (std::size_t i = 0; i < errors_.size(); ++i)
+    errors_[i] = rules_.fade ? left_where_errors_fade(h) * slopes_[i]
+                             : errors_[i] + Factors::growth_of_errors * h * h * slopes_[i];
+}
+
+void StepErrors::accept(const double h, const std::size_t n_forces) {
+  if (n_measurements_ == 0 && !has_given_up() && rules_.tolerance > 0.) // what steps make is not known yet
+    longest_step_ = std::min(longest_step_, h);
+  if (slopes_.size() == n_forces)
+    add_step(h);
+  unmeasured_ += h * h;
+  unmeasured_span_ += h;
+  const double error = size_of(errors_);
+  integral_ += 0.5 * (last_error_ + error) * h;
+  last_error_ = error;
+  interval_.count_step();
+}
+
+bool StepErrors::wants_measurement(const ForceCourse &course, const double h) const {
+  constexpr double longer = 1.5, rounding = 1e-9;
+  if (n_measurements_ == 0 && course.time() + 3. * h > course.end_time() * (1. + rounding))
+    return true;
+  return wants_measurement(course) ||
+         (n_measurements_ > 0 && course.force() > 0. && h > longer * measured_step_);
+}
+
+double StepErrors::allowed_rate(const ForceCourse &course) const {
+  // If the errors of forces grew from e at a rate r until the end, with forces as they are,
+  //   ∫ e dt = I + e t' + ½ r t'²,   ∫ Σ|F| dt = W + S t',   t' what is left of the time.
+  const double span = course.span(),
+               left = std::max(course.end_time() - course.time(), Factors::min_left * span),
+               scale = course.scale();
+  const double rate = 2. *
+                      (rules_.tolerance * (course.work() + scale * left) - integral_ - last_error_ * left) /
+                      (left * left);
+  const double even = 2. * rules_.tolerance * scale / span;
+  return std::min(Factors::max_rate * even,
+                  std::max(Factors::min_rate * even * span * span / (left * left), rate));
+}
+
+double StepErrors::left_at_the_end(const ForceCourse &course, const double slope, const double h) const {
+  return rules_.fade ? left_where_errors_fade(h) * slope
+                     : Factors::growth_of_errors * slope * h * course.span();
+}
+
+double StepErrors::allowed_stretch(const ForceCourse &course, const double h) const {
+  if (!(last_slope_ > 0.))
+    return Factors::max_stretch;
+  const double stretch =
+      rules_.fade ? std::sqrt(rules_.tolerance * course.scale() / left_at_the_end(course, last_slope_, h))
+                  : allowed_rate(course) / (Factors::growth_of_errors * last_slope_ * h);
+  return std::clamp(stretch, Factors::min_stretch, Factors::max_stretch);
+}
+
+StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces,
+                                       const ResultGroup &of_one_step, const double difference,
+                                       const double noise) const {
+  const bool is_first = slopes_.size() != forces.size();
+  // Between what the difference is with and without the noise: as it was last time, if that is in between.
+  const double least_slope = std::max(0., difference - noise) / (2. * h * h),
+               most_slope = (difference + noise) / (2. * h * h);
+  const double value = is_first ? least_slope : std::max(least_slope, std::min(last_slope_, most_slope)),
+               last = is_first ? value : last_slope_;
+  // Of differences within the noise not even the direction is known.
+  ResultGroup now = difference > noise || is_first ? forces : slopes_;
+  if (difference > noise || is_first)
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      now[i] = difference > 0. ? value / difference * (of_one_step[i] - forces[i]) : dealii::Tensor<1, 3>();
+  else if (last_slope_ > 0.)
+    for (auto &part : now)
+      part *= value / last_slope_;
+  return {value, last, most_slope, is_first, difference > noise, std::move(now)};
+}
+
+void StepErrors::take(const Slope &slope, const double h) {
+  const ResultGroup &now = slope.now;
+  // So far steps since the last measurement count with c from there. Those that were measured now are known,
+  // and those between have something in between: the geometric mean, so that what happens once, such as a
+  // node that begins to slip, does not count for all.
+  const double between = !(slope.value > 0.)                        ? 0.
+                         : rules_.stays && slope.last < slope.value ? 1.
+                                                                    : std::sqrt(slope.last / slope.value);
+  const double h_squared = unmeasured_ - 2. * h * h;
+  slopes_.resize(now.size());
+  errors_.resize(now.size());
+  for (std::size_t i = 0; i < now.size(); ++i)
+    errors_[i] = rules_.fade ? left_where_errors_fade(h) * now[i]
+                             : errors_[i] + Factors::growth_of_errors *
+                                                (2. * h * h * now[i] + h_squared * between * now[i] -
+                                                 unmeasured_ * slopes_[i]);
+  const double error = size_of(errors_);
+  integral_ += 0.5 * (error - last_error_) * unmeasured_span_;
+  last_error_ = error;
+  // From here on this, unless it is much more than last time, for the same reason. Errors that turn around do
+  // not add up.
+  const double sudden = slope.value > Factors::max_sudden * slope.last && !rules_.stays
+                            ? Factors::max_sudden * slope.last / slope.value
+                            : 1.;
+  const bool has_turned = product(now, slopes_) < 0.;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    slopes_[i] = has_turned ? 0.5 * (slopes_[i] + sudden * now[i]) : sudden * now[i];
+  last_slope_ = size_of(slopes_);
+  unmeasured_ = unmeasured_span_ = 0.;
+}
+
+void StepErrors::schedule(const ForceCourse &course, const Slope &slope, const double h) {
+  is_little_ =
+      left_at_the_end(course, slope.most, h) <= MeasurementInterval::little * rough_target() * course.scale();
+  const bool is_steady = MeasurementInterval::is_steady(slope.value, slope.last) && !slope.is_first;
+  if (is_steady || is_little_)
+    interval_.start_longer();
+  else
+    interval_.start(MeasurementInterval::min);
+}
+
+void StepErrors::measure(const ForceCourse &course, const double h, const ResultGroup &forces,
+                         const ResultGroup &of_one_step, const double residuals) {
+  const double force = size_of(forces); // 0 of a tool that has not moved yet, while others have
+  const double difference = distance_of(of_one_step, forces);
+  const Slope slope = slope_of(h, forces, of_one_step, difference, residuals * force);
+  take(slope, h);
+  const double last_step = measured_step_, last_part = part_;
+  measured_step_ = h;
+  part_ = force > 0. ? difference / (h * force) : 0.;
+  ++n_measurements_;
+  n_failed_ = 0;
+  schedule(course, slope, h);
+  if (rules_.tolerance == 0.)
+    return;
+  const bool may_matter =
+      left_at_the_end(course, slope.most, h) > Factors::matters * rough_target() * course.scale();
+  choose_longest_step(course, h, may_matter && !rules_.fade, slope.is_known);
+  if (h < Factors::shorter * last_step && part_ > Factors::as_much * last_part)
+    longest_step_ = std::max(longest_step_, last_step);
+}
+
+void StepErrors::choose_longest_step(const ForceCourse &course, const double h, const bool matter,
+                                     const bool is_known) {
+  longest_step_ = h * allowed_stretch(course, h);
+  if (!matter)
+    return;
+  const double span = course.span(), most_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
+  longest_step_ = std::min(longest_step_, is_known ? most_span : std::max(most_span, h));
+  if (longest_step_ < h)
+    longest_step_ = std::max(
+        longest_step_, std::min(h, std::min(0.5 * most_span, Factors::min_span * rules_.tolerance * span)));
+}
+
+void StepErrors::miss(const double h, const bool failed) {
+  if (failed && is_little_ && !rules_.stays) { // nothing is gained by shorter ones
+    interval_.repeat();
+    return;
+  }
+  n_failed_ = failed ? n_failed_ + 1 : 0;
+  interval_.wait(Factors::soon);
+  // Something may just have happened there; twice in a row it is the length; and where shorter ones fail like
+  // longer ones it is neither.
+  if (has_given_up()) {
+    interval_.wait(MeasurementInterval::max);
+    longest_step_ = std::numeric_limits<double>::infinity();
+  } else if (n_failed_ > 1 && rules_.tolerance > 0.)
+    longest_step_ = std::min(longest_step_, Factors::cut * h);
+}
+
+void StepErrors::save(std::vector<double> &numbers) const {
+  numbers[4] = last_slope_;
+  numbers[5] = last_error_;
+  numbers[7] = integral_;
+  numbers[11] = unmeasured_;
+  numbers[12] = unmeasured_span_;
+  numbers[14] = measured_step_;
+  numbers[16] = interval_.until();
+  numbers[17] = interval_.length();
+  numbers[18] = n_measurements_;
+  numbers[19] = longest_step_;
+  numbers[23] = is_little_ ? 1. : 0.;
+  numbers[24] = part_;
+  numbers[25] = n_failed_;
+}
+
+void StepErrors::load(const std::vector<double> &numbers) {
+  last_slope_ = numbers[4];
+  last_error_ = numbers[5];
+  integral_ = numbers[7];
+  unmeasured_ = numbers[11];
+  unmeasured_span_ = numbers[12];
+  measured_step_ = numbers[14];
+  interval_.load(numbers[16], numbers[17]);
+  n_measurements_ = static_cast<unsigned int>(numbers[18]);
+  longest_step_ = numbers[19];
+  is_little_ = numbers[23] > 0.;
+  part_ = numbers[24];
+  n_failed_ = static_cast<unsigned int>(numbers[25]);
+}
+
+void StepErrors::save_forces(StateWriter &writer) const {
+  billet::save(writer, "errors by steps", slopes_);
+  billet::save(writer, "errors of forces", errors_);
+}
+
+void StepErrors::load_forces(const StateReader &reader) {
+  slopes_ = load_result_group(reader, "errors by steps");
+  errors_ = load_result_group(reader, "errors of forces");
+}
+
+} // namespace billet
