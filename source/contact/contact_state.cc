@@ -327,7 +327,7 @@ void FacetContact::save(StateWriter &writer) const {
     write_list(writer, "edges", dealii::Utilities::MPI::this_mpi_process(communicator_), edges_->offsets());
   if (is_augmented || has_depths)
     writer.write_rows("lifts", 2, keys, lifts);
-  if (!std::holds_alternative<Frictionless>(settings_.friction))
+  if (settings_.friction != nullptr)
     writer.write_rows("friction", slave_width, keys, histories);
 }
 
@@ -386,7 +386,7 @@ void FacetContact::load(const StateReader &reader) {
     }
   }
   lifts_ = lifts_n_;
-  if (std::holds_alternative<Frictionless>(settings_.friction) || !reader.has("friction"))
+  if (settings_.friction == nullptr || !reader.has("friction"))
     return;
   const std::vector<double> histories = reader.read_rows("friction", slave_width, keys, &is_known);
   for (std::size_t s = 0; s < slaves_.size(); ++s) {

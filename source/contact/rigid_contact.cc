@@ -147,25 +147,23 @@ template <class DisplacementOf> void RigidContact::update_states(const Displacem
     return;
   Usage::count(Capability::contact, nodes_.size());
   Usage::count_if(!friction_.empty(), Capability::friction, friction_.size());
-  std::visit(
-      [&](const auto &law) {
-        const auto update_state = [&](const std::size_t i, const Tensor<1, 3> &position) {
-          states_[i] = evaluate(law, i, position, friction_.empty() ? nullptr : &friction_[i]);
-          nodes_[i].patch = states_[i].patch;
-        };
-        for (std::size_t i = 0; i < n_mesh_nodes_; ++i)
-          update_state(i, nodes_[i].reference + displacement_of(i));
-        for (auto &divided : divided_) {
-          if (is_far(divided))
-            continue;
-          divided.may_touch = false;
-          for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {
-            update_state(i, at(i, [&](const std::size_t parent) { return states_[parent].position; }));
-            divided.may_touch = divided.may_touch || states_[i].status != ContactStatus::open;
-          }
-        }
-      },
-      pair_.friction);
+  choose_friction(pair_.friction, [&](const auto &law) {
+    const auto update_state = [&](const std::size_t i, const Tensor<1, 3> &position) {
+      states_[i] = evaluate(law, i, position, friction_.empty() ? nullptr : &friction_[i]);
+      nodes_[i].patch = states_[i].patch;
+    };
+    for (std::size_t i = 0; i < n_mesh_nodes_; ++i)
+      update_state(i, nodes_[i].reference + displacement_of(i));
+    for (auto &divided : divided_) {
+      if (is_far(divided))
+        continue;
+      divided.may_touch = false;
+      for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {
+        update_state(i, at(i, [&](const std::size_t parent) { return states_[parent].position; }));
+        divided.may_touch = divided.may_touch || states_[i].status != ContactStatus::open;
+      }
+    }
+  });
 }
 
 void RigidContact::update(const Vector &displacements) {
@@ -349,9 +347,9 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   return state;
 }
 
-template <class Law>
-void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
-                                  const FrictionHistory &history_n, FrictionHistory &history) const {
+void RigidContact::apply_friction(const FrictionLaw &law, const Node &node, NodeState &state,
+                                  const Fading *fading, const FrictionHistory &history_n,
+                                  FrictionHistory &history) const {
   history.frame = history_n.is_active
                       ? history_n.frame.transported(
                             placement_.rotation * dealii::transpose(placement_n_.rotation), state.normal)
@@ -739,27 +737,25 @@ void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<dou
 }
 
 void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
-  std::visit(
-      [&](const auto &law) {
-        FrictionHistory ignored;
-        for (unsigned int b = 0; b < 4; ++b) {
-          const Node &node = nodes_[facet.nodes[b]];
-          const double h = 1e-7 * node.size;
-          for (unsigned int j = 0; j < 3; ++j)
-            for (const double sign : {1., -1.}) {
-              Tensor<1, 3> position = states_[facet.nodes[b]].position;
-              position[j] += sign * h;
-              const NodeState moved = evaluate(law, facet.nodes[b], position, &ignored);
-              FacetStates states = states_of(facet);
-              states[b] = &moved;
-              const FacetAreas areas = compute_areas(states, false);
-              for (unsigned int a = 0; a < 4; ++a)
-                for (unsigned int i = 0; i < 3; ++i)
-                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
-            }
+  choose_friction(pair_.friction, [&](const auto &law) {
+    FrictionHistory ignored;
+    for (unsigned int b = 0; b < 4; ++b) {
+      const Node &node = nodes_[facet.nodes[b]];
+      const double h = 1e-7 * node.size;
+      for (unsigned int j = 0; j < 3; ++j)
+        for (const double sign : {1., -1.}) {
+          Tensor<1, 3> position = states_[facet.nodes[b]].position;
+          position[j] += sign * h;
+          const NodeState moved = evaluate(law, facet.nodes[b], position, &ignored);
+          FacetStates states = states_of(facet);
+          states[b] = &moved;
+          const FacetAreas areas = compute_areas(states, false);
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
         }
-      },
-      pair_.friction);
+    }
+  });
 }
 
 void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
@@ -827,7 +823,8 @@ void RigidContact::add_resistances(const std::size_t body, std::vector<Resistanc
 void RigidContact::visit_supporting(const VisitSupporting &visit) const {
   for (const auto &state : states_)
     if (state.status != ContactStatus::open)
-      visit(make_supporting_point(state.position, state.normal, pair_.friction, state.status, state.traction),
+      visit(make_supporting_point(state.position, state.normal, pair_.friction.get(), state.status,
+                                  state.traction),
             pair_.body, pair_.body);
 }
 

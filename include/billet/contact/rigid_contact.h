@@ -327,8 +327,7 @@ private:
   template <class Law>
   NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
                      FrictionHistory *history) const;
-  template <class Law>
-  void apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
+  void apply_friction(const FrictionLaw &law, const Node &node, NodeState &state, const Fading *fading,
                       const FrictionHistory &history_n, FrictionHistory &history) const;
   FrictionRule friction_rule(const Node &node) const;
   static Fading fade(const RigidSurface::Border &border, double width, const HardeningSpring &spring,
