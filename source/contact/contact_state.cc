@@ -240,7 +240,7 @@ void RigidContact::begin_at(const ContactStep &step, const DisplacementOf &displ
   remember_positions();
   remember_pressures();
   for (auto &facet : facets_) {
-    facet.shallow_areas.fill(not_touching);
+    facet.shallow_areas.fill(SpringEnergy::no_area);
     facet.friction_areas.fill(0.);
   }
 }

@@ -177,7 +177,7 @@ void RigidContact::divide(const std::array<unsigned int, 4> &corners,
       const unsigned int first = j * row + i;
       Facet part{};
       part.key = points_per_key * key + first;
-      part.shallow_areas.fill(not_touching);
+      part.shallow_areas.fill(SpringEnergy::no_area);
       part.nodes = {grid[first], grid[first + 1], grid[first + row], grid[first + row + 1]};
       facets_.push_back(part);
     }

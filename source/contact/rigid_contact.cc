@@ -93,7 +93,7 @@ void RigidContact::collect_facets(const Discretization &discretization, const do
   for (const auto &boundary : boundary_facets) {
     Facet facet{};
     facet.key = boundary.key;
-    facet.shallow_areas.fill(not_touching);
+    facet.shallow_areas.fill(SpringEnergy::no_area);
     for (unsigned int a = 0; a < 4; ++a) {
       const auto found = index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(nodes_.size()));
       if (found.second) {
@@ -189,23 +189,6 @@ void RigidContact::update(const NodalVectors &displacements) {
   update_states([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
 }
 
-RigidContact::Fading RigidContact::fade(const RigidSurface::Border &border, const double width,
-                                        const HardeningSpring &penalty, const double gap) {
-  const double q = border.beyond / width, left = 1. - q * q;
-  const double slope = -4. * q * left / width, bend = (12. * q * q - 4.) / (width * width); // s′, s″
-  const double depth = std::max(-gap, 0.), spring = penalty.energy(depth), pressure = penalty.pressure(depth);
-  const Tensor<1, 3> &n = border.normal, &e = border.outward;
-  Fading fading;
-  fading.share = left * left;
-  fading.push = -spring * slope * e;
-  fading.pressure_slope = pressure * slope * e;
-  fading.tangent = -pressure * slope * (dealii::outer_product(n, e) + dealii::outer_product(e, n)) +
-                   spring * (bend * dealii::outer_product(e, e) + slope * border.spreading);
-  // |s′|/d <= 4/w², |s″| <= 8/w².
-  fading.stiffness = 2. * pressure * std::abs(slope) + 12. * spring / (width * width);
-  return fading;
-}
-
 void RigidContact::introduce(std::deque<RigidContact> &contacts) {
   for (auto &contact : contacts)
     for (const auto &other : contacts)
@@ -277,14 +260,14 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   state.is_passed = state.is_behind && projection.exists;
   const bool fades = !state.is_behind && !projection.exists && projection.beyond < width &&
                      !is_near_another(position, node.size, placement_.rotation * projection.normal);
-  Fading fading{};
+  EdgeFading fading{};
   if (fades) {
     RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch, width);
     projection = {true, border.normal, border.gap, border.turning, projection.patch};
     border.normal = placement_.rotation * border.normal;
     border.outward = placement_.rotation * border.outward;
     border.spreading = placement_.rotation * border.spreading * dealii::transpose(placement_.rotation);
-    fading = fade(border, width, node.spring(), border.gap - lift_of(node));
+    fading = compute_edge_fading(border, width, node.spring(), border.gap - lift_of(node));
     state.share = fading.share;
     state.fading_stiffness = fading.stiffness;
   }
@@ -348,7 +331,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
 }
 
 void RigidContact::apply_friction(const FrictionLaw &law, const Node &node, NodeState &state,
-                                  const Fading *fading, const FrictionHistory &history_n,
+                                  const EdgeFading *fading, const FrictionHistory &history_n,
                                   FrictionHistory &history) const {
   history.frame = history_n.is_active
                       ? history_n.frame.transported(
@@ -474,7 +457,7 @@ template <class Add> void RigidContact::for_each_area(const Add &add) const {
 
 template <class Add> void RigidContact::for_each_counted_area(const Add &add) const {
   for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
-    const double counted = counted_area(facet, corner, area, springs_of(facet.nodes[corner]));
+    const double counted = springs_of(facet.nodes[corner]).counted_area(area, facet.shallow_areas[corner]);
     if (counted > 0.)
       add(facet.nodes[corner], counted);
   });
@@ -553,12 +536,9 @@ double RigidContact::stored_energy(const std::size_t i) const {
          (pair_.is_augmented() ? 0. : states_[i].tangential_energy);
 }
 
-RigidContact::Springs RigidContact::springs_of(const std::size_t i, const double energy) const {
+SpringEnergy RigidContact::springs_of(const std::size_t i, const double energy) const {
   const double limit = nodes_[i].spring().energy(depth_on_current_areas(nodes_[i]));
-  if (!is_explicit_ || energy <= limit)
-    return {energy, energy, 1.};
-  const double share = std::sqrt(limit / energy);
-  return {energy, share * (2. - share) * energy, share};
+  return is_explicit_ ? SpringEnergy::split(energy, limit) : SpringEnergy::on_one_area(energy);
 }
 
 void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) {
@@ -568,12 +548,12 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
   double hardening = 1.; // of the stiffest spring
   for (unsigned int a = 0; a < 4; ++a)
     if (states[a]->status != ContactStatus::open) {
-      const Springs springs = springs_of(facet.nodes[a]);
-      if (springs.share == 1.)
-        facet.shallow_areas[a] = not_touching; // what it is here is found below
+      const SpringEnergy springs = springs_of(facet.nodes[a]);
+      if (!springs.is_split())
+        facet.shallow_areas[a] = SpringEnergy::no_area; // what it is here is found below
       energies[a] = springs.on_current_area;
       const double stiffness = nodes_[facet.nodes[a]].stiffness.normal;
-      depth = std::max(depth, 2. * springs.energy / stiffness);
+      depth = std::max(depth, 2. * springs.total / stiffness);
       hardening = std::max(hardening, stiffness_ahead(facet.nodes[a]) / stiffness);
     }
   if (!touches(states))
@@ -610,10 +590,10 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
     add_bound(hardening * nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas(nodes_[i])) *
               (nodes_[i].spacing + depth));
     if (states[b]->status != ContactStatus::open) {
-      if (facet.shallow_areas[b] == not_touching)
+      if (facet.shallow_areas[b] == SpringEnergy::no_area)
         facet.shallow_areas[b] = areas[b];
       force += add_to_load(load, facet, b, areas[b]);
-      add_bound(largest_area(facet, b, areas[b]) *
+      add_bound(springs_of(i).max_area(areas[b], facet.shallow_areas[b]) *
                 (std::max(stiffness_ahead(i), nodes_[i].stiffness.tangential) + states[b]->fading_stiffness));
     }
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
@@ -651,7 +631,7 @@ double RigidContact::stiffness_against_tool() const {
   if (is_removed_ || !tool_.is_driven())
     return sum;
   for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
-    add(facet.nodes[corner], largest_area(facet, corner, area));
+    add(facet.nodes[corner], springs_of(facet.nodes[corner]).max_area(area, facet.shallow_areas[corner]));
   });
   for_each_near(add);
   return sum;
@@ -872,7 +852,7 @@ void RigidContact::commit() {
     for (auto &facet : facets_)
       for (unsigned int a = 0; a < 4; ++a)
         if (states_[facet.nodes[a]].status == ContactStatus::open)
-          facet.shallow_areas[a] = not_touching;
+          facet.shallow_areas[a] = SpringEnergy::no_area;
 }
 
 void RigidContact::remember_pressures() {
@@ -1055,36 +1035,19 @@ ContactSprings RigidContact::compute_springs() const {
   return springs;
 }
 
-double RigidContact::largest_area(const Facet &facet, const unsigned int corner, const double area) const {
-  return springs_of(facet.nodes[corner]).share < 1. ? std::max(area, facet.shallow_areas[corner]) : area;
-}
-
-double RigidContact::counted_area(const Facet &facet, const unsigned int corner, const double area,
-                                  const Springs &springs) {
-  const double before = facet.shallow_areas[corner];
-  return springs.share == 1. || before == not_touching ? area
-                                                       : springs.share * area + (1. - springs.share) * before;
-}
-
-double RigidContact::energy_on(const Facet &facet, const unsigned int corner, const double area,
-                               const Springs &springs) {
-  const double before = facet.shallow_areas[corner] == not_touching ? area : facet.shallow_areas[corner];
-  return area * springs.on_current_area + before * (springs.energy - springs.on_current_area);
-}
-
 Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
                                        const double area) const {
   const std::size_t i = facet.nodes[corner];
   const NodeState &state = states_[i];
-  const Springs springs = springs_of(i);
-  const double counted = counted_area(facet, corner, area, springs);
+  const SpringEnergy springs = springs_of(i);
+  const double counted = springs.counted_area(area, facet.shallow_areas[corner]);
   if (!(counted > 0.))
     return {};
   const Tensor<1, 3> force = counted * state.traction;
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  load.stored_energy += energy_on(facet, corner, area, springs);
+  load.stored_energy += springs.on_areas(area, facet.shallow_areas[corner]);
   if (is_explicit_)
     load.dissipation += state.friction.dissipated(counted, counted);
   load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
@@ -1163,8 +1126,8 @@ void RigidContact::add_released(ContactLoad &load) const {
     }
     for (unsigned int a = 0; a < 4; ++a)
       if (is_released(*states[a]))
-        load.dissipation +=
-            energy_on(facet, a, areas[a], springs_of(facet.nodes[a], states[a]->friction.dissipation_n));
+        load.dissipation += springs_of(facet.nodes[a], states[a]->friction.dissipation_n)
+                                .on_areas(areas[a], facet.shallow_areas[a]);
   }
 }
 

@@ -3,8 +3,10 @@
 #define BILLET_CONTACT_RIGID_CONTACT_H
 
 #include "billet/contact/contact_interface.h"
+#include "billet/contact/edge_fading.h"
 #include "billet/contact/friction_account.h"
 #include "billet/contact/hardening_spring.h"
+#include "billet/contact/spring_energy.h"
 #include "billet/geometry/frame.h"
 #include "billet/usage.h"
 
@@ -197,14 +199,6 @@ private:
     bool is_behind = false;        ///< has missed the tool's surface, ...
     bool is_passed = false;        ///< ... and the surface is before it now
   };
-  /// What a node beyond a border adds, with the penalty k in full.
-  struct Fading {
-    double share;
-    dealii::Tensor<1, 3> push;           ///< [stress]
-    dealii::Tensor<1, 3> pressure_slope; ///< ∂p/∂x at a fixed gap [stress/length]
-    dealii::Tensor<2, 3> tangent; ///< −∂(push + p n)/∂x, but for that of p at a fixed s [stress/length]
-    double stiffness;             ///< no less than the norm of what `tangent` has besides [stress/length]
-  };
   /// Of a node that sticks, in this step, or since its traction was augmented [length].
   double elastic_slip(std::size_t i) const;
   /// Only with friction.
@@ -222,10 +216,9 @@ private:
     std::uint64_t key;
     std::array<double, 4> friction_areas; ///< of corners that touch, at the start of the step
     /// Of explicit scenes: each corner's area in the last step in which its node was not deep, or in its
-    /// first one; not_touching where it does not touch.
+    /// first one; SpringEnergy::no_area where it does not touch.
     std::array<double, 4> shallow_areas;
   };
-  static constexpr double not_touching = -1.;
   /// What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
   static constexpr double near_gap = 0.25, near_steps = 20.;
   /// A point inside a facet: node n_mesh_nodes_ + its index.
@@ -240,12 +233,6 @@ private:
     unsigned int first_point, n_points; ///< inside, in `nodes_`
     unsigned int first_part, n_parts;   ///< in `facets_`
     bool may_touch;                     ///< a point inside touched at the last update(), or is not known
-  };
-  /// In the penalty springs of a node that touches [energy/length²].
-  struct Springs {
-    double energy;
-    double on_current_area; ///< what of it areas weigh as they are; the rest those before it was deep
-    double share;           ///< ∂(on_current_area)/∂(energy)
   };
   using FacetStates = std::array<const NodeState *, 4>;
   struct FacetAreas {
@@ -327,11 +314,9 @@ private:
   template <class Law>
   NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
                      FrictionHistory *history) const;
-  void apply_friction(const FrictionLaw &law, const Node &node, NodeState &state, const Fading *fading,
+  void apply_friction(const FrictionLaw &law, const Node &node, NodeState &state, const EdgeFading *fading,
                       const FrictionHistory &history_n, FrictionHistory &history) const;
   FrictionRule friction_rule(const Node &node) const;
-  static Fading fade(const RigidSurface::Border &border, double width, const HardeningSpring &spring,
-                     double gap);
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   template <class DisplacementOf>
@@ -346,22 +331,17 @@ private:
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   static bool touches(const FacetStates &states);
-  /// The area that a node's traction stands on; and what its springs hold on that.
-  static double counted_area(const Facet &facet, unsigned int corner, double area, const Springs &springs);
-  static double energy_on(const Facet &facet, unsigned int corner, double area, const Springs &springs);
   /// Of a corner whose node touches, with its area at the facet; the force on the body.
   dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
                                    double area) const;
-  /// What its springs stand on at most.
-  double largest_area(const Facet &facet, unsigned int corner, double area) const;
   /// Whether another tool has a surface there, nearer than `near`; one that is `facing` like this (in space),
   /// if that is given: one that presses the other side of a sheet does not.
   bool is_near_another(const dealii::Tensor<1, 3> &position, double near,
                        const std::optional<dealii::Tensor<1, 3>> &facing = {}) const;
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
-  Springs springs_of(std::size_t i, double energy) const;
-  Springs springs_of(const std::size_t i) const { return springs_of(i, stored_energy(i)); }
+  SpringEnergy springs_of(std::size_t i, double energy) const;
+  SpringEnergy springs_of(const std::size_t i) const { return springs_of(i, stored_energy(i)); }
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
   /// −Σ_a ê_a ∂A_a/∂x_b (T7), ê what areas as they are weigh of the stored energy e: with these, normal
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
