@@ -192,7 +192,8 @@ void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
   if (reader.number("removed") != 0.)
     remove_tool();
   allowed_part_ = allowed_part_n_ = reader.number("allowed part");
-  positions_on_thin_tool_.clear();
+  if (thin_tool_)
+    thin_tool_->forget();
   if (reader.has("stiffening")) {
     const std::vector<double> factors = reader.read("stiffening");
     scale_penalties(factors.at(0) / stiffening_, factors.at(1) / tangential_stiffening_);

@@ -185,12 +185,12 @@ void RigidContact::divide(const std::array<unsigned int, 4> &corners,
 }
 
 void RigidContact::harden_springs() {
-  if (!is_explicit_ || pair_.input->has_own_penalty || thickness_of_thin_tool_ == 0.)
+  if (!is_explicit_ || pair_.input->has_own_penalty || !thin_tool_)
     return;
   constexpr double hardening = 0.002; // part of what is between points, or of the tool's thickness
   for (auto &node : nodes_)
     if (node.is_divided)
-      node.hardening_depth = hardening * std::min(node.spacing, thickness_of_thin_tool_);
+      node.hardening_depth = hardening * std::min(node.spacing, thin_tool_->thickness());
 }
 
 double RigidContact::stiffness_ahead(const std::size_t i) const {

@@ -75,7 +75,10 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
       friction_n_[i].tool_position = X;
   }
   friction_ = friction_n_;
-  measure_tool();
+  double max_size = 0.;
+  for (const auto &node : nodes_)
+    max_size = std::max(max_size, node.size);
+  thin_tool_ = ThinToolWatch::make(tool_.surface(), dealii::Utilities::MPI::max(max_size, communicator_));
   harden_springs();
   for (auto &node : nodes_)
     node.given = node.stiffness;
@@ -1160,8 +1163,8 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     reports[i].penetration = sums[i].depth;
     reports[i].curvature = sums[i].curvature;
     // A tool that is thin beside the facets is as sharp as a radius of half its thickness.
-    if (thickness_of_thin_tool_ > 0. && thickness_of_thin_tool_ < 0.5 * nodes_[i].size)
-      reports[i].curvature = std::max(reports[i].curvature, 2. / thickness_of_thin_tool_);
+    if (thin_tool_ && thin_tool_->thickness() < 0.5 * nodes_[i].size)
+      reports[i].curvature = std::max(reports[i].curvature, 2. / thin_tool_->thickness());
     reports[i].status = sums[i].slipping > 0.5 * sums[i].force ? ContactStatus::slip : ContactStatus::stick;
   }
 }

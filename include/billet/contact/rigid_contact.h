@@ -7,6 +7,7 @@
 #include "billet/contact/friction_account.h"
 #include "billet/contact/hardening_spring.h"
 #include "billet/contact/spring_energy.h"
+#include "billet/contact/thin_tool_watch.h"
 #include "billet/geometry/frame.h"
 #include "billet/usage.h"
 
@@ -74,7 +75,7 @@ public:
   /// In contact/tool_paths.cc.
   double find_free_part(const ContactPath &path) const override;
   /// Of tools thinner than two facets, the only ones that nodes go through.
-  bool may_let_nodes_through() const override { return thickness_of_thin_tool_ > 0.; }
+  bool may_let_nodes_through() const override { return thin_tool_.has_value(); }
   /// After update() and before commit(); false in the first step after load().
   bool lets_nodes_through() const override;
   std::string describe_passage() const override;
@@ -299,8 +300,6 @@ private:
   void save_areas(StateWriter &writer, const std::string &name, CornerAreas areas, const Range &range) const;
   void load_nodes(const StateReader &reader, const Range &range);
   void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas, const Range &range);
-  /// How thick it is, if it is thin. Collective.
-  void measure_tool();
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
   /// Notes the pressures of the last update() for the works of the next step.
@@ -399,10 +398,9 @@ private:
   double start_weight_ = 0.5;
   bool is_static_ = false;
   double tool_reach_ = 0.;
-  double unresolved_length_ = 0.;      ///< of the longest facet that has too few parts, on any rank [length]
-  double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]
-  std::vector<dealii::Tensor<1, 3>> positions_on_thin_tool_; ///< of the nodes, at the start of the step
-  double stiffening_ = 1., tangential_stiffening_ = 1.;      ///< of the penalties as given
+  double unresolved_length_ = 0.; ///< of the longest facet that has too few parts, on any rank [length]
+  std::optional<ThinToolWatch> thin_tool_;              ///< none unless the tool is thin on any rank
+  double stiffening_ = 1., tangential_stiffening_ = 1.; ///< of the penalties as given
   bool is_removed_ = false;
   bool has_nodes_behind_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction},
