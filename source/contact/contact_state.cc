@@ -223,7 +223,7 @@ void RigidContact::begin_at(const ContactStep &step, const DisplacementOf &displ
     const dealii::Tensor<1, 3> position = nodes_[i].reference + at(i, displacement_of);
     const dealii::Tensor<1, 3> on_tool = placement.to_tool(position);
     const auto projection = tool_.surface().project(on_tool);
-    states_[i] = NodeState();
+    states_[i] = ToolContactState();
     states_[i].position = position;
     nodes_[i].lift = nodes_[i].lift_n = nodes_[i].initial_depth = 0.;
     nodes_[i].is_behind = false;

@@ -202,7 +202,7 @@ bool RigidContact::is_far(DividedFacet &divided) {
   if (divided.may_touch)
     return false;
   // Gaps are distances, so that none in the facet is less than that of the nearest corner less the way there.
-  std::array<const NodeState *, 4> corners{};
+  std::array<const ToolContactState *, 4> corners{};
   double least = std::numeric_limits<double>::infinity(), approach = 0., size = 0.;
   for (unsigned int a = 0; a < 4; ++a) {
     const Node &node = nodes_[divided.corners[a]];
@@ -219,7 +219,7 @@ bool RigidContact::is_far(DividedFacet &divided) {
   if (!(gap > near_gap * size + near_steps * approach))
     return false;
   for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {
-    NodeState &state = states_[i];
+    ToolContactState &state = states_[i];
     state.position = at(i, [&](const std::size_t parent) { return states_[parent].position; });
     state.gap = gap;
     if (!friction_.empty()) // it was open before, too

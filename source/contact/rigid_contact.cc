@@ -84,7 +84,7 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
     node.given = node.stiffness;
   remember_positions();
   remember_pressures();
-  memory_.set(nodes_.size() * (sizeof(Node) + sizeof(NodeState)) + facets_.size() * sizeof(Facet));
+  memory_.set(nodes_.size() * (sizeof(Node) + sizeof(ToolContactState)) + facets_.size() * sizeof(Facet));
   friction_memory_.set(2 * friction_.size() * sizeof(FrictionHistory));
 }
 
@@ -139,7 +139,7 @@ void RigidContact::start_step(const ContactStep &step) {
 void RigidContact::remove_tool() {
   is_removed_ = true;
   for (auto &state : states_)
-    state = NodeState();
+    state = ToolContactState();
   for (auto &history : friction_)
     history = FrictionHistory();
   friction_n_ = friction_;
@@ -251,10 +251,10 @@ bool RigidContact::misses(const Node &node, const Tensor<1, 3> &position, const 
 }
 
 template <class Law>
-RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t i,
-                                               const Tensor<1, 3> &position, FrictionHistory *history) const {
+ToolContactState RigidContact::evaluate(const Law &law, const std::size_t i, const Tensor<1, 3> &position,
+                                        FrictionHistory *history) const {
   const Node &node = nodes_[i];
-  NodeState state;
+  ToolContactState state;
   state.position = position;
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
   auto projection = tool_.surface().project(on_tool, node.patch);
@@ -333,7 +333,7 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   return state;
 }
 
-void RigidContact::apply_friction(const FrictionLaw &law, const Node &node, NodeState &state,
+void RigidContact::apply_friction(const FrictionLaw &law, const Node &node, ToolContactState &state,
                                   const EdgeFading *fading, const FrictionHistory &history_n,
                                   FrictionHistory &history) const {
   history.frame = history_n.is_active
@@ -404,47 +404,17 @@ void RigidContact::apply_friction(const FrictionLaw &law, const Node &node, Node
       increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
 }
 
-RigidContact::FacetStates RigidContact::states_of(const Facet &facet) const {
+CornerStates RigidContact::states_of(const Facet &facet) const {
   return {&states_[facet.nodes[0]], &states_[facet.nodes[1]], &states_[facet.nodes[2]],
           &states_[facet.nodes[3]]};
 }
 
-RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, const bool with_derivatives) {
-  FacetAreas result{};
-  for (const auto &point : facet_points()) {
-    const auto &[N, N_xi, N_eta] = point;
-    const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return states[a]->position; });
-    const Tensor<1, 3> area_vector = dealii::cross_product_3d(g_1, g_2);
-    for (unsigned int a = 0; a < 4; ++a) {
-      const NodeState &node = *states[a];
-      if (node.status == ContactStatus::open)
-        continue;
-      const double facing = -(area_vector * node.normal);
-      if (facing <= 0.)
-        continue;
-      result.areas[a] += N[a] * facing;
-      if (with_derivatives) {
-        result.normal_derivatives[a] -= N[a] * area_vector;
-        for (unsigned int b = 0; b < 4; ++b)
-          result.derivatives[a][b] -= N[a] * (N_xi[b] * dealii::cross_product_3d(g_2, node.normal) +
-                                              N_eta[b] * dealii::cross_product_3d(node.normal, g_1));
-      }
-    }
-  }
-  return result;
-}
-
-bool RigidContact::touches(const FacetStates &states) {
-  return std::any_of(states.begin(), states.end(),
-                     [](const NodeState *state) { return state->status != ContactStatus::open; });
-}
-
 template <class Visit> void RigidContact::for_each_touching(const Visit &visit) const {
   for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (!touches(states))
+    const CornerStates states = states_of(facet);
+    if (!any_touches(states))
       continue;
-    const FacetAreas areas = compute_areas(states, false);
+    const ProjectedAreas areas = compute_projected_areas(states, false);
     for (unsigned int a = 0; a < 4; ++a)
       if (states[a]->status != ContactStatus::open)
         visit(facet, a, areas.areas[a]);
@@ -545,7 +515,7 @@ SpringEnergy RigidContact::springs_of(const std::size_t i, const double energy) 
 }
 
 void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) {
-  const FacetStates states = states_of(facet);
+  const CornerStates states = states_of(facet);
   std::array<double, 4> areas{}, energies{};
   double depth = 0.;     // that goes with the largest energy
   double hardening = 1.; // of the stiffest spring
@@ -559,7 +529,7 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
       depth = std::max(depth, 2. * springs.total / stiffness);
       hardening = std::max(hardening, stiffness_ahead(facet.nodes[a]) / stiffness);
     }
-  if (!touches(states))
+  if (!any_touches(states))
     return;
   depth = std::sqrt(depth);
   std::array<Tensor<1, 3>, 4> by_area; // −Σ_a e_a ∂A_a/∂x_b
@@ -616,7 +586,7 @@ double RigidContact::largest_spring() const {
 double RigidContact::stiffness_against_tool() const {
   double sum = 0.;
   const auto add = [&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const Tensor<1, 3> n = // which open nodes do not know
         state.status != ContactStatus::open
             ? state.normal
@@ -693,7 +663,7 @@ void RigidContact::add_divided_tangent(const DividedFacet &divided, const Tangen
 }
 
 bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
-  if (!touches(states_of(facet)))
+  if (!any_touches(states_of(facet)))
     return false;
   matrix = 0.;
   if (tangent_ == ContactTangent::numerical)
@@ -705,9 +675,9 @@ bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<
 
 void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
   const bool exact = tangent_ == ContactTangent::exact;
-  const FacetAreas areas = compute_areas(states_of(facet), exact);
+  const ProjectedAreas areas = compute_projected_areas(states_of(facet), exact);
   for (unsigned int a = 0; a < 4; ++a) {
-    const NodeState &state = states_[facet.nodes[a]];
+    const ToolContactState &state = states_[facet.nodes[a]];
     const Tensor<1, 3> turned = exact ? state.turning * areas.normal_derivatives[a] : Tensor<1, 3>();
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j) {
@@ -729,10 +699,10 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
         for (const double sign : {1., -1.}) {
           Tensor<1, 3> position = states_[facet.nodes[b]].position;
           position[j] += sign * h;
-          const NodeState moved = evaluate(law, facet.nodes[b], position, &ignored);
-          FacetStates states = states_of(facet);
+          const ToolContactState moved = evaluate(law, facet.nodes[b], position, &ignored);
+          CornerStates states = states_of(facet);
           states[b] = &moved;
-          const FacetAreas areas = compute_areas(states, false);
+          const ProjectedAreas areas = compute_projected_areas(states, false);
           for (unsigned int a = 0; a < 4; ++a)
             for (unsigned int i = 0; i < 3; ++i)
               matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
@@ -743,7 +713,7 @@ void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<
 
 void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
   for_each_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
     add_to_dofs(i, area * (state.tangent * motion), forces);
   });
@@ -755,10 +725,10 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
   for (const auto &facet : facets_) {
     if (!compute_facet_tangent(facet, K))
       continue;
-    const FacetAreas areas = compute_areas(states_of(facet), false);
+    const ProjectedAreas areas = compute_projected_areas(states_of(facet), false);
     std::array<Tensor<1, 3>, 4> v, F;
     for (unsigned int a = 0; a < 4; ++a) {
-      const NodeState &state = states_[facet.nodes[a]];
+      const ToolContactState &state = states_[facet.nodes[a]];
       v[a] = rate.translation +
              dealii::cross_product_3d(rate.rotation, state.position - placement_.moved_centre());
       F[a] = areas.areas[a] * state.traction;
@@ -785,7 +755,7 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
 double RigidContact::distance_to_touch(const Tensor<1, 3> &direction) const {
   double least = std::numeric_limits<double>::infinity();
   for (const auto &node : nodes_) {
-    const NodeState &state = states_[static_cast<std::size_t>(&node - nodes_.data())];
+    const ToolContactState &state = states_[static_cast<std::size_t>(&node - nodes_.data())];
     const auto projection = tool_.surface().project(placement_.to_tool(state.position), node.patch);
     const double approach = placement_.rotation * projection.normal * direction;
     if (!is_removed_ && projection.exists && approach > 1e-6)
@@ -814,7 +784,7 @@ void RigidContact::visit_supporting(const VisitSupporting &visit) const {
 RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
   Grip grip;
   for_each_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const Tensor<1, 3> v = rate.translation + dealii::cross_product_3d(
                                                   rate.rotation, state.position - placement_.moved_centre());
     const double along_normal = state.normal * v, force = area * state.pressure;
@@ -847,8 +817,9 @@ void RigidContact::commit() {
   remember_positions();
   if (!friction_.empty() && !is_explicit_)
     for (auto &facet : facets_) {
-      const FacetStates states = states_of(facet);
-      facet.friction_areas = touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
+      const CornerStates states = states_of(facet);
+      facet.friction_areas =
+          any_touches(states) ? compute_projected_areas(states, false).areas : std::array<double, 4>{};
     }
   remember_pressures();
   if (is_explicit_) // not before what springs held is released
@@ -865,7 +836,7 @@ void RigidContact::remember_pressures() {
   knows_pressures_ = true;
   pressed_n_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     PressureHistory &history = pressed_n_[i];
     history.pressure = state.pressure;
     // What augmented tractions hold is no depth.
@@ -878,7 +849,7 @@ void RigidContact::remember_pressures() {
 template <class NormalOf> std::vector<double> RigidContact::areas_along(const NormalOf &normal_of) const {
   std::vector<double> areas(nodes_.size(), 0.);
   for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
+    const CornerStates states = states_of(facet);
     for (const auto &point : facet_points()) {
       const Tensor<1, 3> area_vector =
           point.area_vector([&](const unsigned int a) { return states[a]->position; });
@@ -893,7 +864,7 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
   StepWorks works;
   const bool has_moved =
       !is_removed_ && knows_pressures_ &&
-      std::any_of(states_.begin(), states_.end(), [this](const NodeState &state) {
+      std::any_of(states_.begin(), states_.end(), [this](const ToolContactState &state) {
         const auto i = static_cast<std::size_t>(&state - states_.data());
         return (state.pressure > 0.) != (pressed_n_[i].pressure > 0.) ||
                (state.pressure > 0. && allowed_part_ != allowed_part_n_ && nodes_[i].initial_depth > 0.);
@@ -904,7 +875,7 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
     };
     const std::vector<double> areas = areas_along(normal_of);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const NodeState &state = states_[i];
+      const ToolContactState &state = states_[i];
       const PressureHistory &before = pressed_n_[i];
       if (!(state.pressure > 0.) && !(before.pressure > 0.))
         continue;
@@ -993,7 +964,7 @@ double RigidContact::closing_of_new_contacts() const {
   if (!knows_pressures_)
     return largest;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const PressureHistory &before = pressed_n_[i];
     if (state.pressure > 0. && !(before.pressure > 0.))
       largest = std::max(largest, state.normal * (placement_.to_space(before.position) - state.position) /
@@ -1004,7 +975,7 @@ double RigidContact::closing_of_new_contacts() const {
 
 bool RigidContact::has_touching_nodes() const {
   return std::any_of(states_.begin(), states_.end(),
-                     [](const NodeState &state) { return state.status != ContactStatus::open; });
+                     [](const ToolContactState &state) { return state.status != ContactStatus::open; });
 }
 
 double RigidContact::elastic_slip(const std::size_t i) const {
@@ -1028,7 +999,7 @@ ContactSprings RigidContact::compute_springs() const {
   springs.normal.of_nodes.resize(nodes_.size());
   springs.tangential.of_nodes.resize(nodes_.size());
   for_each_counted_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     if (nodes_[i].is_fixed)
       return;
     springs.add(i, area * state.traction, state.normal,
@@ -1041,7 +1012,7 @@ ContactSprings RigidContact::compute_springs() const {
 Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
                                        const double area) const {
   const std::size_t i = facet.nodes[corner];
-  const NodeState &state = states_[i];
+  const ToolContactState &state = states_[i];
   const SpringEnergy springs = springs_of(i);
   const double counted = springs.counted_area(area, facet.shallow_areas[corner]);
   if (!(counted > 0.))
@@ -1101,9 +1072,9 @@ void RigidContact::add_friction(ContactLoad &load, const bool hands_over) const 
 
 template <class Visit> void RigidContact::visit_friction(const bool hands_over, const Visit &visit) const {
   for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
+    const CornerStates states = states_of(facet);
     const std::array<double, 4> areas =
-        touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
+        any_touches(states) ? compute_projected_areas(states, false).areas : std::array<double, 4>{};
     for (unsigned int a = 0; a < 4; ++a)
       visit(hands_over ? states[a]->friction.handed_over() : states[a]->friction, facet.friction_areas[a],
             areas[a]);
@@ -1111,14 +1082,15 @@ template <class Visit> void RigidContact::visit_friction(const bool hands_over, 
 }
 
 void RigidContact::add_released(ContactLoad &load) const {
-  const auto is_released = [](const NodeState &state) {
+  const auto is_released = [](const ToolContactState &state) {
     return state.status == ContactStatus::open && state.friction.dissipation_n != 0.;
   };
   if (std::none_of(states_.begin(), states_.end(), is_released))
     return;
   for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (std::none_of(states.begin(), states.end(), [&](const NodeState *node) { return is_released(*node); }))
+    const CornerStates states = states_of(facet);
+    if (std::none_of(states.begin(), states.end(),
+                     [&](const ToolContactState *node) { return is_released(*node); }))
       continue;
     std::array<double, 4> areas{};
     for (const auto &point : facet_points()) {
@@ -1145,7 +1117,7 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     for (const unsigned int corner : divided.corners)
       has_points[corner] = true;
   for_each_counted_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     for_each_parent(i, [&](const unsigned int parent, const double weight) {
       const double force = weight * area * state.pressure;
       sums[parent].force += force;
@@ -1172,7 +1144,7 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
 std::vector<ContactNodeReport> RigidContact::report() const {
   std::vector<ContactNodeReport> reports;
   for (std::size_t i = 0; i < n_mesh_nodes_; ++i) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap + lift_of(nodes_[i]),
                        friction_.empty() ? 0. : friction_[i].slip, 0., state.traction,
                        state.pressure > 0. ? std::abs(state.gap + nodes_[i].lift) : 0., nodes_[i].size,

@@ -26,7 +26,7 @@ bool RigidContact::lets_nodes_through() const {
   if (is_removed_ || !thin_tool_ || !thin_tool_->knows_positions())
     return false;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const double penetration = state.status != ContactStatus::open ? -(state.gap + nodes_[i].lift) : 0.;
     if (thin_tool_->passes(i, {placement_.to_tool(state.position), nodes_[i].patch,
                                state.gap + lift_of(nodes_[i]), penetration}))

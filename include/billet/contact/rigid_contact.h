@@ -4,8 +4,8 @@
 
 #include "billet/contact/contact_interface.h"
 #include "billet/contact/edge_fading.h"
-#include "billet/contact/friction_account.h"
 #include "billet/contact/hardening_spring.h"
+#include "billet/contact/projected_areas.h"
 #include "billet/contact/spring_energy.h"
 #include "billet/contact/thin_tool_watch.h"
 #include "billet/geometry/frame.h"
@@ -181,25 +181,6 @@ private:
     bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
     dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
   };
-  /// What follows from a node's position.
-  struct NodeState {
-    dealii::Tensor<1, 3> position;
-    dealii::Tensor<1, 3> normal;
-    dealii::Tensor<2, 3> turning; ///< ∂n/∂x
-    double gap = 0.;              ///< to the surface raised by the lift
-    unsigned int patch = 0;
-    ContactStatus status = ContactStatus::open;
-    double pressure = 0.;
-    dealii::Tensor<1, 3> traction;
-    dealii::Tensor<2, 3> tangent; ///< −∂traction/∂x
-    double slip_increment = 0.;
-    FrictionAccount friction;      ///< of this step
-    double tangential_energy = 0.; ///< per area
-    double share = 1.;             ///< s, of the normal penalty
-    double fading_stiffness = 0.;  ///< beside that of the penalties [stress/length]
-    bool is_behind = false;        ///< has missed the tool's surface, ...
-    bool is_passed = false;        ///< ... and the surface is before it now
-  };
   /// Of a node that sticks, in this step, or since its traction was augmented [length].
   double elastic_slip(std::size_t i) const;
   /// Only with friction.
@@ -235,15 +216,6 @@ private:
     unsigned int first_part, n_parts;   ///< in `facets_`
     bool may_touch;                     ///< a point inside touched at the last update(), or is not known
   };
-  using FacetStates = std::array<const NodeState *, 4>;
-  struct FacetAreas {
-    std::array<double, 4> areas;
-    /// ∂A_a/∂x_b, normals held
-    std::array<std::array<dealii::Tensor<1, 3>, 4>, 4> derivatives;
-    /// ∂A_a/∂n_a
-    std::array<dealii::Tensor<1, 3>, 4> normal_derivatives;
-  };
-
   /// By how much the tool's surface counts as raised for a node.
   double lift_of(const Node &node) const {
     return node.lift - InitialOverlap::counted(node.initial_depth, allowed_part_);
@@ -311,10 +283,11 @@ private:
               const RigidSurface::Projection &projection) const;
   /// The state of node i at `position`; with friction, the history that goes with it.
   template <class Law>
-  NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
-                     FrictionHistory *history) const;
-  void apply_friction(const FrictionLaw &law, const Node &node, NodeState &state, const EdgeFading *fading,
-                      const FrictionHistory &history_n, FrictionHistory &history) const;
+  ToolContactState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
+                            FrictionHistory *history) const;
+  void apply_friction(const FrictionLaw &law, const Node &node, ToolContactState &state,
+                      const EdgeFading *fading, const FrictionHistory &history_n,
+                      FrictionHistory &history) const;
   FrictionRule friction_rule(const Node &node) const;
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
@@ -329,7 +302,6 @@ private:
   template <class Visit> void for_each_touching(const Visit &visit) const;
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
-  static bool touches(const FacetStates &states);
   /// Of a corner whose node touches, with its area at the facet; the force on the body.
   dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
                                    double area) const;
@@ -354,8 +326,7 @@ private:
   /// Whether any node presses at the start of the step, and any at the last update(). Collective.
   bool presses_at_both_ends() const;
   void add_released(ContactLoad &load) const;
-  FacetStates states_of(const Facet &facet) const;
-  static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
+  CornerStates states_of(const Facet &facet) const;
   /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
   bool compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_divided_tangent(const DividedFacet &divided, const TangentSystem &system) const;
@@ -373,8 +344,8 @@ private:
   std::size_t n_mesh_nodes_ = 0;
   std::vector<InteriorPoint> points_;
   std::vector<DividedFacet> divided_;
-  bool has_divided_facets_ = false; ///< any rank
-  std::vector<NodeState> states_;   ///< at the last update()
+  bool has_divided_facets_ = false;      ///< any rank
+  std::vector<ToolContactState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
   /// Of nodes at the start of the step, in the tool's coordinates, for compute_step_works().
   struct PressureHistory {
