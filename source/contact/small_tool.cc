@@ -25,11 +25,12 @@ void RigidContact::remember_positions() {
 bool RigidContact::lets_nodes_through() const {
   if (is_removed_ || !thin_tool_ || !thin_tool_->knows_positions())
     return false;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
     const ToolContactState &state = states_[i];
-    const double penetration = state.status != ContactStatus::open ? -(state.gap + nodes_[i].lift) : 0.;
-    if (thin_tool_->passes(i, {placement_.to_tool(state.position), nodes_[i].patch,
-                               state.gap + lift_of(nodes_[i]), penetration}))
+    const double penetration =
+        state.status != ContactStatus::open ? -(state.gap + slaves_.nodes[i].lift) : 0.;
+    if (thin_tool_->passes(i, {placement_.to_tool(state.position), slaves_.nodes[i].patch,
+                               state.gap + lift_of(slaves_.nodes[i]), penetration}))
       return true;
   }
   return false;
@@ -57,16 +58,16 @@ DiagnosticList RigidContact::check_step() const {
 }
 
 DiagnosticList RigidContact::check_start() const {
-  if (unresolved_length_ == 0.)
+  if (slaves_.unresolved_length == 0.)
     return {};
   std::ostringstream text;
   text.precision(3);
   text << "The tool has edges, radii or fins too small for the facets that it meets, which are up to "
-       << unresolved_length_ << " long: it can enter between their points of contact";
+       << slaves_.unresolved_length << " long: it can enter between their points of contact";
   return {Diagnostic(diagnostic::tool_smaller_than_facets, text.str())
               .pair(pair_.name)
               .tool(tool_.name())
-              .value("facet length", unresolved_length_)};
+              .value("facet length", slaves_.unresolved_length)};
 }
 
 } // namespace billet

@@ -6,6 +6,7 @@
 #include "billet/contact/edge_fading.h"
 #include "billet/contact/hardening_spring.h"
 #include "billet/contact/projected_areas.h"
+#include "billet/contact/slave_surface.h"
 #include "billet/contact/spring_energy.h"
 #include "billet/contact/thin_tool_watch.h"
 #include "billet/geometry/frame.h"
@@ -162,25 +163,6 @@ public:
   void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
-  struct Node {
-    std::array<DofIndex, 3> dofs;
-    dealii::Point<3> reference;
-    ContactStiffness stiffness, given; ///< now, and at the start
-    double size;                       ///< of the facets around it
-    double reach;            ///< how deep it may be, as part of these facets and of the elements below them
-    double spacing;          ///< of the parts of facets around it; the same where none is divided
-    bool is_divided = false; ///< a facet around it is
-    bool is_fixed = false;   ///< supports prescribe all its motion: it cannot come out of the tool
-    double hardening_depth = std::numeric_limits<double>::infinity(); ///< of its normal spring
-    HardeningSpring spring() const { return {stiffness.normal, hardening_depth}; }
-    double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
-    double gap_n = 0.;      ///< at the start of the step
-    unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
-    double lift = 0., lift_n = 0.;  ///< of the tool's surface, by augmentation
-    double initial_depth = 0.;      ///< in the tool, if that is allowed; < 0: a gap that counts as closed
-    bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
-    dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
-  };
   /// Of a node that sticks, in this step, or since its traction was augmented [length].
   double elastic_slip(std::size_t i) const;
   /// Only with friction.
@@ -192,86 +174,27 @@ private:
     double slip = 0.;                   ///< length of the path slipped
     double slip_rate = 0.;
   };
-  /// Nodes ordered so that the area vector points out of the body.
-  struct Facet {
-    std::array<unsigned int, 4> nodes;
-    std::uint64_t key;
-    std::array<double, 4> friction_areas; ///< of corners that touch, at the start of the step
-    /// Of explicit scenes: each corner's area in the last step in which its node was not deep, or in its
-    /// first one; SpringEnergy::no_area where it does not touch.
-    std::array<double, 4> shallow_areas;
-  };
   /// What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
   static constexpr double near_gap = 0.25, near_steps = 20.;
-  /// A point inside a facet: node n_mesh_nodes_ + its index.
-  struct InteriorPoint {
-    std::array<unsigned int, 4> corners; ///< of the facet
-    std::array<double, 4> weights;       ///< N_a
-    std::uint64_t key;                   ///< that no other has, the same on any number of ranks
-  };
-  /// A facet of the mesh that is divided.
-  struct DividedFacet {
-    std::array<unsigned int, 4> corners;
-    unsigned int first_point, n_points; ///< inside, in `nodes_`
-    unsigned int first_part, n_parts;   ///< in `facets_`
-    bool may_touch;                     ///< a point inside touched at the last update(), or is not known
-  };
   /// By how much the tool's surface counts as raised for a node.
-  double lift_of(const Node &node) const {
+  double lift_of(const ContactPoint &node) const {
     return node.lift - InitialOverlap::counted(node.initial_depth, allowed_part_);
   }
-  /// Slave nodes, with their penalties, and facets.
-  void collect_facets(const Discretization &discretization, double young_modulus);
-  /// Divides facets where the tool needs it. `corners`: of all facets, undivided. Collective.
-  void divide_facets(const Discretization &discretization,
-                     const std::vector<std::array<unsigned int, 4>> &corners);
-  void divide(const std::array<unsigned int, 4> &corners, const std::array<unsigned int, 2> &n_parts,
-              std::uint64_t key);
-  /// Lets springs at divided facets of explicit scenes become stiffer with their depth (T11).
-  void harden_springs();
   /// As stiff as the normal spring of a node may be at the end of the next step, if that is as long as this.
   double stiffness_ahead(std::size_t i) const;
   /// Sets points inside a divided facet free that is farther from the tool than they can matter; else false.
   bool is_far(DividedFacet &divided);
-  /// Calls add(node of the mesh, weight) for what a node or point hangs on.
-  template <class Add> void for_each_parent(const std::size_t i, const Add &add) const {
-    if (i < n_mesh_nodes_) {
-      add(static_cast<unsigned int>(i), 1.);
-      return;
-    }
-    const InteriorPoint &point = points_[i - n_mesh_nodes_];
-    for (unsigned int a = 0; a < 4; ++a)
-      if (point.weights[a] > 0.)
-        add(point.corners[a], point.weights[a]);
-  }
-  /// Σ w value(node of the mesh).
-  template <class Value> dealii::Tensor<1, 3> at(const std::size_t i, const Value &value) const {
-    if (i < n_mesh_nodes_)
-      return value(i);
-    dealii::Tensor<1, 3> sum;
-    for_each_parent(i,
-                    [&](const unsigned int parent, const double weight) { sum += weight * value(parent); });
-    return sum;
-  }
-  void add_to_dofs(std::size_t i, const dealii::Tensor<1, 3> &value, Vector &vector) const;
   void average_over_points(std::vector<ContactNodeReport> &reports) const;
-  /// Nodes or facets whose state goes into a checkpoint under names of this prefix.
-  struct Range {
-    std::string prefix;
-    std::size_t begin, end;
-    std::vector<std::uint64_t> keys;
-  };
-  Range mesh_nodes(const NodeKeys &keys) const;
-  Range interior_points() const;
-  Range facet_range(bool are_parts) const;
-  void save_nodes(StateWriter &writer, const Range &range) const;
+  void save_nodes(StateWriter &writer, const SlaveSurface::Range &range) const;
   /// Areas of a facet's corners that checkpoints keep, and under which name.
-  using CornerAreas = std::array<double, 4> Facet::*;
+  using CornerAreas = std::array<double, 4> ContactFacet::*;
   using KeptAreas = std::pair<std::string, CornerAreas>;
   std::vector<KeptAreas> kept_areas() const;
-  void save_areas(StateWriter &writer, const std::string &name, CornerAreas areas, const Range &range) const;
-  void load_nodes(const StateReader &reader, const Range &range);
-  void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas, const Range &range);
+  void save_areas(StateWriter &writer, const std::string &name, CornerAreas areas,
+                  const SlaveSurface::Range &range) const;
+  void load_nodes(const StateReader &reader, const SlaveSurface::Range &range);
+  void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas,
+                  const SlaveSurface::Range &range);
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
   /// Notes the pressures of the last update() for the works of the next step.
@@ -279,16 +202,16 @@ private:
   /// The area that the facets of this rank give to each node, as seen along these normals.
   template <class NormalOf> std::vector<double> areas_along(const NormalOf &normal_of) const;
   /// Whether a node there has missed the tool's surface.
-  bool misses(const Node &node, const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &on_tool,
-              const RigidSurface::Projection &projection) const;
+  bool misses(const ContactPoint &node, const dealii::Tensor<1, 3> &position,
+              const dealii::Tensor<1, 3> &on_tool, const RigidSurface::Projection &projection) const;
   /// The state of node i at `position`; with friction, the history that goes with it.
   template <class Law>
   ToolContactState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
                             FrictionHistory *history) const;
-  void apply_friction(const FrictionLaw &law, const Node &node, ToolContactState &state,
+  void apply_friction(const FrictionLaw &law, const ContactPoint &node, ToolContactState &state,
                       const EdgeFading *fading, const FrictionHistory &history_n,
                       FrictionHistory &history) const;
-  FrictionRule friction_rule(const Node &node) const;
+  FrictionRule friction_rule(const ContactPoint &node) const;
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   template <class DisplacementOf>
@@ -303,7 +226,7 @@ private:
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
   /// Of a corner whose node touches, with its area at the facet; the force on the body.
-  dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
+  dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const ContactFacet &facet, unsigned int corner,
                                    double area) const;
   /// Whether another tool has a surface there, nearer than `near`; one that is `facing` like this (in space),
   /// if that is given: one that presses the other side of a sheet does not.
@@ -316,7 +239,7 @@ private:
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
   /// −Σ_a ê_a ∂A_a/∂x_b (T7), ê what areas as they are weigh of the stored energy e: with these, normal
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
-  void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
+  void add_forces(ContactFacet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
   /// Adds what friction has dissipated. In explicit scenes, only that of nodes that have lifted off.
   void add_friction(ContactLoad &load, bool hands_over) const;
   /// Calls visit(account, area_n, area) for the corners of all facets.
@@ -326,25 +249,20 @@ private:
   /// Whether any node presses at the start of the step, and any at the last update(). Collective.
   bool presses_at_both_ends() const;
   void add_released(ContactLoad &load) const;
-  CornerStates states_of(const Facet &facet) const;
+  CornerStates states_of(const ContactFacet &facet) const;
   /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
-  bool compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
+  bool compute_facet_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_divided_tangent(const DividedFacet &divided, const TangentSystem &system) const;
-  void add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
-  void add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
+  void add_closed_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
+  void add_numerical_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
 
   const ContactPair &pair_;
   const Tool &tool_;
   const MPI_Comm communicator_;
   ContactTangent tangent_;
   const bool has_inertia_;
-  const bool is_explicit_;    ///< works are those of the trapezoidal rule
-  const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
-  std::vector<Node> nodes_;   ///< of the mesh, then points inside facets
-  std::size_t n_mesh_nodes_ = 0;
-  std::vector<InteriorPoint> points_;
-  std::vector<DividedFacet> divided_;
-  bool has_divided_facets_ = false;      ///< any rank
+  const bool is_explicit_; ///< works are those of the trapezoidal rule
+  SlaveSurface slaves_;
   std::vector<ToolContactState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
   /// Of nodes at the start of the step, in the tool's coordinates, for compute_step_works().
@@ -357,9 +275,7 @@ private:
   bool knows_pressures_ = false; ///< all ranks alike: pressed_n_ is that of the start of the step
   double allowed_part_n_ = 1.;   ///< at the start of the step
   std::vector<std::array<double, 2>>
-      base_;                  ///< what this step's friction starts from: that of friction_n_, or augmented
-  std::vector<Facet> facets_; ///< those that are not divided, then parts
-  std::size_t n_whole_facets_ = 0;
+      base_; ///< what this step's friction starts from: that of friction_n_, or augmented
   std::vector<const RigidContact *> others_; ///< of the same body
   std::vector<unsigned int> local_nodes_;    ///< of each node of the mesh, after bind()
   std::vector<bool> is_owned_;               ///< as LocalNodes has it
@@ -369,7 +285,6 @@ private:
   double start_weight_ = 0.5;
   bool is_static_ = false;
   double tool_reach_ = 0.;
-  double unresolved_length_ = 0.; ///< of the longest facet that has too few parts, on any rank [length]
   std::optional<ThinToolWatch> thin_tool_;              ///< none unless the tool is thin on any rank
   double stiffening_ = 1., tangential_stiffening_ = 1.; ///< of the penalties as given
   bool is_removed_ = false;
