@@ -33,35 +33,11 @@ constexpr std::uint64_t half_key = 0xffffffffU;
 
 } // namespace
 
-RigidContact::Range RigidContact::mesh_nodes(const NodeKeys &keys) const {
-  Range range{"", 0, n_mesh_nodes_, {}};
-  for (std::size_t i = 0; i < n_mesh_nodes_; ++i)
-    range.keys.push_back(keys(nodes_[i].dofs[0]));
-  return range;
-}
-
-RigidContact::Range RigidContact::interior_points() const {
-  Range range{"interior ", n_mesh_nodes_, nodes_.size(), {}};
-  for (const auto &point : points_)
-    range.keys.push_back(point.key);
-  return range;
-}
-
-RigidContact::Range RigidContact::facet_range(const bool are_parts) const {
-  Range range{are_parts ? "interior " : "",
-              are_parts ? n_whole_facets_ : 0,
-              are_parts ? facets_.size() : n_whole_facets_,
-              {}};
-  for (std::size_t f = range.begin; f < range.end; ++f)
-    range.keys.push_back(facets_[f].key);
-  return range;
-}
-
-void RigidContact::save_nodes(StateWriter &writer, const Range &range) const {
+void RigidContact::save_nodes(StateWriter &writer, const SlaveSurface::Range &range) const {
   std::vector<double> gaps, friction, behind;
   RowWriter gap_row(gaps), friction_row(friction), behind_row(behind);
   for (std::size_t i = range.begin; i < range.end; ++i) {
-    const Node &node = nodes_[i];
+    const ContactPoint &node = slaves_.nodes[i];
     gap_row.number(node.gap_n).number(node.patch).number(node.lift_n).number(node.initial_depth);
     behind_row.number(node.is_behind ? 1. : 0.).vector(node.behind_at);
     if (!pair_.has_friction())
@@ -92,17 +68,17 @@ void RigidContact::save_nodes(StateWriter &writer, const Range &range) const {
 std::vector<RigidContact::KeptAreas> RigidContact::kept_areas() const {
   std::vector<KeptAreas> kept;
   if (is_explicit_)
-    kept.push_back({"shallow areas", &Facet::shallow_areas});
+    kept.push_back({"shallow areas", &ContactFacet::shallow_areas});
   else if (pair_.has_friction())
-    kept.push_back({"friction areas", &Facet::friction_areas});
+    kept.push_back({"friction areas", &ContactFacet::friction_areas});
   return kept;
 }
 
 void RigidContact::save_areas(StateWriter &writer, const std::string &name, const CornerAreas areas,
-                              const Range &range) const {
+                              const SlaveSurface::Range &range) const {
   std::vector<double> rows;
   for (std::size_t f = range.begin; f < range.end; ++f)
-    rows.insert(rows.end(), (facets_[f].*areas).begin(), (facets_[f].*areas).end());
+    rows.insert(rows.end(), (slaves_.facets[f].*areas).begin(), (slaves_.facets[f].*areas).end());
   writer.write_rows(range.prefix + name, areas_width, range.keys, rows);
 }
 
@@ -110,17 +86,17 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
   writer.write("removed", {is_removed_ ? 1. : 0.});
   writer.write("allowed part", {allowed_part_});
   writer.write("stiffening", {stiffening_, tangential_stiffening_});
-  save_nodes(writer, mesh_nodes(keys));
-  if (has_divided_facets_)
-    save_nodes(writer, interior_points());
+  save_nodes(writer, slaves_.mesh_nodes(keys));
+  if (slaves_.has_divided_facets)
+    save_nodes(writer, slaves_.interior_points());
   for (const auto &[name, areas] : kept_areas()) {
-    save_areas(writer, name, areas, facet_range(false));
-    if (has_divided_facets_)
-      save_areas(writer, name, areas, facet_range(true));
+    save_areas(writer, name, areas, slaves_.facet_range(false));
+    if (slaves_.has_divided_facets)
+      save_areas(writer, name, areas, slaves_.facet_range(true));
   }
 }
 
-void RigidContact::load_nodes(const StateReader &reader, const Range &range) {
+void RigidContact::load_nodes(const StateReader &reader, const SlaveSurface::Range &range) {
   // A tool that was another one, or another mesh's, may have had other points inside facets.
   std::vector<bool> is_known(range.keys.size(), true);
   std::vector<bool> *const found = range.prefix.empty() ? nullptr : &is_known;
@@ -142,18 +118,18 @@ void RigidContact::load_nodes(const StateReader &reader, const Range &range) {
     if (!is_known[i - range.begin])
       continue;
     RowReader row(&gaps[gap_width * (i - range.begin)]);
-    nodes_[i].gap_n = row.number();
-    nodes_[i].patch = static_cast<unsigned int>(row.number());
-    nodes_[i].lift = nodes_[i].lift_n = row.number();
-    nodes_[i].initial_depth = row.number();
+    slaves_.nodes[i].gap_n = row.number();
+    slaves_.nodes[i].patch = static_cast<unsigned int>(row.number());
+    slaves_.nodes[i].lift = slaves_.nodes[i].lift_n = row.number();
+    slaves_.nodes[i].initial_depth = row.number();
   }
   if (has_inertia_ && reader.has(range.prefix + "behind")) {
     const std::vector<double> behind =
         reader.read_rows(range.prefix + "behind", behind_width, range.keys, found);
     for (std::size_t i = range.begin; i < range.end; ++i) {
       RowReader row(&behind[behind_width * (i - range.begin)]);
-      nodes_[i].is_behind = row.flag();
-      row.vector(nodes_[i].behind_at);
+      slaves_.nodes[i].is_behind = row.flag();
+      row.vector(slaves_.nodes[i].behind_at);
     }
   }
   // A law that is new begins without traction.
@@ -177,7 +153,7 @@ void RigidContact::load_nodes(const StateReader &reader, const Range &range) {
 }
 
 void RigidContact::load_areas(const StateReader &reader, const std::string &name, const CornerAreas areas,
-                              const Range &range) {
+                              const SlaveSurface::Range &range) {
   if (!reader.has(range.prefix + name))
     return;
   std::vector<bool> is_known(range.keys.size(), true);
@@ -185,29 +161,30 @@ void RigidContact::load_areas(const StateReader &reader, const std::string &name
                                                     range.prefix.empty() ? nullptr : &is_known);
   for (std::size_t f = range.begin; f < range.end; ++f)
     if (is_known[f - range.begin])
-      std::copy_n(&rows[areas_width * (f - range.begin)], areas_width, (facets_[f].*areas).begin());
+      std::copy_n(&rows[areas_width * (f - range.begin)], areas_width, (slaves_.facets[f].*areas).begin());
 }
 
 void RigidContact::load(const StateReader &reader, const NodeKeys &keys) {
   if (reader.number("removed") != 0.)
     remove_tool();
   allowed_part_ = allowed_part_n_ = reader.number("allowed part");
-  positions_on_thin_tool_.clear();
+  if (thin_tool_)
+    thin_tool_->forget();
   if (reader.has("stiffening")) {
     const std::vector<double> factors = reader.read("stiffening");
     scale_penalties(factors.at(0) / stiffening_, factors.at(1) / tangential_stiffening_);
   }
   knows_pressures_ = !is_explicit_ && reader.has("pressed");
-  load_nodes(reader, mesh_nodes(keys));
-  if (has_divided_facets_ && reader.has("interior gaps"))
-    load_nodes(reader, interior_points());
-  for (auto &divided : divided_)
+  load_nodes(reader, slaves_.mesh_nodes(keys));
+  if (slaves_.has_divided_facets && reader.has("interior gaps"))
+    load_nodes(reader, slaves_.interior_points());
+  for (auto &divided : slaves_.divided)
     divided.may_touch = true;
   friction_ = friction_n_;
   for (const auto &[name, areas] : kept_areas()) {
-    load_areas(reader, name, areas, facet_range(false));
-    if (has_divided_facets_)
-      load_areas(reader, name, areas, facet_range(true));
+    load_areas(reader, name, areas, slaves_.facet_range(false));
+    if (slaves_.has_divided_facets)
+      load_areas(reader, name, areas, slaves_.facet_range(true));
   }
 }
 
@@ -216,21 +193,21 @@ void RigidContact::begin_at(const ContactStep &step, const DisplacementOf &displ
   const Placement &placement = step.tools_at_start[pair_.tool];
   placement_n_ = placement_ = placement;
   allowed_part_ = pair_.overlap.allowed_part(step.start);
-  for (auto &divided : divided_)
+  for (auto &divided : slaves_.divided)
     divided.may_touch = true;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const dealii::Tensor<1, 3> position = nodes_[i].reference + at(i, displacement_of);
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    const dealii::Tensor<1, 3> position = slaves_.nodes[i].reference + slaves_.at(i, displacement_of);
     const dealii::Tensor<1, 3> on_tool = placement.to_tool(position);
     const auto projection = tool_.surface().project(on_tool);
-    states_[i] = NodeState();
+    states_[i] = ToolContactState();
     states_[i].position = position;
-    nodes_[i].lift = nodes_[i].lift_n = nodes_[i].initial_depth = 0.;
-    nodes_[i].is_behind = false;
+    slaves_.nodes[i].lift = slaves_.nodes[i].lift_n = slaves_.nodes[i].initial_depth = 0.;
+    slaves_.nodes[i].is_behind = false;
     if (projection.exists &&
         ((pair_.overlap.is_allowed && projection.gap < 0.) || pair_.overlap.closes(projection.gap)))
-      nodes_[i].initial_depth = -projection.gap;
-    states_[i].gap = nodes_[i].gap_n = projection.gap - lift_of(nodes_[i]);
-    nodes_[i].patch = projection.patch;
+      slaves_.nodes[i].initial_depth = -projection.gap;
+    states_[i].gap = slaves_.nodes[i].gap_n = projection.gap - lift_of(slaves_.nodes[i]);
+    slaves_.nodes[i].patch = projection.patch;
     if (!friction_n_.empty()) {
       friction_n_[i] = FrictionHistory();
       friction_n_[i].tool_position = on_tool;
@@ -239,8 +216,8 @@ void RigidContact::begin_at(const ContactStep &step, const DisplacementOf &displ
   friction_ = friction_n_;
   remember_positions();
   remember_pressures();
-  for (auto &facet : facets_) {
-    facet.shallow_areas.fill(not_touching);
+  for (auto &facet : slaves_.facets) {
+    facet.shallow_areas.fill(SpringEnergy::no_area);
     facet.friction_areas.fill(0.);
   }
 }
@@ -249,7 +226,7 @@ void RigidContact::begin(const ContactStep &step, const Vector &displacements) {
   begin_at(step, [&](const std::size_t i) {
     dealii::Tensor<1, 3> displacement;
     for (unsigned int c = 0; c < 3; ++c)
-      displacement[c] = displacements(nodes_[i].dofs[c]);
+      displacement[c] = displacements(slaves_.nodes[i].dofs[c]);
     return displacement;
   });
 }
@@ -327,7 +304,7 @@ void FacetContact::save(StateWriter &writer) const {
     write_list(writer, "edges", dealii::Utilities::MPI::this_mpi_process(communicator_), edges_->offsets());
   if (is_augmented || has_depths)
     writer.write_rows("lifts", 2, keys, lifts);
-  if (!std::holds_alternative<Frictionless>(settings_.friction))
+  if (settings_.friction != nullptr)
     writer.write_rows("friction", slave_width, keys, histories);
 }
 
@@ -386,7 +363,7 @@ void FacetContact::load(const StateReader &reader) {
     }
   }
   lifts_ = lifts_n_;
-  if (std::holds_alternative<Frictionless>(settings_.friction) || !reader.has("friction"))
+  if (settings_.friction == nullptr || !reader.has("friction"))
     return;
   const std::vector<double> histories = reader.read_rows("friction", slave_width, keys, &is_known);
   for (std::size_t s = 0; s < slaves_.size(); ++s) {

@@ -44,7 +44,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
   touched_n_.resize(slaves_.size());
   pressed_n_.resize(slaves_.size());
   states_.resize(slaves_.size());
-  if (!std::holds_alternative<Frictionless>(settings.friction))
+  if (settings.friction != nullptr)
     history_n_.resize(slaves_.size());
   base_ = history_ = history_n_;
   friction_memory_.set(3 * history_.size() * sizeof(SlaveHistory));
@@ -398,12 +398,10 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
   update_search(positions_n, positions);
   duration_ = duration;
   nodal_forces_.assign(exchange_.n_nodes(), Tensor<1, 3>());
-  std::visit(
-      [&](const auto &law) {
-        visit_method(settings_.method,
-                     [&](auto facet) { evaluate<typename decltype(facet)::type>(law, duration); });
-      },
-      settings_.friction);
+  choose_friction(settings_.friction, [&](const auto &law) {
+    visit_method(settings_.method,
+                 [&](auto facet) { evaluate<typename decltype(facet)::type>(law, duration); });
+  });
 
   if (settings_.most_changes > 0)
     count_changes();

@@ -117,21 +117,19 @@ void FacetContact::visit_tangents(const ContactTangent kind, const AddTangent &a
       if (states_[s].presses() && states_[s].own_area > 0.)
         add_one(law, s);
   };
-  std::visit(
-      [&](const auto &law) {
-        const auto visit_facets = [&](auto method) {
-          using Facet = typename decltype(method)::type;
-          using Law = std::decay_t<decltype(law)>;
-          if (kind == ContactTangent::numerical)
-            visit(law, [&](const Law &l, const std::size_t s) { add_numerical_tangent<Facet>(l, s, add); });
-          else if (kind == ContactTangent::exact)
-            visit(law, [&](const Law &l, const std::size_t s) { add_exact_tangent<Facet>(l, s, add); });
-          else
-            visit(law, [&](const Law &l, const std::size_t s) { add_closed_tangent(l, kind, s, add); });
-        };
-        visit_method(settings_.method, visit_facets);
-      },
-      settings_.friction);
+  choose_friction(settings_.friction, [&](const auto &law) {
+    const auto visit_facets = [&](auto method) {
+      using Facet = typename decltype(method)::type;
+      using Law = std::decay_t<decltype(law)>;
+      if (kind == ContactTangent::numerical)
+        visit(law, [&](const Law &l, const std::size_t s) { add_numerical_tangent<Facet>(l, s, add); });
+      else if (kind == ContactTangent::exact)
+        visit(law, [&](const Law &l, const std::size_t s) { add_exact_tangent<Facet>(l, s, add); });
+      else
+        visit(law, [&](const Law &l, const std::size_t s) { add_closed_tangent(l, kind, s, add); });
+    };
+    visit_method(settings_.method, visit_facets);
+  });
 }
 
 template <class Law>

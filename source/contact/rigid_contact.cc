@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <type_traits>
 
 namespace billet {
@@ -24,7 +23,7 @@ constexpr double fading_width = 0.05;
 /// In explicit scenes what springs hold that are deeper than this stands on an area that does not change:
 /// that of the last step in which the node was not so deep. None of what springs hold that harden, so that no
 /// energy comes or goes where the normal jumps, as at an edge of the tool.
-template <class Node> double depth_on_current_areas(const Node &node) {
+double depth_on_current_areas(const ContactPoint &node) {
   return std::isinf(node.hardening_depth) ? 0.1 * node.spacing : 0.;
 }
 
@@ -41,33 +40,35 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
     : ContactInterface(scene, scene.pairs()[pair]), pair_(scene.pairs()[pair]),
       tool_(scene.tools()[pair_.tool]), communicator_(discretization.communicator()), tangent_(tangent),
       has_inertia_(scene.parameters().is_dynamic()), is_explicit_(scene.parameters().is_explicit()),
-      touching_gap_(has_inertia_ && !is_explicit_ ? 0. : touching_gap) {
-  collect_facets(discretization, scene.bodies()[pair_.body].young_modulus);
+      slaves_(pair_, tool_, discretization, scene.bodies()[pair_.body].young_modulus,
+              has_inertia_ && !is_explicit_ ? 0. : touching_gap) {
+  max_stiffening_ = slaves_.max_stiffening;
+  max_tangential_stiffening_ = slaves_.max_tangential_stiffening;
   if (!has_inertia_) {
     const std::set<DofIndex> fixed = collect_fixed_nodes(scene, discretization);
-    for (auto &node : nodes_)
+    for (auto &node : slaves_.nodes)
       node.is_fixed = fixed.count(node.dofs[0]) > 0;
   }
   placement_n_ = placement_ = tool_.placement(0.);
-  states_.resize(nodes_.size());
+  states_.resize(slaves_.nodes.size());
   if (pair_.has_friction())
-    friction_n_.resize(nodes_.size());
+    friction_n_.resize(slaves_.nodes.size());
   const BoundingBox &box = tool_.surface().bounding_box();
   double tool_size = 0.;
   for (unsigned int i = 0; i < 3; ++i)
     for (const double end : {box.low[i], box.high[i]})
       tool_size = std::max(tool_size, std::isfinite(end) ? std::abs(end) : 0.);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const auto X = placement_.to_tool(nodes_[i].reference);
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    const auto X = placement_.to_tool(slaves_.nodes[i].reference);
     const auto projection = tool_.surface().project(X);
-    states_[i].position = nodes_[i].reference;
-    states_[i].gap = nodes_[i].gap_n = projection.gap;
+    states_[i].position = slaves_.nodes[i].reference;
+    states_[i].gap = slaves_.nodes[i].gap_n = projection.gap;
     if (projection.exists &&
         ((pair_.overlap.is_allowed && projection.gap < 0.) || pair_.overlap.closes(projection.gap))) {
-      nodes_[i].initial_depth = -projection.gap;
-      states_[i].gap = nodes_[i].gap_n = 0.;
+      slaves_.nodes[i].initial_depth = -projection.gap;
+      states_[i].gap = slaves_.nodes[i].gap_n = 0.;
     }
-    nodes_[i].patch = projection.patch;
+    slaves_.nodes[i].patch = projection.patch;
     const double curvature = projection.turning.norm();
     if (curvature > 0.)
       tool_reach_ = std::max(tool_reach_, std::min(1. / curvature, tool_size));
@@ -75,55 +76,19 @@ RigidContact::RigidContact(const Scene &scene, const std::size_t pair, const Dis
       friction_n_[i].tool_position = X;
   }
   friction_ = friction_n_;
-  measure_tool();
-  harden_springs();
-  for (auto &node : nodes_)
+  double max_size = 0.;
+  for (const auto &node : slaves_.nodes)
+    max_size = std::max(max_size, node.size);
+  thin_tool_ = ThinToolWatch::make(tool_.surface(), dealii::Utilities::MPI::max(max_size, communicator_));
+  if (is_explicit_ && !pair_.input->has_own_penalty && thin_tool_)
+    slaves_.harden_springs(thin_tool_->thickness());
+  for (auto &node : slaves_.nodes)
     node.given = node.stiffness;
   remember_positions();
   remember_pressures();
-  memory_.set(nodes_.size() * (sizeof(Node) + sizeof(NodeState)) + facets_.size() * sizeof(Facet));
+  memory_.set(slaves_.nodes.size() * (sizeof(ContactPoint) + sizeof(ToolContactState)) +
+              slaves_.facets.size() * sizeof(ContactFacet));
   friction_memory_.set(2 * friction_.size() * sizeof(FrictionHistory));
-}
-
-void RigidContact::collect_facets(const Discretization &discretization, const double young_modulus) {
-  std::map<DofIndex, unsigned int> index;
-  std::vector<std::array<unsigned int, 4>> corners;
-  const auto boundary_facets = collect_boundary_facets(discretization, pair_.body, pair_.boundary_ids);
-  const auto sizes = compute_facet_sizes(discretization, boundary_facets);
-  for (const auto &boundary : boundary_facets) {
-    Facet facet{};
-    facet.key = boundary.key;
-    facet.shallow_areas.fill(not_touching);
-    for (unsigned int a = 0; a < 4; ++a) {
-      const auto found = index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(nodes_.size()));
-      if (found.second) {
-        Node node;
-        node.dofs = boundary.dofs[a];
-        node.reference = boundary.corners[a];
-        const FacetSize size = sizes.at(node.dofs[0]);
-        node.size = node.spacing = size.size;
-        node.reach = 0.2 * node.size;
-        const double length = penalty_length(pair_.penalty_counts_thickness, size.size, size.thickness);
-        node.stiffness = {pair_.scaled_penalty(pair_.normal_penalty, young_modulus, length),
-                          pair_.scaled_penalty(pair_.tangential_penalty, young_modulus, length)};
-        const double room = enough_penalty * young_modulus / (length * node.stiffness.normal);
-        max_stiffening_ = std::min(max_stiffening_, room);
-        if (pair_.has_friction())
-          max_tangential_stiffening_ =
-              std::min(max_tangential_stiffening_,
-                       enough_penalty * young_modulus / (length * node.stiffness.tangential));
-        node.touching_gap = touching_gap_ * node.size * std::min(1., room);
-        nodes_.push_back(node);
-      }
-      facet.nodes[a] = found.first->second;
-      Node &corner = nodes_[facet.nodes[a]];
-      corner.reach = std::min(corner.reach, 0.4 * boundary.thickness);
-    }
-    corners.push_back(facet.nodes);
-    facets_.push_back(facet);
-  }
-  n_mesh_nodes_ = nodes_.size();
-  divide_facets(discretization, corners);
 }
 
 void RigidContact::start_step(const ContactStep &step) {
@@ -136,7 +101,7 @@ void RigidContact::start_step(const ContactStep &step) {
 void RigidContact::remove_tool() {
   is_removed_ = true;
   for (auto &state : states_)
-    state = NodeState();
+    state = ToolContactState();
   for (auto &history : friction_)
     history = FrictionHistory();
   friction_n_ = friction_;
@@ -145,34 +110,67 @@ void RigidContact::remove_tool() {
 template <class DisplacementOf> void RigidContact::update_states(const DisplacementOf &displacement_of) {
   if (is_removed_)
     return;
-  Usage::count(Capability::contact, nodes_.size());
+  Usage::count(Capability::contact, slaves_.nodes.size());
   Usage::count_if(!friction_.empty(), Capability::friction, friction_.size());
-  std::visit(
-      [&](const auto &law) {
-        const auto update_state = [&](const std::size_t i, const Tensor<1, 3> &position) {
-          states_[i] = evaluate(law, i, position, friction_.empty() ? nullptr : &friction_[i]);
-          nodes_[i].patch = states_[i].patch;
-        };
-        for (std::size_t i = 0; i < n_mesh_nodes_; ++i)
-          update_state(i, nodes_[i].reference + displacement_of(i));
-        for (auto &divided : divided_) {
-          if (is_far(divided))
-            continue;
-          divided.may_touch = false;
-          for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {
-            update_state(i, at(i, [&](const std::size_t parent) { return states_[parent].position; }));
-            divided.may_touch = divided.may_touch || states_[i].status != ContactStatus::open;
-          }
-        }
-      },
-      pair_.friction);
+  choose_friction(pair_.friction, [&](const auto &law) {
+    const auto update_state = [&](const std::size_t i, const Tensor<1, 3> &position) {
+      states_[i] = evaluate(law, i, position, friction_.empty() ? nullptr : &friction_[i]);
+      slaves_.nodes[i].patch = states_[i].patch;
+    };
+    for (std::size_t i = 0; i < slaves_.n_mesh_nodes; ++i)
+      update_state(i, slaves_.nodes[i].reference + displacement_of(i));
+    for (auto &divided : slaves_.divided) {
+      if (is_far(divided))
+        continue;
+      divided.may_touch = false;
+      for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {
+        update_state(i, slaves_.at(i, [&](const std::size_t parent) { return states_[parent].position; }));
+        divided.may_touch = divided.may_touch || states_[i].status != ContactStatus::open;
+      }
+    }
+  });
+}
+
+double RigidContact::stiffness_ahead(const std::size_t i) const {
+  const double gap = states_[i].gap;
+  return slaves_.nodes[i].spring().slope(std::max(0., -gap) + std::max(0., slaves_.nodes[i].gap_n - gap));
+}
+
+bool RigidContact::is_far(DividedFacet &divided) {
+  if (divided.may_touch)
+    return false;
+  // Gaps are distances, so that none in the facet is less than that of the nearest corner less the way there.
+  std::array<const ToolContactState *, 4> corners{};
+  double least = std::numeric_limits<double>::infinity(), approach = 0., size = 0.;
+  for (unsigned int a = 0; a < 4; ++a) {
+    const ContactPoint &node = slaves_.nodes[divided.corners[a]];
+    corners[a] = &states_[divided.corners[a]];
+    if (corners[a]->is_behind)
+      return false;
+    least = std::min(least, corners[a]->gap);
+    approach = std::max(approach, node.gap_n - corners[a]->gap);
+    size = std::max(size, node.size);
+  }
+  const double way = 0.5 * std::max((corners[3]->position - corners[0]->position).norm(),
+                                    (corners[2]->position - corners[1]->position).norm());
+  const double gap = least - way;
+  if (!(gap > near_gap * size + near_steps * approach))
+    return false;
+  for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {
+    ToolContactState &state = states_[i];
+    state.position = slaves_.at(i, [&](const std::size_t parent) { return states_[parent].position; });
+    state.gap = gap;
+    if (!friction_.empty()) // it was open before, too
+      friction_[i].tool_position = placement_.to_tool(state.position);
+  }
+  return true;
 }
 
 void RigidContact::update(const Vector &displacements) {
   update_states([&](const std::size_t i) {
     Tensor<1, 3> displacement;
     for (unsigned int c = 0; c < 3; ++c)
-      displacement[c] = displacements(nodes_[i].dofs[c]);
+      displacement[c] = displacements(slaves_.nodes[i].dofs[c]);
     return displacement;
   });
 }
@@ -180,32 +178,15 @@ void RigidContact::update(const Vector &displacements) {
 void RigidContact::bind(const LocalNodes &nodes) {
   local_nodes_.clear();
   is_owned_.clear();
-  for (std::size_t i = 0; i < n_mesh_nodes_; ++i) {
-    local_nodes_.push_back(nodes.find(nodes_[i].dofs[0]));
+  for (std::size_t i = 0; i < slaves_.n_mesh_nodes; ++i) {
+    local_nodes_.push_back(nodes.find(slaves_.nodes[i].dofs[0]));
     is_owned_.push_back(nodes.is_owned(local_nodes_.back()));
   }
-  is_owned_.resize(nodes_.size(), true);
+  is_owned_.resize(slaves_.nodes.size(), true);
 }
 
 void RigidContact::update(const NodalVectors &displacements) {
   update_states([&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
-}
-
-RigidContact::Fading RigidContact::fade(const RigidSurface::Border &border, const double width,
-                                        const HardeningSpring &penalty, const double gap) {
-  const double q = border.beyond / width, left = 1. - q * q;
-  const double slope = -4. * q * left / width, bend = (12. * q * q - 4.) / (width * width); // s′, s″
-  const double depth = std::max(-gap, 0.), spring = penalty.energy(depth), pressure = penalty.pressure(depth);
-  const Tensor<1, 3> &n = border.normal, &e = border.outward;
-  Fading fading;
-  fading.share = left * left;
-  fading.push = -spring * slope * e;
-  fading.pressure_slope = pressure * slope * e;
-  fading.tangent = -pressure * slope * (dealii::outer_product(n, e) + dealii::outer_product(e, n)) +
-                   spring * (bend * dealii::outer_product(e, e) + slope * border.spreading);
-  // |s′|/d <= 4/w², |s″| <= 8/w².
-  fading.stiffness = 2. * pressure * std::abs(slope) + 12. * spring / (width * width);
-  return fading;
 }
 
 void RigidContact::introduce(std::deque<RigidContact> &contacts) {
@@ -229,25 +210,25 @@ bool RigidContact::is_near_another(const Tensor<1, 3> &position, const double ne
 
 bool RigidContact::has_node_on_border(const Tensor<1, 3> &position) const {
   constexpr double same = 1e-8, near = 0.1; // facet sizes
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const double size = nodes_[i].size;
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    const double size = slaves_.nodes[i].size;
     if (is_removed_ || (states_[i].position - position).norm() > same * size)
       continue;
     const Tensor<1, 3> x = placement_.to_tool(position);
-    const auto here = tool_.surface().project(x, nodes_[i].patch);
+    const auto here = tool_.surface().project(x, slaves_.nodes[i].patch);
     if (states_[i].share < 1.)
       return true;
     if (std::abs(here.gap) > size)
       continue;
     const Frame along = Frame::from_normal(here.normal);
     for (const auto &way : {along.q, -along.q, along.r, -along.r})
-      if (tool_.surface().project(x + near * size * way, nodes_[i].patch).exists != here.exists)
+      if (tool_.surface().project(x + near * size * way, slaves_.nodes[i].patch).exists != here.exists)
         return true;
   }
   return false;
 }
 
-bool RigidContact::misses(const Node &node, const Tensor<1, 3> &position, const Tensor<1, 3> &on_tool,
+bool RigidContact::misses(const ContactPoint &node, const Tensor<1, 3> &position, const Tensor<1, 3> &on_tool,
                           const RigidSurface::Projection &projection) const {
   if (!has_inertia_)
     return false;
@@ -267,10 +248,10 @@ bool RigidContact::misses(const Node &node, const Tensor<1, 3> &position, const 
 }
 
 template <class Law>
-RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t i,
-                                               const Tensor<1, 3> &position, FrictionHistory *history) const {
-  const Node &node = nodes_[i];
-  NodeState state;
+ToolContactState RigidContact::evaluate(const Law &law, const std::size_t i, const Tensor<1, 3> &position,
+                                        FrictionHistory *history) const {
+  const ContactPoint &node = slaves_.nodes[i];
+  ToolContactState state;
   state.position = position;
   const Tensor<1, 3> on_tool = placement_.to_tool(position);
   auto projection = tool_.surface().project(on_tool, node.patch);
@@ -279,14 +260,14 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   state.is_passed = state.is_behind && projection.exists;
   const bool fades = !state.is_behind && !projection.exists && projection.beyond < width &&
                      !is_near_another(position, node.size, placement_.rotation * projection.normal);
-  Fading fading{};
+  EdgeFading fading{};
   if (fades) {
     RigidSurface::Border border = tool_.surface().border(on_tool, projection.patch, width);
     projection = {true, border.normal, border.gap, border.turning, projection.patch};
     border.normal = placement_.rotation * border.normal;
     border.outward = placement_.rotation * border.outward;
     border.spreading = placement_.rotation * border.spreading * dealii::transpose(placement_.rotation);
-    fading = fade(border, width, node.spring(), border.gap - lift_of(node));
+    fading = compute_edge_fading(border, width, node.spring(), border.gap - lift_of(node));
     state.share = fading.share;
     state.fading_stiffness = fading.stiffness;
   }
@@ -349,9 +330,9 @@ RigidContact::NodeState RigidContact::evaluate(const Law &law, const std::size_t
   return state;
 }
 
-template <class Law>
-void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
-                                  const FrictionHistory &history_n, FrictionHistory &history) const {
+void RigidContact::apply_friction(const FrictionLaw &law, const ContactPoint &node, ToolContactState &state,
+                                  const EdgeFading *fading, const FrictionHistory &history_n,
+                                  FrictionHistory &history) const {
   history.frame = history_n.is_active
                       ? history_n.frame.transported(
                             placement_.rotation * dealii::transpose(placement_n_.rotation), state.normal)
@@ -387,7 +368,7 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
       for (unsigned int j = 0; j < 3; ++j)
         increment.gradient[i][j] = gradient[i] * axes[j];
   }
-  const auto i = static_cast<std::size_t>(&node - nodes_.data());
+  const auto i = static_cast<std::size_t>(&node - slaves_.nodes.data());
   const FrameTraction t = compute_traction(law, stiffness, tangent_, state.gap,
                                            base_.empty() ? history_n.tangential : base_[i], increment);
 
@@ -420,47 +401,17 @@ void RigidContact::apply_friction(const Law &law, const Node &node, NodeState &s
       increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
 }
 
-RigidContact::FacetStates RigidContact::states_of(const Facet &facet) const {
+CornerStates RigidContact::states_of(const ContactFacet &facet) const {
   return {&states_[facet.nodes[0]], &states_[facet.nodes[1]], &states_[facet.nodes[2]],
           &states_[facet.nodes[3]]};
 }
 
-RigidContact::FacetAreas RigidContact::compute_areas(const FacetStates &states, const bool with_derivatives) {
-  FacetAreas result{};
-  for (const auto &point : facet_points()) {
-    const auto &[N, N_xi, N_eta] = point;
-    const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return states[a]->position; });
-    const Tensor<1, 3> area_vector = dealii::cross_product_3d(g_1, g_2);
-    for (unsigned int a = 0; a < 4; ++a) {
-      const NodeState &node = *states[a];
-      if (node.status == ContactStatus::open)
-        continue;
-      const double facing = -(area_vector * node.normal);
-      if (facing <= 0.)
-        continue;
-      result.areas[a] += N[a] * facing;
-      if (with_derivatives) {
-        result.normal_derivatives[a] -= N[a] * area_vector;
-        for (unsigned int b = 0; b < 4; ++b)
-          result.derivatives[a][b] -= N[a] * (N_xi[b] * dealii::cross_product_3d(g_2, node.normal) +
-                                              N_eta[b] * dealii::cross_product_3d(node.normal, g_1));
-      }
-    }
-  }
-  return result;
-}
-
-bool RigidContact::touches(const FacetStates &states) {
-  return std::any_of(states.begin(), states.end(),
-                     [](const NodeState *state) { return state->status != ContactStatus::open; });
-}
-
 template <class Visit> void RigidContact::for_each_touching(const Visit &visit) const {
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (!touches(states))
+  for (const auto &facet : slaves_.facets) {
+    const CornerStates states = states_of(facet);
+    if (!any_touches(states))
       continue;
-    const FacetAreas areas = compute_areas(states, false);
+    const ProjectedAreas areas = compute_projected_areas(states, false);
     for (unsigned int a = 0; a < 4; ++a)
       if (states[a]->status != ContactStatus::open)
         visit(facet, a, areas.areas[a]);
@@ -468,23 +419,23 @@ template <class Visit> void RigidContact::for_each_touching(const Visit &visit) 
 }
 
 template <class Add> void RigidContact::for_each_area(const Add &add) const {
-  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
+  for_each_touching([&](const ContactFacet &facet, const unsigned int corner, const double area) {
     if (area > 0.)
       add(facet.nodes[corner], area);
   });
 }
 
 template <class Add> void RigidContact::for_each_counted_area(const Add &add) const {
-  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
-    const double counted = counted_area(facet, corner, area, springs_of(facet.nodes[corner]));
+  for_each_touching([&](const ContactFacet &facet, const unsigned int corner, const double area) {
+    const double counted = springs_of(facet.nodes[corner]).counted_area(area, facet.shallow_areas[corner]);
     if (counted > 0.)
       add(facet.nodes[corner], counted);
   });
 }
 
 template <class Add> void RigidContact::for_each_near(const Add &add) const {
-  for (unsigned int i = 0; i < nodes_.size(); ++i) {
-    const Node &node = nodes_[i];
+  for (unsigned int i = 0; i < slaves_.nodes.size(); ++i) {
+    const ContactPoint &node = slaves_.nodes[i];
     const double gap = states_[i].gap;
     // The step in which a node enters must be short enough already, and equal steps keep the energy best.
     const bool is_near = gap < near_gap * node.size || gap + near_steps * (gap - node.gap_n) < 0.;
@@ -504,19 +455,19 @@ std::vector<SlaveForce> RigidContact::slave_forces() const {
 
 void RigidContact::add_forces(Vector &residual) const {
   for_each_area([&](const unsigned int i, const double area) {
-    add_to_dofs(i, -area * states_[i].traction, residual);
+    slaves_.add_to_dofs(i, -area * states_[i].traction, residual);
   });
 }
 
 ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds) {
   ContactLoad load;
-  for (auto &facet : facets_)
+  for (auto &facet : slaves_.facets)
     add_forces(facet, forces, bounds, load);
   for_each_near([&](const unsigned int i, const double area) {
     // w (Σ w_b v_b)² <= w Σ w_b v_b²
-    for_each_parent(i, [&](const unsigned int parent, const double weight) {
+    slaves_.for_each_parent(i, [&](const unsigned int parent, const double weight) {
       bounds[std::size_t{nodal_stride} * local_nodes_[parent]] +=
-          weight * (area * std::max(stiffness_ahead(i), nodes_[i].stiffness.tangential));
+          weight * (area * std::max(stiffness_ahead(i), slaves_.nodes[i].stiffness.tangential));
     });
   });
   add_friction(load, false);
@@ -526,9 +477,9 @@ ContactLoad RigidContact::add_forces(NodalVectors &forces, NodalVectors &bounds)
 void RigidContact::add_crossings(Crossings &crossings) const {
   if (is_removed_ || duration_ == 0.)
     return;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i)
     if (is_owned_[i]) {
-      const Node &node = nodes_[i];
+      const ContactPoint &node = slaves_.nodes[i];
       const double moved = states_[i].gap - node.gap_n;
       crossings.add(node.spring().slope(moved) * node.spacing * node.spacing, states_[i].gap, moved);
     }
@@ -536,10 +487,10 @@ void RigidContact::add_crossings(Crossings &crossings) const {
 
 void RigidContact::add_start_crossings(Crossings &crossings, const NodalVectors &velocities,
                                        const double step) const {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node &node = nodes_[i];
-    const Tensor<1, 3> v =
-        at(i, [&](const std::size_t parent) { return get_vector(velocities.data(), local_nodes_[parent]); });
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    const ContactPoint &node = slaves_.nodes[i];
+    const Tensor<1, 3> v = slaves_.at(
+        i, [&](const std::size_t parent) { return get_vector(velocities.data(), local_nodes_[parent]); });
     if (!is_owned_[i] || std::abs(states_[i].gap) >= 2. * step * v.norm())
       continue;
     const auto projection = tool_.surface().project(placement_.to_tool(states_[i].position), node.patch);
@@ -550,35 +501,33 @@ void RigidContact::add_start_crossings(Crossings &crossings, const NodalVectors 
 
 double RigidContact::stored_energy(const std::size_t i) const {
   // What augmented tractions hold is no stretch of a spring.
-  const double gap = states_[i].gap + nodes_[i].lift; // but for what is allowed
-  return states_[i].share * nodes_[i].spring().energy(gap) +
+  const double gap = states_[i].gap + slaves_.nodes[i].lift; // but for what is allowed
+  return states_[i].share * slaves_.nodes[i].spring().energy(gap) +
          (pair_.is_augmented() ? 0. : states_[i].tangential_energy);
 }
 
-RigidContact::Springs RigidContact::springs_of(const std::size_t i, const double energy) const {
-  const double limit = nodes_[i].spring().energy(depth_on_current_areas(nodes_[i]));
-  if (!is_explicit_ || energy <= limit)
-    return {energy, energy, 1.};
-  const double share = std::sqrt(limit / energy);
-  return {energy, share * (2. - share) * energy, share};
+SpringEnergy RigidContact::springs_of(const std::size_t i, const double energy) const {
+  const double limit = slaves_.nodes[i].spring().energy(depth_on_current_areas(slaves_.nodes[i]));
+  return is_explicit_ ? SpringEnergy::split(energy, limit) : SpringEnergy::on_one_area(energy);
 }
 
-void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load) {
-  const FacetStates states = states_of(facet);
+void RigidContact::add_forces(ContactFacet &facet, NodalVectors &forces, NodalVectors &bounds,
+                              ContactLoad &load) {
+  const CornerStates states = states_of(facet);
   std::array<double, 4> areas{}, energies{};
   double depth = 0.;     // that goes with the largest energy
   double hardening = 1.; // of the stiffest spring
   for (unsigned int a = 0; a < 4; ++a)
     if (states[a]->status != ContactStatus::open) {
-      const Springs springs = springs_of(facet.nodes[a]);
-      if (springs.share == 1.)
-        facet.shallow_areas[a] = not_touching; // what it is here is found below
+      const SpringEnergy springs = springs_of(facet.nodes[a]);
+      if (!springs.is_split())
+        facet.shallow_areas[a] = SpringEnergy::no_area; // what it is here is found below
       energies[a] = springs.on_current_area;
-      const double stiffness = nodes_[facet.nodes[a]].stiffness.normal;
-      depth = std::max(depth, 2. * springs.energy / stiffness);
+      const double stiffness = slaves_.nodes[facet.nodes[a]].stiffness.normal;
+      depth = std::max(depth, 2. * springs.total / stiffness);
       hardening = std::max(hardening, stiffness_ahead(facet.nodes[a]) / stiffness);
     }
-  if (!touches(states))
+  if (!any_touches(states))
     return;
   depth = std::sqrt(depth);
   std::array<Tensor<1, 3>, 4> by_area; // −Σ_a e_a ∂A_a/∂x_b
@@ -602,23 +551,24 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
   for (unsigned int b = 0; b < 4; ++b) {
     const std::size_t i = facet.nodes[b];
     const auto add_bound = [&](const double bound) {
-      for_each_parent(i, [&](const unsigned int parent, const double weight) {
+      slaves_.for_each_parent(i, [&](const unsigned int parent, const double weight) {
         bounds[std::size_t{nodal_stride} * local_nodes_[parent]] += weight * bound;
       });
     };
     Tensor<1, 3> force = by_area[b];
     load.force += force;
     load.moment += dealii::cross_product_3d(states[b]->position - placement_.moved_centre(), force);
-    add_bound(hardening * nodes_[i].stiffness.normal * std::min(depth, depth_on_current_areas(nodes_[i])) *
-              (nodes_[i].spacing + depth));
+    add_bound(hardening * slaves_.nodes[i].stiffness.normal *
+              std::min(depth, depth_on_current_areas(slaves_.nodes[i])) * (slaves_.nodes[i].spacing + depth));
     if (states[b]->status != ContactStatus::open) {
-      if (facet.shallow_areas[b] == not_touching)
+      if (facet.shallow_areas[b] == SpringEnergy::no_area)
         facet.shallow_areas[b] = areas[b];
       force += add_to_load(load, facet, b, areas[b]);
-      add_bound(largest_area(facet, b, areas[b]) *
-                (std::max(stiffness_ahead(i), nodes_[i].stiffness.tangential) + states[b]->fading_stiffness));
+      add_bound(springs_of(i).max_area(areas[b], facet.shallow_areas[b]) *
+                (std::max(stiffness_ahead(i), slaves_.nodes[i].stiffness.tangential) +
+                 states[b]->fading_stiffness));
     }
-    for_each_parent(i, [&](const unsigned int parent, const double weight) {
+    slaves_.for_each_parent(i, [&](const unsigned int parent, const double weight) {
       add_vector(forces.data(), local_nodes_[parent], weight * force);
     });
   }
@@ -626,7 +576,7 @@ void RigidContact::add_forces(Facet &facet, NodalVectors &forces, NodalVectors &
 
 double RigidContact::largest_spring() const {
   double largest = 0.;
-  for (const auto &node : nodes_)
+  for (const auto &node : slaves_.nodes)
     largest =
         std::max(largest, std::max(node.stiffness.normal, node.stiffness.tangential) * node.size * node.size);
   return largest;
@@ -635,12 +585,12 @@ double RigidContact::largest_spring() const {
 double RigidContact::stiffness_against_tool() const {
   double sum = 0.;
   const auto add = [&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const Tensor<1, 3> n = // which open nodes do not know
         state.status != ContactStatus::open
             ? state.normal
             : placement_.rotation *
-                  tool_.surface().project(placement_.to_tool(state.position), nodes_[i].patch).normal;
+                  tool_.surface().project(placement_.to_tool(state.position), slaves_.nodes[i].patch).normal;
     const Tensor<1, 3> a =
         tool_.control() == Tool::Control::moment
             ? dealii::cross_product_3d(tool_.rotation_axis(), state.position - placement_.moved_centre())
@@ -648,12 +598,12 @@ double RigidContact::stiffness_against_tool() const {
     const double normal = a * n;
     sum += area * stiffness_ahead(i) * normal * normal;
     if (pair_.has_friction())
-      sum += area * nodes_[i].stiffness.tangential * (a * a - normal * normal);
+      sum += area * slaves_.nodes[i].stiffness.tangential * (a * a - normal * normal);
   };
   if (is_removed_ || !tool_.is_driven())
     return sum;
-  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
-    add(facet.nodes[corner], largest_area(facet, corner, area));
+  for_each_touching([&](const ContactFacet &facet, const unsigned int corner, const double area) {
+    add(facet.nodes[corner], springs_of(facet.nodes[corner]).max_area(area, facet.shallow_areas[corner]));
   });
   for_each_near(add);
   return sum;
@@ -662,16 +612,16 @@ double RigidContact::stiffness_against_tool() const {
 void RigidContact::add_tangent(const TangentSystem &system) const {
   dealii::FullMatrix<double> facet_matrix(12, 12);
   std::vector<DofIndex> dofs(12);
-  for (std::size_t f = 0; f < n_whole_facets_; ++f) {
-    const Facet &facet = facets_[f];
+  for (std::size_t f = 0; f < slaves_.n_whole_facets; ++f) {
+    const ContactFacet &facet = slaves_.facets[f];
     if (!compute_facet_tangent(facet, facet_matrix))
       continue;
     for (unsigned int a = 0; a < 4; ++a)
       for (unsigned int i = 0; i < 3; ++i)
-        dofs[3 * a + i] = nodes_[facet.nodes[a]].dofs[i];
+        dofs[3 * a + i] = slaves_.nodes[facet.nodes[a]].dofs[i];
     system.add(facet_matrix, dofs);
   }
-  for (const auto &divided : divided_)
+  for (const auto &divided : slaves_.divided)
     add_divided_tangent(divided, system);
 }
 
@@ -679,14 +629,14 @@ void RigidContact::add_divided_tangent(const DividedFacet &divided, const Tangen
   dealii::FullMatrix<double> of_part(12, 12), of_facet(12, 12);
   bool touches = false;
   for (std::size_t f = divided.first_part; f < divided.first_part + divided.n_parts; ++f) {
-    const Facet &part = facets_[f];
+    const ContactFacet &part = slaves_.facets[f];
     if (!compute_facet_tangent(part, of_part))
       continue;
     touches = true;
     // Which corner of the facet, with which weight.
     std::array<std::array<double, 4>, 4> weights{};
     for (unsigned int p = 0; p < 4; ++p)
-      for_each_parent(part.nodes[p], [&](const unsigned int parent, const double weight) {
+      slaves_.for_each_parent(part.nodes[p], [&](const unsigned int parent, const double weight) {
         for (unsigned int a = 0; a < 4; ++a)
           if (divided.corners[a] == parent)
             weights[p][a] = weight;
@@ -707,12 +657,13 @@ void RigidContact::add_divided_tangent(const DividedFacet &divided, const Tangen
   std::vector<DofIndex> dofs(12);
   for (unsigned int a = 0; a < 4; ++a)
     for (unsigned int i = 0; i < 3; ++i)
-      dofs[3 * a + i] = nodes_[divided.corners[a]].dofs[i];
+      dofs[3 * a + i] = slaves_.nodes[divided.corners[a]].dofs[i];
   system.add(of_facet, dofs);
 }
 
-bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
-  if (!touches(states_of(facet)))
+bool RigidContact::compute_facet_tangent(const ContactFacet &facet,
+                                         dealii::FullMatrix<double> &matrix) const {
+  if (!any_touches(states_of(facet)))
     return false;
   matrix = 0.;
   if (tangent_ == ContactTangent::numerical)
@@ -722,11 +673,11 @@ bool RigidContact::compute_facet_tangent(const Facet &facet, dealii::FullMatrix<
   return true;
 }
 
-void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
+void RigidContact::add_closed_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const {
   const bool exact = tangent_ == ContactTangent::exact;
-  const FacetAreas areas = compute_areas(states_of(facet), exact);
+  const ProjectedAreas areas = compute_projected_areas(states_of(facet), exact);
   for (unsigned int a = 0; a < 4; ++a) {
-    const NodeState &state = states_[facet.nodes[a]];
+    const ToolContactState &state = states_[facet.nodes[a]];
     const Tensor<1, 3> turned = exact ? state.turning * areas.normal_derivatives[a] : Tensor<1, 3>();
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j) {
@@ -738,48 +689,47 @@ void RigidContact::add_closed_tangent(const Facet &facet, dealii::FullMatrix<dou
   }
 }
 
-void RigidContact::add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const {
-  std::visit(
-      [&](const auto &law) {
-        FrictionHistory ignored;
-        for (unsigned int b = 0; b < 4; ++b) {
-          const Node &node = nodes_[facet.nodes[b]];
-          const double h = 1e-7 * node.size;
-          for (unsigned int j = 0; j < 3; ++j)
-            for (const double sign : {1., -1.}) {
-              Tensor<1, 3> position = states_[facet.nodes[b]].position;
-              position[j] += sign * h;
-              const NodeState moved = evaluate(law, facet.nodes[b], position, &ignored);
-              FacetStates states = states_of(facet);
-              states[b] = &moved;
-              const FacetAreas areas = compute_areas(states, false);
-              for (unsigned int a = 0; a < 4; ++a)
-                for (unsigned int i = 0; i < 3; ++i)
-                  matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
-            }
+void RigidContact::add_numerical_tangent(const ContactFacet &facet,
+                                         dealii::FullMatrix<double> &matrix) const {
+  choose_friction(pair_.friction, [&](const auto &law) {
+    FrictionHistory ignored;
+    for (unsigned int b = 0; b < 4; ++b) {
+      const ContactPoint &node = slaves_.nodes[facet.nodes[b]];
+      const double h = 1e-7 * node.size;
+      for (unsigned int j = 0; j < 3; ++j)
+        for (const double sign : {1., -1.}) {
+          Tensor<1, 3> position = states_[facet.nodes[b]].position;
+          position[j] += sign * h;
+          const ToolContactState moved = evaluate(law, facet.nodes[b], position, &ignored);
+          CornerStates states = states_of(facet);
+          states[b] = &moved;
+          const ProjectedAreas areas = compute_projected_areas(states, false);
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              matrix(3 * a + i, 3 * b + j) -= sign / (2. * h) * areas.areas[a] * states[a]->traction[i];
         }
-      },
-      pair_.friction);
+    }
+  });
 }
 
 void RigidContact::add_tool_push(const Placement &after, Vector &forces) const {
   for_each_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const Tensor<1, 3> motion = after.to_space(placement_.to_tool(state.position)) - state.position;
-    add_to_dofs(i, area * (state.tangent * motion), forces);
+    slaves_.add_to_dofs(i, area * (state.tangent * motion), forces);
   });
 }
 
 double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, Vector &row) const {
   double power_slope = 0.;
   dealii::FullMatrix<double> K(12, 12);
-  for (const auto &facet : facets_) {
+  for (const auto &facet : slaves_.facets) {
     if (!compute_facet_tangent(facet, K))
       continue;
-    const FacetAreas areas = compute_areas(states_of(facet), false);
+    const ProjectedAreas areas = compute_projected_areas(states_of(facet), false);
     std::array<Tensor<1, 3>, 4> v, F;
     for (unsigned int a = 0; a < 4; ++a) {
-      const NodeState &state = states_[facet.nodes[a]];
+      const ToolContactState &state = states_[facet.nodes[a]];
       v[a] = rate.translation +
              dealii::cross_product_3d(rate.rotation, state.position - placement_.moved_centre());
       F[a] = areas.areas[a] * state.traction;
@@ -796,8 +746,8 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
       power_slope += v[a] * along;
       // The arm turns with the tool about a centre that does not: ω × v adds nothing that is not there
       // already.
-      add_to_dofs(facet.nodes[a], -along, column);
-      add_to_dofs(facet.nodes[a], power, row);
+      slaves_.add_to_dofs(facet.nodes[a], -along, column);
+      slaves_.add_to_dofs(facet.nodes[a], power, row);
     }
   }
   return power_slope;
@@ -805,8 +755,8 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
 
 double RigidContact::distance_to_touch(const Tensor<1, 3> &direction) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto &node : nodes_) {
-    const NodeState &state = states_[static_cast<std::size_t>(&node - nodes_.data())];
+  for (const auto &node : slaves_.nodes) {
+    const ToolContactState &state = states_[static_cast<std::size_t>(&node - slaves_.nodes.data())];
     const auto projection = tool_.surface().project(placement_.to_tool(state.position), node.patch);
     const double approach = placement_.rotation * projection.normal * direction;
     if (!is_removed_ && projection.exists && approach > 1e-6)
@@ -827,14 +777,15 @@ void RigidContact::add_resistances(const std::size_t body, std::vector<Resistanc
 void RigidContact::visit_supporting(const VisitSupporting &visit) const {
   for (const auto &state : states_)
     if (state.status != ContactStatus::open)
-      visit(make_supporting_point(state.position, state.normal, pair_.friction, state.status, state.traction),
+      visit(make_supporting_point(state.position, state.normal, pair_.friction.get(), state.status,
+                                  state.traction),
             pair_.body, pair_.body);
 }
 
 RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
   Grip grip;
   for_each_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
+    const ToolContactState &state = states_[i];
     const Tensor<1, 3> v = rate.translation + dealii::cross_product_3d(
                                                   rate.rotation, state.position - placement_.moved_centre());
     const double along_normal = state.normal * v, force = area * state.pressure;
@@ -847,15 +798,15 @@ RigidContact::Grip RigidContact::grip(const ToolRate &rate) const {
 }
 
 void RigidContact::commit() {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    nodes_[i].gap_n = states_[i].gap;
-    nodes_[i].is_behind = states_[i].is_behind;
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    slaves_.nodes[i].gap_n = states_[i].gap;
+    slaves_.nodes[i].is_behind = states_[i].is_behind;
     if (states_[i].is_behind)
-      nodes_[i].behind_at = placement_.to_tool(states_[i].position);
+      slaves_.nodes[i].behind_at = placement_.to_tool(states_[i].position);
     has_nodes_behind_ = has_nodes_behind_ || states_[i].is_passed;
   }
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    Node &node = nodes_[i];
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    ContactPoint &node = slaves_.nodes[i];
     if (states_[i].status == ContactStatus::open) { // it begins without when it comes back
       node.gap_n += node.lift;
       node.lift = 0.;
@@ -866,16 +817,17 @@ void RigidContact::commit() {
   friction_n_ = friction_;
   remember_positions();
   if (!friction_.empty() && !is_explicit_)
-    for (auto &facet : facets_) {
-      const FacetStates states = states_of(facet);
-      facet.friction_areas = touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
+    for (auto &facet : slaves_.facets) {
+      const CornerStates states = states_of(facet);
+      facet.friction_areas =
+          any_touches(states) ? compute_projected_areas(states, false).areas : std::array<double, 4>{};
     }
   remember_pressures();
   if (is_explicit_) // not before what springs held is released
-    for (auto &facet : facets_)
+    for (auto &facet : slaves_.facets)
       for (unsigned int a = 0; a < 4; ++a)
         if (states_[facet.nodes[a]].status == ContactStatus::open)
-          facet.shallow_areas[a] = not_touching;
+          facet.shallow_areas[a] = SpringEnergy::no_area;
 }
 
 void RigidContact::remember_pressures() {
@@ -883,22 +835,22 @@ void RigidContact::remember_pressures() {
   if (is_explicit_)
     return;
   knows_pressures_ = true;
-  pressed_n_.resize(nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const NodeState &state = states_[i];
+  pressed_n_.resize(slaves_.nodes.size());
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    const ToolContactState &state = states_[i];
     PressureHistory &history = pressed_n_[i];
     history.pressure = state.pressure;
     // What augmented tractions hold is no depth.
-    history.depth = state.pressure > 0. ? std::max(0., -(state.gap + nodes_[i].lift)) : 0.;
+    history.depth = state.pressure > 0. ? std::max(0., -(state.gap + slaves_.nodes[i].lift)) : 0.;
     history.normal = dealii::transpose(placement_.rotation) * state.normal;
     history.position = placement_.to_tool(state.position);
   }
 }
 
 template <class NormalOf> std::vector<double> RigidContact::areas_along(const NormalOf &normal_of) const {
-  std::vector<double> areas(nodes_.size(), 0.);
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
+  std::vector<double> areas(slaves_.nodes.size(), 0.);
+  for (const auto &facet : slaves_.facets) {
+    const CornerStates states = states_of(facet);
     for (const auto &point : facet_points()) {
       const Tensor<1, 3> area_vector =
           point.area_vector([&](const unsigned int a) { return states[a]->position; });
@@ -911,27 +863,27 @@ template <class NormalOf> std::vector<double> RigidContact::areas_along(const No
 
 StepWorks RigidContact::compute_step_works(const double weight) const {
   StepWorks works;
-  const bool has_moved =
-      !is_removed_ && knows_pressures_ &&
-      std::any_of(states_.begin(), states_.end(), [this](const NodeState &state) {
-        const auto i = static_cast<std::size_t>(&state - states_.data());
-        return (state.pressure > 0.) != (pressed_n_[i].pressure > 0.) ||
-               (state.pressure > 0. && allowed_part_ != allowed_part_n_ && nodes_[i].initial_depth > 0.);
-      });
+  const bool has_moved = !is_removed_ && knows_pressures_ &&
+                         std::any_of(states_.begin(), states_.end(), [this](const ToolContactState &state) {
+                           const auto i = static_cast<std::size_t>(&state - states_.data());
+                           return (state.pressure > 0.) != (pressed_n_[i].pressure > 0.) ||
+                                  (state.pressure > 0. && allowed_part_ != allowed_part_n_ &&
+                                   slaves_.nodes[i].initial_depth > 0.);
+                         });
   if (has_moved) {
     const auto normal_of = [&](const std::size_t i) {
       return states_[i].pressure > 0. ? states_[i].normal : placement_.rotation * pressed_n_[i].normal;
     };
     const std::vector<double> areas = areas_along(normal_of);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const NodeState &state = states_[i];
+    for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+      const ToolContactState &state = states_[i];
       const PressureHistory &before = pressed_n_[i];
       if (!(state.pressure > 0.) && !(before.pressure > 0.))
         continue;
-      const double ramp_depth = (allowed_part_n_ - allowed_part_) * nodes_[i].initial_depth;
+      const double ramp_depth = (allowed_part_n_ - allowed_part_) * slaves_.nodes[i].initial_depth;
       const double closing =
           ramp_depth - normal_of(i) * (state.position - placement_.to_space(before.position));
-      const double depth = state.pressure > 0. ? std::max(0., -(state.gap + nodes_[i].lift)) : 0.;
+      const double depth = state.pressure > 0. ? std::max(0., -(state.gap + slaves_.nodes[i].lift)) : 0.;
       works.add(before.pressure * areas[i], state.pressure * areas[i], before.depth, depth, closing,
                 ramp_depth, weight);
     }
@@ -947,28 +899,28 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
 }
 
 void RigidContact::restart() {
-  for (auto &node : nodes_)
+  for (auto &node : slaves_.nodes)
     node.lift = node.lift_n;
   base_.clear();
 }
 
 void RigidContact::augment() {
-  Usage::count(Capability::augmentation, nodes_.size());
-  augmentation_memory_.set(2 * nodes_.size() * sizeof(Node::lift));
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    nodes_[i].lift = nodes_[i].is_fixed       ? 0.
-                     : states_[i].share == 1. ? states_[i].pressure / nodes_[i].stiffness.normal
-                                              : states_[i].share * std::max(0., -states_[i].gap);
+  Usage::count(Capability::augmentation, slaves_.nodes.size());
+  augmentation_memory_.set(2 * slaves_.nodes.size() * sizeof(ContactPoint::lift));
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i)
+    slaves_.nodes[i].lift = slaves_.nodes[i].is_fixed ? 0.
+                            : states_[i].share == 1. ? states_[i].pressure / slaves_.nodes[i].stiffness.normal
+                                                     : states_[i].share * std::max(0., -states_[i].gap);
   base_.clear();
   for (std::size_t i = 0; i < friction_.size(); ++i)
-    base_.push_back(friction_n_[i].is_active && !nodes_[i].is_fixed ? friction_[i].tangential
-                                                                    : friction_n_[i].tangential);
+    base_.push_back(friction_n_[i].is_active && !slaves_.nodes[i].is_fixed ? friction_[i].tangential
+                                                                           : friction_n_[i].tangential);
 }
 
 void RigidContact::scale_penalties(const double normal, const double tangential) {
   stiffening_ *= normal;
   tangential_stiffening_ *= tangential;
-  for (auto &node : nodes_) {
+  for (auto &node : slaves_.nodes) {
     if (node.is_fixed) // its force is that of its spring alone
       continue;
     node.stiffness = {stiffening_ * node.given.normal, tangential_stiffening_ * node.given.tangential};
@@ -980,8 +932,8 @@ void RigidContact::scale_penalties(const double normal, const double tangential)
 
 void RigidContact::stiffen_under_load(const double normal, const double tangential) {
   scale_penalties(normal, tangential);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    Node &node = nodes_[i];
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    ContactPoint &node = slaves_.nodes[i];
     if (node.is_fixed || !(states_[i].pressure > 0.))
       continue;
     node.initial_depth -= (1. - 1. / normal) * states_[i].gap;
@@ -994,17 +946,17 @@ void RigidContact::stiffen_under_load(const double normal, const double tangenti
 
 Penetration RigidContact::penetration() const {
   Penetration deepest;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (states_[i].pressure > 0. && states_[i].share == 1. && !nodes_[i].is_fixed)
-      deepest.add(std::abs(states_[i].gap + nodes_[i].lift), nodes_[i].size);
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i)
+    if (states_[i].pressure > 0. && states_[i].share == 1. && !slaves_.nodes[i].is_fixed)
+      deepest.add(std::abs(states_[i].gap + slaves_.nodes[i].lift), slaves_.nodes[i].size);
   return deepest;
 }
 
 double RigidContact::excessive_penetration() const {
   double largest = 0.;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (states_[i].pressure > 0. && states_[i].share == 1. && !nodes_[i].is_fixed)
-      largest = std::max(largest, std::abs(states_[i].gap + nodes_[i].lift) / nodes_[i].reach);
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i)
+    if (states_[i].pressure > 0. && states_[i].share == 1. && !slaves_.nodes[i].is_fixed)
+      largest = std::max(largest, std::abs(states_[i].gap + slaves_.nodes[i].lift) / slaves_.nodes[i].reach);
   return largest;
 }
 
@@ -1012,85 +964,68 @@ double RigidContact::closing_of_new_contacts() const {
   double largest = 0.;
   if (!knows_pressures_)
     return largest;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const NodeState &state = states_[i];
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    const ToolContactState &state = states_[i];
     const PressureHistory &before = pressed_n_[i];
     if (state.pressure > 0. && !(before.pressure > 0.))
       largest = std::max(largest, state.normal * (placement_.to_space(before.position) - state.position) /
-                                      nodes_[i].size);
+                                      slaves_.nodes[i].size);
   }
   return largest;
 }
 
 bool RigidContact::has_touching_nodes() const {
   return std::any_of(states_.begin(), states_.end(),
-                     [](const NodeState &state) { return state.status != ContactStatus::open; });
+                     [](const ToolContactState &state) { return state.status != ContactStatus::open; });
 }
 
 double RigidContact::elastic_slip(const std::size_t i) const {
   if (!(states_[i].pressure > 0.) || states_[i].status != ContactStatus::stick || friction_.empty() ||
-      !friction_n_[i].is_active || nodes_[i].is_fixed)
+      !friction_n_[i].is_active || slaves_.nodes[i].is_fixed)
     return 0.;
   const auto &from = base_.empty() ? friction_n_[i].tangential : base_[i];
   return std::hypot(friction_[i].tangential[0] - from[0], friction_[i].tangential[1] - from[1]) /
-         nodes_[i].stiffness.tangential;
+         slaves_.nodes[i].stiffness.tangential;
 }
 
 double RigidContact::augmentation_gap() const {
   double worst = penetration().of_facet;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    worst = std::max(worst, elastic_slip(i) / nodes_[i].size);
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i)
+    worst = std::max(worst, elastic_slip(i) / slaves_.nodes[i].size);
   return worst;
 }
 
 ContactSprings RigidContact::compute_springs() const {
   ContactSprings springs;
-  springs.normal.of_nodes.resize(nodes_.size());
-  springs.tangential.of_nodes.resize(nodes_.size());
+  springs.normal.of_nodes.resize(slaves_.nodes.size());
+  springs.tangential.of_nodes.resize(slaves_.nodes.size());
   for_each_counted_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
-    if (nodes_[i].is_fixed)
+    const ToolContactState &state = states_[i];
+    if (slaves_.nodes[i].is_fixed)
       return;
     springs.add(i, area * state.traction, state.normal,
-                area * nodes_[i].stiffness.normal * std::abs(state.gap + nodes_[i].lift),
-                area * nodes_[i].stiffness.tangential * elastic_slip(i));
+                area * slaves_.nodes[i].stiffness.normal * std::abs(state.gap + slaves_.nodes[i].lift),
+                area * slaves_.nodes[i].stiffness.tangential * elastic_slip(i));
   });
   return springs;
 }
 
-double RigidContact::largest_area(const Facet &facet, const unsigned int corner, const double area) const {
-  return springs_of(facet.nodes[corner]).share < 1. ? std::max(area, facet.shallow_areas[corner]) : area;
-}
-
-double RigidContact::counted_area(const Facet &facet, const unsigned int corner, const double area,
-                                  const Springs &springs) {
-  const double before = facet.shallow_areas[corner];
-  return springs.share == 1. || before == not_touching ? area
-                                                       : springs.share * area + (1. - springs.share) * before;
-}
-
-double RigidContact::energy_on(const Facet &facet, const unsigned int corner, const double area,
-                               const Springs &springs) {
-  const double before = facet.shallow_areas[corner] == not_touching ? area : facet.shallow_areas[corner];
-  return area * springs.on_current_area + before * (springs.energy - springs.on_current_area);
-}
-
-Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const Facet &facet, const unsigned int corner,
-                                       const double area) const {
+Tensor<1, 3> RigidContact::add_to_load(ContactLoad &load, const ContactFacet &facet,
+                                       const unsigned int corner, const double area) const {
   const std::size_t i = facet.nodes[corner];
-  const NodeState &state = states_[i];
-  const Springs springs = springs_of(i);
-  const double counted = counted_area(facet, corner, area, springs);
+  const ToolContactState &state = states_[i];
+  const SpringEnergy springs = springs_of(i);
+  const double counted = springs.counted_area(area, facet.shallow_areas[corner]);
   if (!(counted > 0.))
     return {};
   const Tensor<1, 3> force = counted * state.traction;
   load.force += force;
   load.moment += dealii::cross_product_3d(state.position - placement_.moved_centre(), force);
   load.area += area;
-  load.stored_energy += energy_on(facet, corner, area, springs);
+  load.stored_energy += springs.on_areas(area, facet.shallow_areas[corner]);
   if (is_explicit_)
     load.dissipation += state.friction.dissipated(counted, counted);
-  load.deepest = std::max(load.deepest, -(state.gap + nodes_[i].lift));
+  load.deepest = std::max(load.deepest, -(state.gap + slaves_.nodes[i].lift));
   return force;
 }
 
@@ -1110,14 +1045,14 @@ bool RigidContact::presses_at_both_ends() const {
 
 ContactLoad RigidContact::local_load(const bool hands_over) const {
   ContactLoad load;
-  for_each_touching([&](const Facet &facet, const unsigned int corner, const double area) {
+  for_each_touching([&](const ContactFacet &facet, const unsigned int corner, const double area) {
     add_to_load(load, facet, corner, area);
   });
   add_friction(load, hands_over);
   return load;
 }
 
-FrictionRule RigidContact::friction_rule(const Node &node) const {
+FrictionRule RigidContact::friction_rule(const ContactPoint &node) const {
   // What augmented tractions hold is no stretch of a spring.
   const bool stores = !pair_.is_augmented();
   return {node.stiffness.tangential, start_weight_, is_static_, stores, stores};
@@ -1137,10 +1072,10 @@ void RigidContact::add_friction(ContactLoad &load, const bool hands_over) const 
 }
 
 template <class Visit> void RigidContact::visit_friction(const bool hands_over, const Visit &visit) const {
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
+  for (const auto &facet : slaves_.facets) {
+    const CornerStates states = states_of(facet);
     const std::array<double, 4> areas =
-        touches(states) ? compute_areas(states, false).areas : std::array<double, 4>{};
+        any_touches(states) ? compute_projected_areas(states, false).areas : std::array<double, 4>{};
     for (unsigned int a = 0; a < 4; ++a)
       visit(hands_over ? states[a]->friction.handed_over() : states[a]->friction, facet.friction_areas[a],
             areas[a]);
@@ -1148,14 +1083,15 @@ template <class Visit> void RigidContact::visit_friction(const bool hands_over, 
 }
 
 void RigidContact::add_released(ContactLoad &load) const {
-  const auto is_released = [](const NodeState &state) {
+  const auto is_released = [](const ToolContactState &state) {
     return state.status == ContactStatus::open && state.friction.dissipation_n != 0.;
   };
   if (std::none_of(states_.begin(), states_.end(), is_released))
     return;
-  for (const auto &facet : facets_) {
-    const FacetStates states = states_of(facet);
-    if (std::none_of(states.begin(), states.end(), [&](const NodeState *node) { return is_released(*node); }))
+  for (const auto &facet : slaves_.facets) {
+    const CornerStates states = states_of(facet);
+    if (std::none_of(states.begin(), states.end(),
+                     [&](const ToolContactState *node) { return is_released(*node); }))
       continue;
     std::array<double, 4> areas{};
     for (const auto &point : facet_points()) {
@@ -1166,8 +1102,8 @@ void RigidContact::add_released(ContactLoad &load) const {
     }
     for (unsigned int a = 0; a < 4; ++a)
       if (is_released(*states[a]))
-        load.dissipation +=
-            energy_on(facet, a, areas[a], springs_of(facet.nodes[a], states[a]->friction.dissipation_n));
+        load.dissipation += springs_of(facet.nodes[a], states[a]->friction.dissipation_n)
+                                .on_areas(areas[a], facet.shallow_areas[a]);
   }
 }
 
@@ -1176,23 +1112,23 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     double force = 0., slipping = 0., depth = 0., curvature = 0.;
     Tensor<1, 3> traction;
   };
-  std::vector<Sums> sums(n_mesh_nodes_);
-  std::vector<bool> has_points(n_mesh_nodes_, false);
-  for (const auto &divided : divided_)
+  std::vector<Sums> sums(slaves_.n_mesh_nodes);
+  std::vector<bool> has_points(slaves_.n_mesh_nodes, false);
+  for (const auto &divided : slaves_.divided)
     for (const unsigned int corner : divided.corners)
       has_points[corner] = true;
   for_each_counted_area([&](const unsigned int i, const double area) {
-    const NodeState &state = states_[i];
-    for_each_parent(i, [&](const unsigned int parent, const double weight) {
+    const ToolContactState &state = states_[i];
+    slaves_.for_each_parent(i, [&](const unsigned int parent, const double weight) {
       const double force = weight * area * state.pressure;
       sums[parent].force += force;
-      sums[parent].depth = std::max(sums[parent].depth, std::abs(state.gap + nodes_[i].lift));
+      sums[parent].depth = std::max(sums[parent].depth, std::abs(state.gap + slaves_.nodes[i].lift));
       sums[parent].curvature = std::max(sums[parent].curvature, largest_curvature(state.turning));
       sums[parent].slipping += state.status == ContactStatus::slip ? force : 0.;
       sums[parent].traction += weight * area * state.traction;
     });
   });
-  for (std::size_t i = 0; i < n_mesh_nodes_; ++i) {
+  for (std::size_t i = 0; i < slaves_.n_mesh_nodes; ++i) {
     if (!has_points[i] || !(sums[i].force > 0.))
       continue;
     reports[i].pressure = sums[i].force / reports[i].area;
@@ -1200,44 +1136,46 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     reports[i].penetration = sums[i].depth;
     reports[i].curvature = sums[i].curvature;
     // A tool that is thin beside the facets is as sharp as a radius of half its thickness.
-    if (thickness_of_thin_tool_ > 0. && thickness_of_thin_tool_ < 0.5 * nodes_[i].size)
-      reports[i].curvature = std::max(reports[i].curvature, 2. / thickness_of_thin_tool_);
+    if (thin_tool_ && thin_tool_->thickness() < 0.5 * slaves_.nodes[i].size)
+      reports[i].curvature = std::max(reports[i].curvature, 2. / thin_tool_->thickness());
     reports[i].status = sums[i].slipping > 0.5 * sums[i].force ? ContactStatus::slip : ContactStatus::stick;
   }
 }
 
 std::vector<ContactNodeReport> RigidContact::report() const {
   std::vector<ContactNodeReport> reports;
-  for (std::size_t i = 0; i < n_mesh_nodes_; ++i) {
-    const NodeState &state = states_[i];
-    reports.push_back({nodes_[i].dofs, state.status, state.pressure, state.gap + lift_of(nodes_[i]),
-                       friction_.empty() ? 0. : friction_[i].slip, 0., state.traction,
-                       state.pressure > 0. ? std::abs(state.gap + nodes_[i].lift) : 0., nodes_[i].size,
-                       friction_.empty() ? 0. : nodes_[i].stiffness.tangential,
+  for (std::size_t i = 0; i < slaves_.n_mesh_nodes; ++i) {
+    const ToolContactState &state = states_[i];
+    reports.push_back({slaves_.nodes[i].dofs, state.status, state.pressure,
+                       state.gap + lift_of(slaves_.nodes[i]), friction_.empty() ? 0. : friction_[i].slip, 0.,
+                       state.traction, state.pressure > 0. ? std::abs(state.gap + slaves_.nodes[i].lift) : 0.,
+                       slaves_.nodes[i].size, friction_.empty() ? 0. : slaves_.nodes[i].stiffness.tangential,
                        state.pressure > 0. ? largest_curvature(state.turning) : 0.});
   }
   for_each_counted_area([&](const unsigned int i, const double area) {
-    for_each_parent(
+    slaves_.for_each_parent(
         i, [&](const unsigned int parent, const double weight) { reports[parent].area += weight * area; });
   });
   // Along the sides of long facets the tool may turn by more than over the root of their area.
   constexpr std::array<std::array<unsigned int, 2>, 4> sides{{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
-  for (const auto &facet : facets_)
+  for (const auto &facet : slaves_.facets)
     for (const auto &side : sides) {
       const unsigned int a = facet.nodes[side[0]], b = facet.nodes[side[1]];
       for (const unsigned int i : {a, b})
-        if (a < n_mesh_nodes_ && b < n_mesh_nodes_ && states_[i].pressure > 0.)
-          reports[i].curvature = std::max(
-              reports[i].curvature,
-              (states_[i].turning * (states_[a].position - states_[b].position)).norm() / nodes_[i].size);
+        if (a < slaves_.n_mesh_nodes && b < slaves_.n_mesh_nodes && states_[i].pressure > 0.)
+          reports[i].curvature =
+              std::max(reports[i].curvature,
+                       (states_[i].turning * (states_[a].position - states_[b].position)).norm() /
+                           slaves_.nodes[i].size);
     }
-  if (!divided_.empty())
+  if (!slaves_.divided.empty())
     average_over_points(reports);
   return reports;
 }
 
 std::size_t RigidContact::history_size() const {
-  return (2 * friction_.size() * sizeof(FrictionHistory) + nodes_.size() * sizeof(double)) / sizeof(double);
+  return (2 * friction_.size() * sizeof(FrictionHistory) + slaves_.nodes.size() * sizeof(double)) /
+         sizeof(double);
 }
 
 } // namespace billet

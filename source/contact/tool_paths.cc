@@ -78,15 +78,15 @@ double RigidContact::find_free_part(const ContactPath &path) const {
   const RigidSurface &surface = tool_.surface();
   double part = 1.;
   const auto displaced = [this](const std::size_t i, const Vector &displacements) {
-    return nodes_[i].reference + at(i, [&](const std::size_t node) {
-             Tensor<1, 3> displacement;
-             for (unsigned int c = 0; c < 3; ++c)
-               displacement[c] = displacements(nodes_[node].dofs[c]);
-             return displacement;
-           });
+    return slaves_.nodes[i].reference + slaves_.at(i, [&](const std::size_t node) {
+      Tensor<1, 3> displacement;
+      for (unsigned int c = 0; c < 3; ++c)
+        displacement[c] = displacements(slaves_.nodes[node].dofs[c]);
+      return displacement;
+    });
   };
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node &node = nodes_[i];
+  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
+    const ContactPoint &node = slaves_.nodes[i];
     const Tensor<1, 3> x_from = displaced(i, path.from), x_to = displaced(i, path.to);
     const double resolution = fine * node.size, length = tool.bound_way(x_from, x_to);
     if (node.is_behind || !(length > (path.is_thorough ? 0. : resolution)) || !std::isfinite(length) ||

@@ -18,8 +18,7 @@ namespace {
 
 /// The slip γ >= 0 with |t*| − k_t γ = L(p, γ/Δt), by Newton inside a bracket. There is one, where L does not
 /// rise with the slip rate and its fall gets no steeper.
-template <class Law>
-double solve_slip(const Law &law, const double pressure, const double trial, const double k_t,
+double solve_slip(const FrictionLaw &law, const double pressure, const double trial, const double k_t,
                   const double per_time) {
   const auto excess = [&](const double slip) {
     return trial - k_t * slip - law.limit(pressure, slip * per_time).value;
@@ -43,8 +42,7 @@ double solve_slip(const Law &law, const double pressure, const double trial, con
 
 } // namespace
 
-template <class Law>
-FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness,
+FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &stiffness,
                                const ContactTangent tangent, const double gap,
                                const std::array<double, 2> &tangential_n,
                                const TangentialIncrement &increment) {
@@ -116,14 +114,5 @@ FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness
   }
   return traction;
 }
-
-#define BILLET_INSTANTIATE(Law)                                                                              \
-  template FrameTraction compute_traction(const Law &, const ContactStiffness &, ContactTangent, double,     \
-                                          const std::array<double, 2> &, const TangentialIncrement &);
-BILLET_INSTANTIATE(Coulomb)
-BILLET_INSTANTIATE(ShearLimited)
-BILLET_INSTANTIATE(StaticKinetic)
-BILLET_INSTANTIATE(PressureDependent)
-#undef BILLET_INSTANTIATE
 
 } // namespace billet

@@ -195,19 +195,8 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Penalty of", "automatic", Patterns::Selection("automatic|stiffer|series"),
                     "Pairs of bodies, penalty as a factor: the E/h of the stiffer body, or both in series; "
                     "automatic: of the stiffer one in explicit scenes, in series in implicit ones.");
-  prm.declare_entry(
-      "Friction law", "Coulomb",
-      Patterns::Selection("Coulomb|shear limited|static-kinetic|pressure dependent"),
-      "The shear stress at which nodes slide under a pressure p. Coulomb: mu p; shear limited: mu p, at most "
-      "the largest shear stress; static-kinetic: mu falls from rest to fast sliding as mu_k + (mu - mu_k) "
-      "exp(-c v), v the slip rate; pressure dependent: mu (p/p_0)^(e-1) p.");
-  prm.declare_entry("Friction coefficient", "0", Patterns::Double(),
-                    "mu >= 0; at rest, or at the reference pressure. 0: no friction.");
-  prm.declare_entry("Largest shear stress", "0", Patterns::Double(), "> 0, whatever the pressure. [stress]");
-  prm.declare_entry("Kinetic friction coefficient", "0", Patterns::Double(), "mu_k > 0, not above mu.");
-  prm.declare_entry("Decay", "0", Patterns::Double(), "c >= 0. [time/length]");
-  prm.declare_entry("Reference pressure", "0", Patterns::Double(), "p_0 > 0. [stress]");
-  prm.declare_entry("Pressure exponent", "1", Patterns::Double(), "0 < e <= 1.");
+  declare_selection(prm, "Friction law", "Coulomb", friction_law_types(),
+                    "The shear stress at which nodes slide under a pressure p.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection("factor|absolute"),
                     "factor: penalties are multiples of E/h, Young's modulus over the facet's size; "
                     "absolute: they are pressures "
@@ -249,6 +238,15 @@ void ContactPair::declare(ParameterHandler &prm) {
 
 namespace {
 
+FrictionPointer read_friction(const Reader &reader) {
+  const FrictionLawType *type = friction_law_types().find(reader.text("Friction law"));
+  if (type == nullptr) // the selection has refused all other names
+    throw std::logic_error("unknown friction law '" + reader.text("Friction law") + "'");
+  join_parameters(friction_law_types())
+      .reject_unused(reader, type->parameters, "'" + type->name + "' friction does not use it");
+  return type->make(reader);
+}
+
 void refuse_twice(const Reader &reader, const std::string &key, const std::vector<unsigned int> &ids) {
   for (auto id = ids.begin(); id != ids.end(); ++id)
     if (std::find(ids.begin(), id, *id) != id)
@@ -281,7 +279,7 @@ void ContactPair::parse(Reader &reader) {
   if (boundary_ids.value.empty())
     reader.reject("Boundary ids", "at least one boundary id");
   refuse_twice(reader, "Boundary ids", boundary_ids.value);
-  parse_friction(reader);
+  friction = read_friction(reader);
   penalty_unit = reader.text("Penalty unit") == "factor" ? PenaltyUnit::factor : PenaltyUnit::absolute;
   normal_penalty = reader.positive("Normal penalty");
   has_own_penalty = reader.is_set("Normal penalty");
@@ -294,7 +292,7 @@ void ContactPair::parse(Reader &reader) {
     const auto values = reader.numbers("Tangential penalty");
     if (values.size() != 1 || !(values[0] > 0.))
       reader.reject("Tangential penalty", "a number > 0, or nothing");
-    if (friction_coefficient == 0.)
+    if (friction == nullptr)
       reader.reject("Tangential penalty", "no value: the pair has no friction");
     tangential_penalty = values[0];
   }
@@ -395,50 +393,6 @@ void ContactPair::parse_bodies(Reader &reader) {
   penalty_of = chosen_penalty == "stiffer"  ? PenaltyOf::stiffer
                : chosen_penalty == "series" ? PenaltyOf::series
                                             : PenaltyOf::automatic;
-}
-
-void ContactPair::parse_friction(Reader &reader) {
-  const std::string law = reader.text("Friction law");
-  friction_law = law == "Coulomb"          ? FrictionLaw::coulomb
-                 : law == "shear limited"  ? FrictionLaw::shear_limited
-                 : law == "static-kinetic" ? FrictionLaw::static_kinetic
-                                           : FrictionLaw::pressure_dependent;
-  friction_coefficient = reader.not_negative("Friction coefficient");
-  largest_shear_stress = reader.number("Largest shear stress");
-  kinetic_coefficient = reader.number("Kinetic friction coefficient");
-  friction_decay = reader.number("Decay");
-  reference_pressure = reader.number("Reference pressure");
-  pressure_exponent = reader.number("Pressure exponent");
-  if (friction_coefficient == 0. && friction_law != FrictionLaw::coulomb)
-    reader.reject("Friction coefficient", "a number > 0, since there is a friction law");
-
-  const std::vector<std::pair<std::string, FrictionLaw>> users = {
-      {"Largest shear stress", FrictionLaw::shear_limited},
-      {"Kinetic friction coefficient", FrictionLaw::static_kinetic},
-      {"Decay", FrictionLaw::static_kinetic},
-      {"Reference pressure", FrictionLaw::pressure_dependent},
-      {"Pressure exponent", FrictionLaw::pressure_dependent}};
-  for (const auto &[key, user] : users)
-    if (user != friction_law && reader.is_set(key))
-      reader.reject(key, "no value: '" + law + "' friction does not use it");
-  switch (friction_law) {
-  case FrictionLaw::coulomb:
-    break;
-  case FrictionLaw::shear_limited:
-    reader.positive("Largest shear stress");
-    break;
-  case FrictionLaw::static_kinetic:
-    reader.positive("Kinetic friction coefficient");
-    if (kinetic_coefficient > friction_coefficient)
-      reader.reject("Kinetic friction coefficient", "a number not above the friction coefficient");
-    reader.not_negative("Decay");
-    break;
-  case FrictionLaw::pressure_dependent:
-    reader.positive("Reference pressure");
-    if (!(pressure_exponent > 0. && pressure_exponent <= 1.))
-      reader.reject("Pressure exponent", "a number > 0 and <= 1");
-    break;
-  }
 }
 
 } // namespace billet::parameters

@@ -161,11 +161,12 @@ void check_yield_stress(const Body &body, DiagnosticList &diagnostics) {
 
 void check_friction(const parameters::ContactPair &pair, DiagnosticList &diagnostics) {
   constexpr double most = 1.5;
-  if (pair.friction_coefficient > most)
-    diagnostics.push_back(Diagnostic(diagnostic::implausible_friction,
-                                     ratio("Friction coefficient is", pair.friction_coefficient))
-                              .pair(pair.name)
-                              .measure("friction coefficient", pair.friction_coefficient));
+  const double coefficient = pair.friction != nullptr ? pair.friction->coefficient() : 0.;
+  if (coefficient > most)
+    diagnostics.push_back(
+        Diagnostic(diagnostic::implausible_friction, ratio("Friction coefficient is", coefficient))
+            .pair(pair.name)
+            .measure("friction coefficient", coefficient));
 }
 
 /// With the order of the stable step; the run knows it better.

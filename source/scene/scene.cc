@@ -104,23 +104,6 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   return body;
 }
 
-FrictionLaw make_friction(const parameters::ContactPair &pair) {
-  using Law = parameters::ContactPair::FrictionLaw;
-  if (pair.friction_coefficient == 0.)
-    return Frictionless();
-  switch (pair.friction_law) {
-  case Law::coulomb:
-    break;
-  case Law::shear_limited:
-    return ShearLimited{pair.friction_coefficient, pair.largest_shear_stress};
-  case Law::static_kinetic:
-    return StaticKinetic{pair.friction_coefficient, pair.kinetic_coefficient, pair.friction_decay};
-  case Law::pressure_dependent:
-    return PressureDependent{pair.friction_coefficient, pair.reference_pressure, pair.pressure_exponent};
-  }
-  return Coulomb{pair.friction_coefficient};
-}
-
 std::string describe_facets(const parameters::ContactPair::Facets facets) {
   using Facets = parameters::ContactPair::Facets;
   switch (facets) {
@@ -137,25 +120,8 @@ std::string describe_facets(const parameters::ContactPair::Facets facets) {
   return "overlapping";
 }
 
-std::string describe_friction(const parameters::ContactPair &pair) {
-  using Law = parameters::ContactPair::FrictionLaw;
-  std::ostringstream text;
-  text << "mu = " << pair.friction_coefficient;
-  if (pair.friction_coefficient > 0.)
-    switch (pair.friction_law) {
-    case Law::coulomb:
-      break;
-    case Law::shear_limited:
-      text << " up to " << pair.largest_shear_stress;
-      break;
-    case Law::static_kinetic:
-      text << " at rest, " << pair.kinetic_coefficient << " when fast";
-      break;
-    case Law::pressure_dependent:
-      text << " at pressure " << pair.reference_pressure << ", falling";
-      break;
-    }
-  return text.str();
+std::string describe_friction(const FrictionPointer &friction) {
+  return friction != nullptr ? friction->description() : "mu = 0";
 }
 
 /// Element, unless it is the usual one, elasticity and law.
@@ -286,7 +252,7 @@ void Scene::make_pairs() {
     const std::size_t body = parameters_.body_index(pair);
     const PairSettings settings{pair.name,
                                 &pair,
-                                make_friction(pair),
+                                pair.friction,
                                 pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor,
                                 parameters_.is_dynamic() && !pair.has_own_penalty,
                                 pair.normal_penalty,
@@ -566,12 +532,13 @@ void Scene::describe(std::ostream &stream) const {
   };
   for (const auto &pair : pairs_)
     stream << "Contact pair   " << pair.name << ": " << bodies_[pair.body].name << " on "
-           << tools_[pair.tool].name() << ", " << describe_friction(*pair.input) << describe_penalties(pair);
+           << tools_[pair.tool].name() << ", " << describe_friction(pair.friction)
+           << describe_penalties(pair);
   for (const auto &pair : body_pairs_)
     stream << "Contact pair   " << pair.name << ": " << bodies_[pair.bodies[0]].name << " on "
            << (pair.is_self_contact ? "itself" : bodies_[pair.bodies[1]].name) << ", "
            << describe_facets(pair.facets) << " facets, " << (pair.two_passes ? "two passes, " : "one pass, ")
-           << (pair.edges ? "edges, " : "") << describe_friction(*pair.input) << describe_penalties(pair);
+           << (pair.edges ? "edges, " : "") << describe_friction(pair.friction) << describe_penalties(pair);
   const auto &stepping = parameters_.time_stepping;
   stream << "Time           0 to " << stepping.end_time;
   if (parameters_.is_explicit())
@@ -644,7 +611,7 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
     Json entry = {{"name", pair.name}, {"body", body}, {"against", against}};
     if (!facets.empty())
       entry["facets"] = facets;
-    entry["friction"] = describe_friction(*pair.input);
+    entry["friction"] = describe_friction(pair.friction);
     entry["normal penalty"] = pair.normal_penalty;
     entry["tangential penalty"] = pair.tangential_penalty;
     entry["penalty unit"] = pair.penalty_is_factor ? "E/h" : "absolute";

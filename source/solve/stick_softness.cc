@@ -53,11 +53,13 @@ StickSprings::StickSprings(const Scene &scene, const Discretization &discretizat
   const auto flexibility = [&](const std::size_t body) {
     return thicknesses[body] / scene.bodies()[body].law->elastic().shear;
   };
+  const auto coefficient = [](const PairSettings &pair) {
+    return pair.has_friction() ? pair.friction->coefficient() : 0.;
+  };
   for (const auto &pair : scene.pairs())
-    pairs_.push_back({pair.input->friction_coefficient, 1. / flexibility(pair.body)});
+    pairs_.push_back({coefficient(pair), 1. / flexibility(pair.body)});
   for (const auto &pair : scene.body_pairs())
-    pairs_.push_back(
-        {pair.input->friction_coefficient, 1. / (flexibility(pair.bodies[0]) + flexibility(pair.bodies[1]))});
+    pairs_.push_back({coefficient(pair), 1. / (flexibility(pair.bodies[0]) + flexibility(pair.bodies[1]))});
 }
 
 std::vector<StickSoftness>

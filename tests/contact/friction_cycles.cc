@@ -3,6 +3,7 @@
 // each side, while both turn. After ten cycles each ends with the traction of the last, and has taken
 // the same work.
 #include "billet/contact/facet_contact.h"
+#include "billet/friction/coulomb.h"
 
 #include "surfaces.h"
 
@@ -31,7 +32,7 @@ void check_cycles(const FacetMethod method, const std::string &name) {
     keys.push_back(i);
   FacetContactSettings settings;
   settings.method = method;
-  settings.friction = Coulomb{0.5};
+  settings.friction = make_coulomb(0.5);
   settings.two_pass = false;
   settings.search_margin = 0.05;
   FacetContact contact(MPI_COMM_SELF, settings, keys, surface.facets,

@@ -3,6 +3,10 @@
 // map with them: the traction lies on the law's limit at the slip rate that it leaves, and its exact tangent
 // is its derivative.
 #include "billet/contact/traction.h"
+#include "billet/friction/coulomb.h"
+#include "billet/friction/pressure_dependent.h"
+#include "billet/friction/shear_limited.h"
+#include "billet/friction/static_kinetic.h"
 
 #include "../testing.h"
 
@@ -16,7 +20,7 @@ namespace {
 constexpr ContactStiffness stiffness{3.5e5, 1.2e5};
 constexpr double duration = 0.02;
 
-template <class Law> void check_law(const std::string &name, const Law &law) {
+void check_law(const std::string &name, const FrictionLaw &law) {
   billet::testing::Random random;
   WorstError pressure_slope, rate_slope, on_limit, back_along_trial, tangent;
   unsigned int n_slip = 0;

@@ -3,6 +3,8 @@
 // moment, and friction in the frame that goes along with the facet.
 #include "billet/contact/slave_traction.h"
 #include "billet/contact/facet_reaction.h"
+#include "billet/friction/coulomb.h"
+#include "billet/friction/static_kinetic.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/geometry/facet_rotation.h"
 #include "billet/geometry/planed_facet.h"
@@ -97,8 +99,7 @@ struct Pair {
   Tensor<1, 3> x;
   SlaveHistory history;
 
-  template <class Law>
-  SlaveTraction step(const Law &law, const FacetCorners &new_corners, const Tensor<1, 3> &new_x,
+  SlaveTraction step(const FrictionLaw &law, const FacetCorners &new_corners, const Tensor<1, 3> &new_x,
                      const double duration) {
     const FacetProjection p = PlanedFacet(new_corners).project(new_x, {});
     const SlaveMotion motion = compute_slave_motion(corners, new_corners, p.weights, x, new_x, duration);

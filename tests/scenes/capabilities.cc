@@ -44,7 +44,7 @@ int main(int argc, char *argv[]) {
         count(elastic).of_elements == 0 && !count(elastic).capabilities.plasticity);
 
   parameters::Scene frictionless = full;
-  frictionless.pairs[0].friction_coefficient = 0.;
+  frictionless.pairs[0].friction = nullptr;
   const Counts smooth = count(frictionless);
   check("without friction: a gap for each node, and no more",
         smooth.of_contact == smooth.n_contact_nodes && !smooth.capabilities.friction);

@@ -2,6 +2,8 @@
 // Contact with a tool without a matrix: its forces are what the energy in its springs changes by, at any
 // depth and with areas that change; together they are the load on the tool. And what that is for: blows at
 // the speed of waves, much friction on nodes that lift, and stiff contact at long steps make no energy.
+#include "billet/friction/coulomb.h"
+#include "billet/friction/static_kinetic.h"
 #include "explicit_run.h"
 #include "materials.h"
 
@@ -121,24 +123,21 @@ void test_bar() {
 
 /// The block stands under its weight, is thrown along the floor, tumbles and hops.
 void test_hops() {
-  using Law = parameters::ContactPair::FrictionLaw;
   struct Case {
     std::string name;
-    Law law;
+    FrictionPointer friction;
     double penalty, safety;
   };
   // Springs that are stiff let go often, and then push nodes along as often as they hold them back.
-  for (const auto &[name, law, penalty, safety] : {Case{"Coulomb", Law::coulomb, 10., 0.3},
-                                                   {"static-kinetic", Law::static_kinetic, 10., 0.3},
-                                                   {"stiff Coulomb", Law::coulomb, 1000., 0.9}}) {
+  for (const auto &[name, friction, penalty, safety] :
+       {Case{"Coulomb", make_coulomb(2.), 10., 0.3},
+        {"static-kinetic", std::make_shared<const StaticKinetic>(2., 1., 1.), 10., 0.3},
+        {"stiff Coulomb", make_coulomb(2.), 1000., 0.9}}) {
     parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
     scene.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
     scene.bodies[0].initial_velocity.value = {"10", "0", "0"};
     scene.bodies[0].loads = {testing::make_load("acceleration", "set Acceleration = 0 ; 0 ; -2000")};
-    scene.pairs[0].friction_law = law;
-    scene.pairs[0].friction_coefficient = 2.;
-    scene.pairs[0].kinetic_coefficient = 1.;
-    scene.pairs[0].friction_decay = 1.;
+    scene.pairs[0].friction = friction;
     scene.pairs[0].normal_penalty = scene.pairs[0].tangential_penalty = penalty;
     scene.time_stepping.end_time = 0.04;
     scene.explicit_dynamics.safety_factor = safety;
@@ -156,7 +155,7 @@ void test_deep_friction() {
   parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
   scene.bodies[0].mesh.arguments = "2, 2, 2 : -0.5, -0.5, 0.02 : 0.5, 0.5, 1.02 : true";
   scene.bodies[0].initial_velocity.value = {"500", "300", "-2000"};
-  scene.pairs[0].friction_coefficient = 2.;
+  scene.pairs[0].friction = make_coulomb(2.);
   scene.pairs[0].tangential_penalty = 0.5;
   scene.time_stepping.end_time = 3e-3;
   ExplicitRun run(scene);

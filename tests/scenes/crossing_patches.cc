@@ -132,7 +132,7 @@ int main(int argc, char *argv[]) {
     scene.tools[0].motion.centre = Tensor<1, 3>({0.41, 0., -3.});
     scene.tools[0].motion.rotation_angle.value = motion.turn;
     scene.tools[0].motion.translation.value = {"0", "0", "0"};
-    scene.pairs[0].friction_coefficient = motion.friction_coefficient;
+    scene.pairs[0].friction = make_coulomb(motion.friction_coefficient);
     scene.time_stepping.end_time = 1.;
     const Course whole =
         run(scene, {{"cylinder", "set Point = " + middle + "\nset Axis = 0, 1, 0\nset Radius = 3"}});

@@ -78,7 +78,7 @@ parameters::Scene make_scene(const testing::SurfacePart &part, const Tensor<1, 3
   tool.motion.rotation_angle.value = dealii::Utilities::to_string(rate) + "*t";
   tool.motion.translation.value = {"0", "0", "0"};
   tool.motion.centre = Tensor<1, 3>({0.5, 0.5, 0.});
-  scene.pairs[0].friction_coefficient = mu;
+  scene.pairs[0].friction = make_coulomb(mu);
   scene.time_stepping.initial_step = step;
   scene.time_stepping.end_time = 3.;
   scene.solver.force_tolerance = 1e-13;

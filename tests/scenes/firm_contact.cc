@@ -33,7 +33,7 @@ dealii::Tensor<1, 3> shear(const double tolerance) {
   parameters::Scene parameters = read();
   parameters.time_stepping.end_time = 2.;
   for (auto &pair : parameters.pairs) {
-    pair.friction_coefficient = 1.;
+    pair.friction = make_coulomb(1.);
     if (tolerance > 0.)
       pair.penetration_tolerance = tolerance;
   }

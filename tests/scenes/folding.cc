@@ -75,7 +75,7 @@ void test(const std::string &name, const std::string &scene, const unsigned int 
 /// is open, and nothing holds on.
 void test_with_friction(const std::string &name, const std::string &scene, const unsigned int n) {
   parameters::Scene parameters = testing::read_shipped_scene(scene);
-  parameters.pairs[2].friction_coefficient = 0.3;
+  parameters.pairs[2].friction = make_coulomb(0.3);
   parameters.time_stepping.initial_step = parameters.time_stepping.largest_step = 1. / n;
   SceneRun run(parameters);
   double largest_force = 0., largest_stored = 0.;

@@ -98,7 +98,7 @@ int main(int argc, char *argv[]) {
   press("rough billet", billet);
 
   parameters::Scene smooth = billet;
-  smooth.pairs[0].friction_coefficient = 0.;
+  smooth.pairs[0].friction = nullptr;
   press("smooth billet", smooth);
 
   // A block, stuck to a plane that a moment turns under it.

@@ -33,7 +33,7 @@ struct Variant {
 /// strain.
 std::array<double, 3> run(const Variant &variant) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
-  parameters.pairs[0].friction_coefficient = 0.;
+  parameters.pairs[0].friction = nullptr;
   parameters.pairs[0].normal_penalty = variant.penalty;
   parameters.bodies[0].mesh.refinements = variant.refinements;
   parameters.bodies[0].mesh.n_layers = variant.layers;

@@ -33,7 +33,7 @@ Run run(parameters::Scene scene, const double penalty, const double friction = 0
   scene.implicit_dynamics.error_tolerance = 1e-3;
   for (auto &pair : scene.pairs) {
     pair.normal_penalty = pair.tangential_penalty = penalty;
-    pair.friction_coefficient = friction;
+    pair.friction = make_coulomb(friction);
   }
   SceneRun run(scene);
   const EnergyLedger &energies = run.problem.state().energies;

@@ -39,7 +39,7 @@ parameters::Scene bar_with_tool() {
   pair.body.value = "bar";
   pair.tool.value = "tool";
   pair.boundary_ids.value = {1};
-  pair.friction_coefficient = 0.;
+  pair.friction = nullptr;
   pair.normal_penalty = 1.;
   scene.pairs.push_back(pair);
   return scene;

@@ -95,12 +95,12 @@ int main(int argc, char *argv[]) {
   billet.time_stepping.end_time = 0.16;
   testing::set_fixed_steps(billet, 4);
   compare("billet, GMRES", billet, Kind::gmres);
-  billet.pairs[0].friction_coefficient = 0.;
+  billet.pairs[0].friction = nullptr;
   compare("frictionless billet, CG", billet, Kind::conjugate_gradients, 2); // residuals next to the tolerance
   // The dofs in contact as a block.
   parameters::Scene blocks = parameters::Scene::read(std::string(SOURCE_DIR) + "/pressed_blocks.prm");
   compare("two blocks, GMRES", blocks, Kind::gmres);
-  blocks.pairs[0].friction_coefficient = 0.;
+  blocks.pairs[0].friction = nullptr;
   blocks.solver.contact_tangent = parameters::ContactTangent::consistent; // for the direct solver, too
   // That tangent converges linearly, over some twenty iterations a step: round-off tells which is the last.
   compare("two blocks without friction, CG", blocks, Kind::conjugate_gradients, 3);

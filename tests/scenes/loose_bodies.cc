@@ -93,7 +93,7 @@ int main(int argc, char *argv[]) {
   {
     parameters::Scene scene = read();
     for (auto &pair : scene.pairs) {
-      pair.friction_coefficient = 0.;
+      pair.friction = nullptr;
       pair.penetration_tolerance = 0.; // springs bear that until the end
     }
     // On several ranks round-off decides where the block goes: the direct solver sums in any order.

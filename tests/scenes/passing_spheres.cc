@@ -15,7 +15,7 @@ int main(int argc, char *argv[]) {
   for (const double friction : {0., 0.3}) {
     const std::string name = friction == 0. ? "frictionless: " : "friction: ";
     auto scene = testing::read_shipped_scene("passing_spheres.prm");
-    scene.pairs[0].friction_coefficient = friction;
+    scene.pairs[0].friction = make_coulomb(friction);
     scene.pairs[0].penetration_tolerance = 0.; // springs alone know no history, and give back what they took
     for (auto &body : scene.bodies)
       body.mesh.refinements = 1;

@@ -70,8 +70,7 @@ int main(int argc, char *argv[]) {
   {
     parameters::Scene scene = testing::read_test_scene("hard_blow.prm"); // deep, on areas from before
     scene.bodies[0].initial_velocity.value = {"100", "200", "-1000"};
-    scene.pairs[0].friction_law = parameters::ContactPair::FrictionLaw::coulomb;
-    scene.pairs[0].friction_coefficient = 0.1;
+    scene.pairs[0].friction = make_coulomb(0.1);
     scene.time_stepping.end_time = 0.4e-3;
     testing::test_going_on<testing::ExplicitStops>(
         "Deep blow", scene, {0.2e-3},

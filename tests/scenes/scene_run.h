@@ -3,6 +3,7 @@
 #define BILLET_TESTS_SCENE_RUN_H
 
 #include "billet/errors.h"
+#include "billet/friction/coulomb.h"
 #include "billet/geometry/plane.h"
 #include "billet/solve/implicit/implicit_solution.h"
 #include "billet/solve/step_control.h"

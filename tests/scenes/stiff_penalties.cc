@@ -22,7 +22,7 @@ struct Drawn {
 
 parameters::Scene make_scene(const double penalty, const double tangential) {
   parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/drawn_block.prm");
-  scene.pairs[0].friction_coefficient = 0.25;
+  scene.pairs[0].friction = make_coulomb(0.25);
   scene.pairs[0].normal_penalty = penalty;
   scene.pairs[0].tangential_penalty = tangential;
   return scene;

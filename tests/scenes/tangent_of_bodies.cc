@@ -20,7 +20,7 @@ int main(int argc, char *argv[]) {
     for (const double friction : {0., 0.3}) {
       parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/dragged_blocks.prm");
       scene.pairs[0].facets.value = facets;
-      scene.pairs[0].friction_coefficient = friction;
+      scene.pairs[0].friction = make_coulomb(friction);
       scene.solver.contact_tangent = parameters::ContactTangent::exact;
       SceneRun run(scene);
       // At 0.75 a node changes its status within the differences of one direction.

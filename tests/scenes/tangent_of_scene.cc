@@ -2,6 +2,9 @@
 // The assembled tangent of a whole scene (elements, contact, supports) against central differences of its
 // residual, with nodes that stick, slip and enter, on tools of every shape that turn and move, for every
 // friction law.
+#include "billet/friction/pressure_dependent.h"
+#include "billet/friction/shear_limited.h"
+#include "billet/friction/static_kinetic.h"
 #include "tangent_check.h"
 
 #include <deal.II/base/mpi.h>
@@ -145,20 +148,14 @@ void check_edge() {
 }
 
 void check_friction_laws() {
-  using Law = parameters::ContactPair::FrictionLaw;
-  for (const Law law : {Law::shear_limited, Law::static_kinetic, Law::pressure_dependent}) {
+  const std::vector<std::pair<std::string, FrictionPointer>> laws{
+      {"shear limited", std::make_shared<const ShearLimited>(0.1, 1.)},
+      {"static-kinetic", std::make_shared<const StaticKinetic>(0.1, 0.05, 5.)},
+      {"pressure dependent", std::make_shared<const PressureDependent>(0.1, 10., 0.6)}};
+  for (const auto &[name, law] : laws) {
     parameters::Scene scene = make_curved({"sphere", "set Centre = 0.45, 0.55, -5\nset Radius = 5"}, 0.1);
-    auto &pair = scene.pairs[0];
-    pair.friction_law = law;
-    pair.largest_shear_stress = 1.;
-    pair.kinetic_coefficient = 0.05;
-    pair.friction_decay = 5.;
-    pair.reference_pressure = 10.;
-    pair.pressure_exponent = 0.6;
+    scene.pairs[0].friction = law;
     SceneRun run(scene);
-    const std::string name = law == Law::shear_limited    ? "shear limited"
-                             : law == Law::static_kinetic ? "static-kinetic"
-                                                          : "pressure dependent";
     check(name + " friction on a sphere: exact tangent", tangent_error(run, 0.75, 3), 1e-6);
   }
 }
@@ -179,7 +176,7 @@ int main(int argc, char *argv[]) {
   check("block on a turning plane, sticking: exact tangent", tangent_error(carried, 1.2, 5), 1e-6);
 
   // The same, dragged over its cone.
-  block.pairs[0].friction_coefficient = 0.05;
+  block.pairs[0].friction = make_coulomb(0.05);
   SceneRun dragged(block);
   check("block on a turning plane, slipping: exact tangent", tangent_error(dragged, 0.8, 5), 1e-6);
 

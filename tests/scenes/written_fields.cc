@@ -59,7 +59,7 @@ int main(int argc, char *argv[]) {
   auto parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
   // Pressed, then dragged until it slides.
   const double mu = 0.3;
-  parameters.pairs[0].friction_coefficient = mu;
+  parameters.pairs[0].friction = make_coulomb(mu);
   parameters.bodies[0].supports[0].displacement.value = {"0.03*turn/pi", "0", "-0.01*press"};
   parameters.tools[0].motion.rotation_angle.value = "0";
   parameters.tools[0].motion.translation.value = {"0", "0", "0"};

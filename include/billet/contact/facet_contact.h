@@ -57,7 +57,7 @@ template <class Function> void visit_method(const FacetMethod method, const Func
 /// What contact between surfaces is made of.
 struct FacetContactSettings {
   FacetMethod method = FacetMethod::planed;
-  FrictionLaw friction = Frictionless();
+  FrictionPointer friction; ///< null: none
   FacetSearch::Partners partners = FacetSearch::Partners::other_surfaces;
   /// Nodes of all surfaces are slaves, at half their penalty each, so that a pair of surfaces is as stiff as
   /// in one pass; else nodes of surface 0 only.
@@ -236,7 +236,7 @@ public:
     for (std::size_t s = 0; s < slaves_.size(); ++s)
       if (states_[s].presses())
         visit(make_supporting_point(positions_[slaves_[s].node], states_[s].contact.normal,
-                                    settings_.friction, states_[s].traction.status,
+                                    settings_.friction.get(), states_[s].traction.status,
                                     states_[s].traction.traction),
               slaves_[s].surface, search_.facets()[states_[s].touched.facet].surface);
     for (const auto &crossing : crossings_)
@@ -244,7 +244,7 @@ public:
         dealii::Tensor<1, 3> position;
         for (unsigned int i = 0; i < 2; ++i)
           position += crossing.weights[i] * positions_[crossing.nodes[i]];
-        visit(make_supporting_point(position, crossing.normal, Frictionless(), ContactStatus::slip, {}),
+        visit(make_supporting_point(position, crossing.normal, nullptr, ContactStatus::slip, {}),
               crossing.surfaces[0], crossing.surfaces[1]);
       }
   }

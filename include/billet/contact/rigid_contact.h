@@ -3,8 +3,12 @@
 #define BILLET_CONTACT_RIGID_CONTACT_H
 
 #include "billet/contact/contact_interface.h"
-#include "billet/contact/friction_account.h"
+#include "billet/contact/edge_fading.h"
 #include "billet/contact/hardening_spring.h"
+#include "billet/contact/projected_areas.h"
+#include "billet/contact/slave_surface.h"
+#include "billet/contact/spring_energy.h"
+#include "billet/contact/thin_tool_watch.h"
 #include "billet/geometry/frame.h"
 #include "billet/usage.h"
 
@@ -72,7 +76,7 @@ public:
   /// In contact/tool_paths.cc.
   double find_free_part(const ContactPath &path) const override;
   /// Of tools thinner than two facets, the only ones that nodes go through.
-  bool may_let_nodes_through() const override { return thickness_of_thin_tool_ > 0.; }
+  bool may_let_nodes_through() const override { return thin_tool_.has_value(); }
   /// After update() and before commit(); false in the first step after load().
   bool lets_nodes_through() const override;
   std::string describe_passage() const override;
@@ -159,52 +163,6 @@ public:
   void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
-  struct Node {
-    std::array<DofIndex, 3> dofs;
-    dealii::Point<3> reference;
-    ContactStiffness stiffness, given; ///< now, and at the start
-    double size;                       ///< of the facets around it
-    double reach;            ///< how deep it may be, as part of these facets and of the elements below them
-    double spacing;          ///< of the parts of facets around it; the same where none is divided
-    bool is_divided = false; ///< a facet around it is
-    bool is_fixed = false;   ///< supports prescribe all its motion: it cannot come out of the tool
-    double hardening_depth = std::numeric_limits<double>::infinity(); ///< of its normal spring
-    HardeningSpring spring() const { return {stiffness.normal, hardening_depth}; }
-    double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
-    double gap_n = 0.;      ///< at the start of the step
-    unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
-    double lift = 0., lift_n = 0.;  ///< of the tool's surface, by augmentation
-    double initial_depth = 0.;      ///< in the tool, if that is allowed; < 0: a gap that counts as closed
-    bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
-    dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
-  };
-  /// What follows from a node's position.
-  struct NodeState {
-    dealii::Tensor<1, 3> position;
-    dealii::Tensor<1, 3> normal;
-    dealii::Tensor<2, 3> turning; ///< ∂n/∂x
-    double gap = 0.;              ///< to the surface raised by the lift
-    unsigned int patch = 0;
-    ContactStatus status = ContactStatus::open;
-    double pressure = 0.;
-    dealii::Tensor<1, 3> traction;
-    dealii::Tensor<2, 3> tangent; ///< −∂traction/∂x
-    double slip_increment = 0.;
-    FrictionAccount friction;      ///< of this step
-    double tangential_energy = 0.; ///< per area
-    double share = 1.;             ///< s, of the normal penalty
-    double fading_stiffness = 0.;  ///< beside that of the penalties [stress/length]
-    bool is_behind = false;        ///< has missed the tool's surface, ...
-    bool is_passed = false;        ///< ... and the surface is before it now
-  };
-  /// What a node beyond a border adds, with the penalty k in full.
-  struct Fading {
-    double share;
-    dealii::Tensor<1, 3> push;           ///< [stress]
-    dealii::Tensor<1, 3> pressure_slope; ///< ∂p/∂x at a fixed gap [stress/length]
-    dealii::Tensor<2, 3> tangent; ///< −∂(push + p n)/∂x, but for that of p at a fixed s [stress/length]
-    double stiffness;             ///< no less than the norm of what `tangent` has besides [stress/length]
-  };
   /// Of a node that sticks, in this step, or since its traction was augmented [length].
   double elastic_slip(std::size_t i) const;
   /// Only with friction.
@@ -216,104 +174,27 @@ private:
     double slip = 0.;                   ///< length of the path slipped
     double slip_rate = 0.;
   };
-  /// Nodes ordered so that the area vector points out of the body.
-  struct Facet {
-    std::array<unsigned int, 4> nodes;
-    std::uint64_t key;
-    std::array<double, 4> friction_areas; ///< of corners that touch, at the start of the step
-    /// Of explicit scenes: each corner's area in the last step in which its node was not deep, or in its
-    /// first one; not_touching where it does not touch.
-    std::array<double, 4> shallow_areas;
-  };
-  static constexpr double not_touching = -1.;
   /// What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
   static constexpr double near_gap = 0.25, near_steps = 20.;
-  /// A point inside a facet: node n_mesh_nodes_ + its index.
-  struct InteriorPoint {
-    std::array<unsigned int, 4> corners; ///< of the facet
-    std::array<double, 4> weights;       ///< N_a
-    std::uint64_t key;                   ///< that no other has, the same on any number of ranks
-  };
-  /// A facet of the mesh that is divided.
-  struct DividedFacet {
-    std::array<unsigned int, 4> corners;
-    unsigned int first_point, n_points; ///< inside, in `nodes_`
-    unsigned int first_part, n_parts;   ///< in `facets_`
-    bool may_touch;                     ///< a point inside touched at the last update(), or is not known
-  };
-  /// In the penalty springs of a node that touches [energy/length²].
-  struct Springs {
-    double energy;
-    double on_current_area; ///< what of it areas weigh as they are; the rest those before it was deep
-    double share;           ///< ∂(on_current_area)/∂(energy)
-  };
-  using FacetStates = std::array<const NodeState *, 4>;
-  struct FacetAreas {
-    std::array<double, 4> areas;
-    /// ∂A_a/∂x_b, normals held
-    std::array<std::array<dealii::Tensor<1, 3>, 4>, 4> derivatives;
-    /// ∂A_a/∂n_a
-    std::array<dealii::Tensor<1, 3>, 4> normal_derivatives;
-  };
-
   /// By how much the tool's surface counts as raised for a node.
-  double lift_of(const Node &node) const {
+  double lift_of(const ContactPoint &node) const {
     return node.lift - InitialOverlap::counted(node.initial_depth, allowed_part_);
   }
-  /// Slave nodes, with their penalties, and facets.
-  void collect_facets(const Discretization &discretization, double young_modulus);
-  /// Divides facets where the tool needs it. `corners`: of all facets, undivided. Collective.
-  void divide_facets(const Discretization &discretization,
-                     const std::vector<std::array<unsigned int, 4>> &corners);
-  void divide(const std::array<unsigned int, 4> &corners, const std::array<unsigned int, 2> &n_parts,
-              std::uint64_t key);
-  /// Lets springs at divided facets of explicit scenes become stiffer with their depth (T11).
-  void harden_springs();
   /// As stiff as the normal spring of a node may be at the end of the next step, if that is as long as this.
   double stiffness_ahead(std::size_t i) const;
   /// Sets points inside a divided facet free that is farther from the tool than they can matter; else false.
   bool is_far(DividedFacet &divided);
-  /// Calls add(node of the mesh, weight) for what a node or point hangs on.
-  template <class Add> void for_each_parent(const std::size_t i, const Add &add) const {
-    if (i < n_mesh_nodes_) {
-      add(static_cast<unsigned int>(i), 1.);
-      return;
-    }
-    const InteriorPoint &point = points_[i - n_mesh_nodes_];
-    for (unsigned int a = 0; a < 4; ++a)
-      if (point.weights[a] > 0.)
-        add(point.corners[a], point.weights[a]);
-  }
-  /// Σ w value(node of the mesh).
-  template <class Value> dealii::Tensor<1, 3> at(const std::size_t i, const Value &value) const {
-    if (i < n_mesh_nodes_)
-      return value(i);
-    dealii::Tensor<1, 3> sum;
-    for_each_parent(i,
-                    [&](const unsigned int parent, const double weight) { sum += weight * value(parent); });
-    return sum;
-  }
-  void add_to_dofs(std::size_t i, const dealii::Tensor<1, 3> &value, Vector &vector) const;
   void average_over_points(std::vector<ContactNodeReport> &reports) const;
-  /// Nodes or facets whose state goes into a checkpoint under names of this prefix.
-  struct Range {
-    std::string prefix;
-    std::size_t begin, end;
-    std::vector<std::uint64_t> keys;
-  };
-  Range mesh_nodes(const NodeKeys &keys) const;
-  Range interior_points() const;
-  Range facet_range(bool are_parts) const;
-  void save_nodes(StateWriter &writer, const Range &range) const;
+  void save_nodes(StateWriter &writer, const SlaveSurface::Range &range) const;
   /// Areas of a facet's corners that checkpoints keep, and under which name.
-  using CornerAreas = std::array<double, 4> Facet::*;
+  using CornerAreas = std::array<double, 4> ContactFacet::*;
   using KeptAreas = std::pair<std::string, CornerAreas>;
   std::vector<KeptAreas> kept_areas() const;
-  void save_areas(StateWriter &writer, const std::string &name, CornerAreas areas, const Range &range) const;
-  void load_nodes(const StateReader &reader, const Range &range);
-  void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas, const Range &range);
-  /// How thick it is, if it is thin. Collective.
-  void measure_tool();
+  void save_areas(StateWriter &writer, const std::string &name, CornerAreas areas,
+                  const SlaveSurface::Range &range) const;
+  void load_nodes(const StateReader &reader, const SlaveSurface::Range &range);
+  void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas,
+                  const SlaveSurface::Range &range);
   /// Of nodes that might go through it, for the next step.
   void remember_positions();
   /// Notes the pressures of the last update() for the works of the next step.
@@ -321,18 +202,16 @@ private:
   /// The area that the facets of this rank give to each node, as seen along these normals.
   template <class NormalOf> std::vector<double> areas_along(const NormalOf &normal_of) const;
   /// Whether a node there has missed the tool's surface.
-  bool misses(const Node &node, const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &on_tool,
-              const RigidSurface::Projection &projection) const;
+  bool misses(const ContactPoint &node, const dealii::Tensor<1, 3> &position,
+              const dealii::Tensor<1, 3> &on_tool, const RigidSurface::Projection &projection) const;
   /// The state of node i at `position`; with friction, the history that goes with it.
   template <class Law>
-  NodeState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
-                     FrictionHistory *history) const;
-  template <class Law>
-  void apply_friction(const Law &law, const Node &node, NodeState &state, const Fading *fading,
-                      const FrictionHistory &history_n, FrictionHistory &history) const;
-  FrictionRule friction_rule(const Node &node) const;
-  static Fading fade(const RigidSurface::Border &border, double width, const HardeningSpring &spring,
-                     double gap);
+  ToolContactState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
+                            FrictionHistory *history) const;
+  void apply_friction(const FrictionLaw &law, const ContactPoint &node, ToolContactState &state,
+                      const EdgeFading *fading, const FrictionHistory &history_n,
+                      FrictionHistory &history) const;
+  FrictionRule friction_rule(const ContactPoint &node) const;
   /// Evaluates all nodes, each displaced by displacement_of(index).
   template <class DisplacementOf> void update_states(const DisplacementOf &displacement_of);
   template <class DisplacementOf>
@@ -346,27 +225,21 @@ private:
   template <class Visit> void for_each_touching(const Visit &visit) const;
   /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
   template <class Add> void for_each_near(const Add &add) const;
-  static bool touches(const FacetStates &states);
-  /// The area that a node's traction stands on; and what its springs hold on that.
-  static double counted_area(const Facet &facet, unsigned int corner, double area, const Springs &springs);
-  static double energy_on(const Facet &facet, unsigned int corner, double area, const Springs &springs);
   /// Of a corner whose node touches, with its area at the facet; the force on the body.
-  dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const Facet &facet, unsigned int corner,
+  dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const ContactFacet &facet, unsigned int corner,
                                    double area) const;
-  /// What its springs stand on at most.
-  double largest_area(const Facet &facet, unsigned int corner, double area) const;
   /// Whether another tool has a surface there, nearer than `near`; one that is `facing` like this (in space),
   /// if that is given: one that presses the other side of a sheet does not.
   bool is_near_another(const dealii::Tensor<1, 3> &position, double near,
                        const std::optional<dealii::Tensor<1, 3>> &facing = {}) const;
   /// In the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
-  Springs springs_of(std::size_t i, double energy) const;
-  Springs springs_of(const std::size_t i) const { return springs_of(i, stored_energy(i)); }
+  SpringEnergy springs_of(std::size_t i, double energy) const;
+  SpringEnergy springs_of(const std::size_t i) const { return springs_of(i, stored_energy(i)); }
   /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
   /// −Σ_a ê_a ∂A_a/∂x_b (T7), ê what areas as they are weigh of the stored energy e: with these, normal
   /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
-  void add_forces(Facet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
+  void add_forces(ContactFacet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
   /// Adds what friction has dissipated. In explicit scenes, only that of nodes that have lifted off.
   void add_friction(ContactLoad &load, bool hands_over) const;
   /// Calls visit(account, area_n, area) for the corners of all facets.
@@ -376,27 +249,21 @@ private:
   /// Whether any node presses at the start of the step, and any at the last update(). Collective.
   bool presses_at_both_ends() const;
   void add_released(ContactLoad &load) const;
-  FacetStates states_of(const Facet &facet) const;
-  static FacetAreas compute_areas(const FacetStates &states, bool with_derivatives);
+  CornerStates states_of(const ContactFacet &facet) const;
   /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
-  bool compute_facet_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
+  bool compute_facet_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_divided_tangent(const DividedFacet &divided, const TangentSystem &system) const;
-  void add_closed_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
-  void add_numerical_tangent(const Facet &facet, dealii::FullMatrix<double> &matrix) const;
+  void add_closed_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
+  void add_numerical_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
 
   const ContactPair &pair_;
   const Tool &tool_;
   const MPI_Comm communicator_;
   ContactTangent tangent_;
   const bool has_inertia_;
-  const bool is_explicit_;    ///< works are those of the trapezoidal rule
-  const double touching_gap_; ///< of nodes that start on the tool [facet sizes]
-  std::vector<Node> nodes_;   ///< of the mesh, then points inside facets
-  std::size_t n_mesh_nodes_ = 0;
-  std::vector<InteriorPoint> points_;
-  std::vector<DividedFacet> divided_;
-  bool has_divided_facets_ = false; ///< any rank
-  std::vector<NodeState> states_;   ///< at the last update()
+  const bool is_explicit_; ///< works are those of the trapezoidal rule
+  SlaveSurface slaves_;
+  std::vector<ToolContactState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
   /// Of nodes at the start of the step, in the tool's coordinates, for compute_step_works().
   struct PressureHistory {
@@ -408,9 +275,7 @@ private:
   bool knows_pressures_ = false; ///< all ranks alike: pressed_n_ is that of the start of the step
   double allowed_part_n_ = 1.;   ///< at the start of the step
   std::vector<std::array<double, 2>>
-      base_;                  ///< what this step's friction starts from: that of friction_n_, or augmented
-  std::vector<Facet> facets_; ///< those that are not divided, then parts
-  std::size_t n_whole_facets_ = 0;
+      base_; ///< what this step's friction starts from: that of friction_n_, or augmented
   std::vector<const RigidContact *> others_; ///< of the same body
   std::vector<unsigned int> local_nodes_;    ///< of each node of the mesh, after bind()
   std::vector<bool> is_owned_;               ///< as LocalNodes has it
@@ -420,10 +285,8 @@ private:
   double start_weight_ = 0.5;
   bool is_static_ = false;
   double tool_reach_ = 0.;
-  double unresolved_length_ = 0.;      ///< of the longest facet that has too few parts, on any rank [length]
-  double thickness_of_thin_tool_ = 0.; ///< the smallest one, of a thin tool; else 0 [length]
-  std::vector<dealii::Tensor<1, 3>> positions_on_thin_tool_; ///< of the nodes, at the start of the step
-  double stiffening_ = 1., tangential_stiffening_ = 1.;      ///< of the penalties as given
+  std::optional<ThinToolWatch> thin_tool_;              ///< none unless the tool is thin on any rank
+  double stiffening_ = 1., tangential_stiffening_ = 1.; ///< of the penalties as given
   bool is_removed_ = false;
   bool has_nodes_behind_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction},

@@ -100,14 +100,13 @@ Number part_in_contact(const Number &distance, const dealii::Tensor<1, 3, Number
 /// With Derivative as Number the traction has its exact derivatives; the rest, and `history`, is of the
 /// values. `tangent`, where it is asked for, becomes −∂t/∂x of the kind of tangent that is named, as
 /// to_space().
-template <class Law, class Number>
-SlaveTractionOf<Number> compute_slave_traction(const Law &law, const ContactStiffness &stiffness,
+template <class Number>
+SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const ContactStiffness &stiffness,
                                                const dealii::Tensor<1, 3, Number> &normal, const Number &gap,
                                                const SlaveMotionOf<Number> &motion,
                                                const SlaveHistory &history_n, SlaveHistory &history,
                                                const ContactTangent kind = ContactTangent::consistent,
                                                dealii::Tensor<2, 3> *tangent = nullptr) {
-  static_assert(!std::is_same_v<Law, Frictionless>, "nothing is kept for it");
   const FrameOf<Number> frame = history_n.is_active ? history_n.frame.transported(motion.rotation, normal)
                                                     : FrameOf<Number>::from_normal(normal);
   const Number fraction =

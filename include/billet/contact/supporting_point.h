@@ -8,8 +8,6 @@
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
-#include <type_traits>
-#include <variant>
 
 namespace billet {
 
@@ -34,14 +32,14 @@ struct SupportingPoint {
   }
 };
 
-/// The point at `position` with this traction on the body. Without tangential traction no slip has a
-/// direction: such a point counts as frictionless.
+/// The point at `position` with this traction on the body; `friction` may be null. Without tangential
+/// traction no slip has a direction: such a point counts as frictionless.
 inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &position,
-                                             const dealii::Tensor<1, 3> &normal, const FrictionLaw &friction,
+                                             const dealii::Tensor<1, 3> &normal, const FrictionLaw *friction,
                                              const ContactStatus status,
                                              const dealii::Tensor<1, 3> &traction) {
   SupportingPoint point{position, normal, SupportingPoint::Friction::none, {}};
-  if (std::holds_alternative<Frictionless>(friction))
+  if (friction == nullptr)
     return point;
   const dealii::Tensor<1, 3> tangential = traction - (traction * normal) * normal;
   const double size = tangential.norm();
@@ -53,14 +51,7 @@ inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &positio
     return point;
   }
   point.friction = SupportingPoint::Friction::sticks;
-  const double limit = std::visit(
-      [&](const auto &law) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(law)>, Frictionless>)
-          return 0.;
-        else
-          return law.limit(std::max(0., traction * normal), 0.).value;
-      },
-      friction);
+  const double limit = friction->limit(std::max(0., traction * normal), 0.).value;
   point.use = limit > 0. ? size / limit : 0.;
   return point;
 }

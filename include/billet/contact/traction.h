@@ -69,9 +69,8 @@ struct TangentialIncrement {
 /// - symmetrised lower: the triangle that does not, mirrored;
 /// - symmetrised mean: half of each;
 /// - exact: as for stick and consistent, with the increment's gradient in place of P.
-template <class Law>
-FrameTraction compute_traction(const Law &law, const ContactStiffness &stiffness, ContactTangent tangent,
-                               double gap, const std::array<double, 2> &tangential_n,
+FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &stiffness,
+                               ContactTangent tangent, double gap, const std::array<double, 2> &tangential_n,
                                const TangentialIncrement &increment);
 
 /// The same without friction: only pressure and k_n n⊗n.

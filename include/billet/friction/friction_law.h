@@ -2,23 +2,51 @@
 #ifndef BILLET_FRICTION_FRICTION_LAW_H
 #define BILLET_FRICTION_FRICTION_LAW_H
 
-#include "billet/friction/coulomb.h"
-#include "billet/friction/pressure_dependent.h"
-#include "billet/friction/shear_limited.h"
-#include "billet/friction/static_kinetic.h"
+#include "billet/friction/friction_limit.h"
+#include "billet/registered_type.h"
 
-#include <variant>
+#include <memory>
+#include <string>
 
 namespace billet {
 
-/// No friction: nothing is kept for it.
+/// The tangential traction that a surface bears before it slides.
+class FrictionLaw {
+public:
+  virtual ~FrictionLaw() = default;
+
+  /// Words such as "mu = 0.1 up to 50".
+  virtual std::string description() const = 0;
+  /// Returns a typical ratio of limit and pressure at rest, by which plausibility and the softness of
+  /// tangential springs are judged.
+  virtual double coefficient() const = 0;
+  /// Returns the limit at a pressure >= 0 [stress] and a slip rate >= 0 [length/time].
+  virtual FrictionLimit limit(double pressure, double slip_rate) const = 0;
+};
+
+/// Null where there is no friction: then no history is kept.
+using FrictionPointer = std::shared_ptr<const FrictionLaw>;
+
+/// Friction laws that a scene file can name. A new one is a file in source/friction/ with a function that
+/// returns its type, and its name in the table of friction_law.cc.
+using FrictionLawType = RegisteredType<FrictionPointer>;
+TypeTable<FrictionPointer> &friction_law_types();
+
+/// Parameter of several friction laws.
+extern const TypeParameter friction_coefficient_parameter;
+/// Returns the friction coefficient, which must not be 0.
+double read_friction_coefficient(const TypeInput &input);
+
+/// Stands for a law where there is none, so that loops over nodes choose once.
 struct Frictionless {};
 
-/// A law is a small value type with
-///   FrictionLimit limit(double pressure, double slip_rate) const
-/// for pressure >= 0 and slip_rate >= 0. A new one is a file beside this one, a name in this list, its
-/// instance in contact/traction.cc, and its parameters in parameters/tool.cc and scene/scene.cc.
-using FrictionLaw = std::variant<Frictionless, Coulomb, ShearLimited, StaticKinetic, PressureDependent>;
+/// Calls evaluate(law), or evaluate(Frictionless()) for a null pointer.
+template <class Evaluate> void choose_friction(const FrictionPointer &friction, const Evaluate &evaluate) {
+  if (friction == nullptr)
+    evaluate(Frictionless());
+  else
+    evaluate(*friction);
+}
 
 } // namespace billet
 

@@ -2,21 +2,28 @@
 #ifndef BILLET_FRICTION_SHEAR_LIMITED_H
 #define BILLET_FRICTION_SHEAR_LIMITED_H
 
-#include "billet/friction/friction_limit.h"
+#include "billet/friction/friction_law.h"
 
 namespace billet {
 
 /// Coulomb's law up to the shear stress that the material below the surface can bear (Orowan 1943):
 /// min(μ p, τ_max).
-struct ShearLimited {
-  double coefficient;    ///< μ > 0
-  double largest_stress; ///< τ_max > 0 [stress]
+class ShearLimited final : public FrictionLaw {
+public:
+  /// μ > 0, τ_max > 0 [stress]
+  ShearLimited(const double coefficient, const double max_stress)
+      : coefficient_(coefficient), max_stress_(max_stress) {}
 
-  FrictionLimit limit(const double pressure, double) const {
-    if (coefficient * pressure < largest_stress)
-      return {coefficient * pressure, coefficient, 0.};
-    return {largest_stress, 0., 0.};
+  std::string description() const override;
+  double coefficient() const override { return coefficient_; }
+  FrictionLimit limit(const double pressure, double) const override {
+    if (coefficient_ * pressure < max_stress_)
+      return {coefficient_ * pressure, coefficient_, 0.};
+    return {max_stress_, 0., 0.};
   }
+
+private:
+  double coefficient_, max_stress_;
 };
 
 } // namespace billet

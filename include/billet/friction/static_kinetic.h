@@ -2,7 +2,7 @@
 #ifndef BILLET_FRICTION_STATIC_KINETIC_H
 #define BILLET_FRICTION_STATIC_KINETIC_H
 
-#include "billet/friction/friction_limit.h"
+#include "billet/friction/friction_law.h"
 
 #include <cmath>
 
@@ -11,16 +11,22 @@ namespace billet {
 /// A coefficient that falls from its static to its kinetic value as sliding gets faster (Oden & Martins
 /// 1985):
 ///   μ = μ_k + (μ_s − μ_k) exp(−c v),   v the slip rate.
-struct StaticKinetic {
-  double static_coefficient;  ///< μ_s >= μ_k
-  double kinetic_coefficient; ///< μ_k > 0
-  double decay;               ///< c >= 0 [time/length]
+class StaticKinetic final : public FrictionLaw {
+public:
+  /// μ_s >= μ_k > 0, c >= 0 [time/length]
+  StaticKinetic(const double static_coefficient, const double kinetic_coefficient, const double decay)
+      : static_(static_coefficient), kinetic_(kinetic_coefficient), decay_(decay) {}
 
-  FrictionLimit limit(const double pressure, const double slip_rate) const {
-    const double excess = (static_coefficient - kinetic_coefficient) * std::exp(-decay * slip_rate);
-    const double coefficient = kinetic_coefficient + excess;
-    return {coefficient * pressure, coefficient, -decay * excess * pressure};
+  std::string description() const override;
+  double coefficient() const override { return static_; }
+  FrictionLimit limit(const double pressure, const double slip_rate) const override {
+    const double excess = (static_ - kinetic_) * std::exp(-decay_ * slip_rate);
+    const double coefficient = kinetic_ + excess;
+    return {coefficient * pressure, coefficient, -decay_ * excess * pressure};
   }
+
+private:
+  double static_, kinetic_, decay_;
 };
 
 } // namespace billet

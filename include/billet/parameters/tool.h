@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_TOOL_H
 #define BILLET_PARAMETERS_TOOL_H
 
+#include "billet/friction/friction_law.h"
 #include "billet/geometry/rigid_surface.h"
 #include "billet/parameters/reader.h"
 
@@ -53,7 +54,6 @@ struct Tool {
 /// One named subsection of Contact pairs.
 struct ContactPair {
   enum class PenaltyUnit { factor, absolute };
-  enum class FrictionLaw { coulomb, shear_limited, static_kinetic, pressure_dependent };
 
   std::string name;
   std::string origin;
@@ -72,13 +72,7 @@ struct ContactPair {
   PenaltyOf penalty_of;
   double smoothing;
   double search_margin;
-  FrictionLaw friction_law;
-  double friction_coefficient; ///< at rest, or at the reference pressure; 0: no friction
-  double largest_shear_stress; ///< of ShearLimited
-  double kinetic_coefficient;  ///< of StaticKinetic
-  double friction_decay;       ///< of StaticKinetic
-  double reference_pressure;   ///< of PressureDependent
-  double pressure_exponent;    ///< of PressureDependent
+  FrictionPointer friction; ///< null: none
   PenaltyUnit penalty_unit;
   double normal_penalty;
   bool has_own_penalty = false;            ///< the scene sets it: what it is worth is the user's, and stays
@@ -105,7 +99,6 @@ struct ContactPair {
 
 private:
   void parse_bodies(Reader &reader);
-  void parse_friction(Reader &reader);
   void parse_penetration_tolerance(Reader &reader);
   void parse_initial_state(Reader &reader);
 };

@@ -85,7 +85,7 @@ inline double penalty_length(const bool counts_thickness, const double facet_siz
 struct PairSettings {
   std::string name;
   const parameters::ContactPair *input; ///< where it comes from, for messages
-  FrictionLaw friction;
+  FrictionPointer friction;             ///< null: none
   bool penalty_is_factor;
   bool penalty_counts_thickness; ///< penalty_length()
   double normal_penalty, tangential_penalty;
@@ -97,7 +97,7 @@ struct PairSettings {
   bool limits_softness() const { return !penetration_tolerance; }
   bool has_tolerance() const { return penetration_tolerance.value_or(0.) > 0.; }
   bool is_augmented() const { return limits_softness() || has_tolerance(); }
-  bool has_friction() const { return !std::holds_alternative<Frictionless>(friction); }
+  bool has_friction() const { return friction != nullptr; }
 };
 
 /// Boundary faces of a body that may touch a tool.

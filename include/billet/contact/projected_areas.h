@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_PROJECTED_AREAS_H
+#define BILLET_CONTACT_PROJECTED_AREAS_H
+
+#include "billet/contact/tool_contact_state.h"
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <array>
+
+namespace billet {
+
+/// States of a facet's corners.
+using CornerStates = std::array<const ToolContactState *, 4>;
+
+/// Whether any of these nodes touches the tool.
+inline bool any_touches(const CornerStates &states) {
+  return std::any_of(states.begin(), states.end(),
+                     [](const ToolContactState *state) { return state->status != ContactStatus::open; });
+}
+
+/// The shares of a facet's corners, ∫ N_a <−ν·n_a> dξdη over the current facet, ν its outward area vector and
+/// n_a the normal of the tool at corner a: 0 for a corner that does not touch.
+struct ProjectedAreas {
+  std::array<double, 4> areas; ///< [length²]
+  /// ∂A_a/∂x_b, normals held
+  std::array<std::array<dealii::Tensor<1, 3>, 4>, 4> derivatives;
+  /// ∂A_a/∂n_a
+  std::array<dealii::Tensor<1, 3>, 4> normal_derivatives;
+};
+
+/// Integrates by 2 × 2 Gauss points. Derivatives are 0 where they are not asked for.
+ProjectedAreas compute_projected_areas(const CornerStates &states, bool with_derivatives);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/friction/shear_limited.h"
+
+#include <sstream>
+
+namespace billet {
+
+FrictionLawType shear_limited_type();
+
+std::string ShearLimited::description() const {
+  std::ostringstream text;
+  text << "mu = " << coefficient_ << " up to " << max_stress_;
+  return text.str();
+}
+
+FrictionLawType shear_limited_type() {
+  using Kind = TypeParameter::Kind;
+  return {"shear limited",
+          "mu p, at most the largest shear stress",
+          {friction_coefficient_parameter,
+           {"Largest shear stress", "0", Kind::number, "> 0, whatever the pressure. [stress]"}},
+          [](const TypeInput &input) {
+            const double coefficient = read_friction_coefficient(input);
+            return std::make_shared<const ShearLimited>(coefficient, input.positive("Largest shear stress"));
+          }};
+}
+
+} // namespace billet

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Pressure that fades beyond the edge of a tool: forces against differences of the energy s(d) e(−g) beside a
+// straight edge, around the corner of one, and outside a disc; tangents against differences of forces.
+#include "billet/contact/edge_fading.h"
+
+#include "../testing.h"
+
+#include <string>
+
+using namespace billet;
+using billet::testing::central_difference;
+using billet::testing::check;
+using billet::testing::WorstError;
+using dealii::Tensor;
+
+namespace {
+
+constexpr double width = 0.05;
+const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
+
+/// The surface z = 0, which ends at x = 0.
+RigidSurface::Border beside_straight_edge(const Tensor<1, 3> &x) {
+  RigidSurface::Border border{};
+  border.normal[2] = 1.;
+  border.gap = x[2];
+  border.beyond = x[0];
+  border.outward[0] = 1.;
+  return border;
+}
+
+/// The surface z = 0, which ends `radius` away from the z axis; 0: at a corner on it.
+RigidSurface::Border beside_round_edge(const Tensor<1, 3> &x, const double radius) {
+  RigidSurface::Border border{};
+  border.normal[2] = 1.;
+  border.gap = x[2];
+  const Tensor<1, 3> across({x[0], x[1], 0.});
+  border.beyond = across.norm() - radius;
+  border.outward = across / across.norm();
+  const Tensor<2, 3> plane = identity - dealii::outer_product(border.normal, border.normal);
+  border.spreading = 1. / across.norm() * (plane - dealii::outer_product(border.outward, border.outward));
+  return border;
+}
+
+template <class BorderAt>
+void check_edge(const std::string &name, const HardeningSpring &spring, const double radius,
+                const BorderAt &border_at) {
+  const auto fade = [&](const Tensor<1, 3> &x) {
+    const RigidSurface::Border border = border_at(x);
+    return compute_edge_fading(border, width, spring, border.gap);
+  };
+  const auto energy = [&](const Tensor<1, 3> &x) { return fade(x).share * spring.energy(-border_at(x).gap); };
+  const auto pressure = [&](const Tensor<1, 3> &x) {
+    return fade(x).share * spring.pressure(-border_at(x).gap);
+  };
+  const auto force = [&](const Tensor<1, 3> &x) { return fade(x).push + pressure(x) * border_at(x).normal; };
+  billet::testing::Random random;
+  WorstError of_force, of_slope, of_tangent;
+  bool is_bounded = true;
+  for (unsigned int sample = 0; sample < 200; ++sample) {
+    const double beyond = random(0.1 * width, 0.9 * width), angle = random(-0.5, 0.5);
+    const Tensor<1, 3> x(
+        {(radius + beyond) * std::cos(angle), (radius + beyond) * std::sin(angle), random(-0.02, -1e-3)});
+    if (!(border_at(x).beyond > 0.05 * width && border_at(x).beyond < 0.95 * width))
+      continue;
+    const EdgeFading fading = fade(x);
+    const double scale = spring.pressure(-x[2]), stiffness = spring.slope(-x[2]);
+    const Tensor<1, 3> n = border_at(x).normal;
+    Tensor<2, 3> added = fading.tangent; // and what p changes by at a fixed s
+    added += fading.share * stiffness * dealii::outer_product(n, n);
+    is_bounded = is_bounded && fading.tangent.norm() <= fading.stiffness;
+    for (unsigned int j = 0; j < 3; ++j) {
+      const auto moved = [&](const double h) {
+        Tensor<1, 3> y = x;
+        y[j] += h;
+        return y;
+      };
+      of_force.add(
+          std::abs(central_difference([&](const double h) { return energy(moved(h)); }, 1e-6) + force(x)[j]) /
+          scale);
+      const double share_slope =
+          central_difference([&](const double h) { return fade(moved(h)).share; }, 1e-6);
+      of_slope.add(std::abs(share_slope * scale - fading.pressure_slope[j]) / (scale / width));
+      for (unsigned int i = 0; i < 3; ++i)
+        of_tangent.add(std::abs(central_difference([&](const double h) { return force(moved(h))[i]; }, 1e-6) +
+                                added[i][j]) /
+                       stiffness);
+    }
+  }
+  check(name + ": the force is what the energy falls by", of_force.value(), 1e-6);
+  check(name + ": slope of the pressure", of_slope.value(), 1e-6);
+  check(name + ": the tangent is the derivative of the force", of_tangent.value(), 1e-6);
+  check(name + ": the bound of the tangent holds", is_bounded);
+}
+
+} // namespace
+
+int main() {
+  const HardeningSpring linear{1e4}, hardening{1e4, 0.01};
+  for (const auto &[name, spring] : {std::pair("linear", linear), std::pair("hardening", hardening)}) {
+    const std::string prefix = std::string(name) + " spring, ";
+    check_edge(prefix + "straight edge", spring, 0., beside_straight_edge);
+    check_edge(prefix + "corner", spring, 0., [](const Tensor<1, 3> &x) { return beside_round_edge(x, 0.); });
+    check_edge(prefix + "disc", spring, 0.3, [](const Tensor<1, 3> &x) { return beside_round_edge(x, 0.3); });
+  }
+  return billet::testing::exit_code();
+}
