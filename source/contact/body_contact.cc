@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/body_contact.h"
 
+#include "billet/contact/facet_contact.h"
+#include "billet/contact/facet_paths.h"
 #include "billet/contact/overlap.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
@@ -81,6 +83,38 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   if (!scene.parameters().is_explicit())
     paths_ = std::make_unique<FacetPaths>(communicator, settings.partners, keys_, facets_, depths_);
 }
+
+BodyContact::~BodyContact() = default;
+
+void BodyContact::set_friction_account(const double start_weight, const bool is_static) {
+  contact_->set_friction_account(start_weight, is_static);
+}
+StepWorks BodyContact::compute_step_works(const double weight) const {
+  return contact_->works().compute_step_works(weight);
+}
+bool BodyContact::has_new_couplings() const { return contact_->couplings().has_new(); }
+void BodyContact::add_crossings(Crossings &crossings) const { contact_->bounds().add_crossings(crossings); }
+
+void BodyContact::restart() { contact_->restart(); }
+void BodyContact::augment() { contact_->augment(); }
+void BodyContact::take_back_augmentation() { contact_->take_back_augmentation(); }
+void BodyContact::scale_penalties(const double normal, const double tangential) {
+  contact_->scale_penalties(normal, tangential);
+}
+void BodyContact::stiffen_under_load(const double normal, const double tangential) {
+  contact_->stiffen_under_load(normal, tangential);
+}
+double BodyContact::stiffening() const { return contact_->stiffening(); }
+double BodyContact::tangential_stiffening() const { return contact_->tangential_stiffening(); }
+
+ContactSprings BodyContact::compute_springs() const { return contact_->measures().compute_springs(); }
+double BodyContact::largest_spring() const { return contact_->measures().largest_spring(); }
+Penetration BodyContact::penetration() const { return contact_->measures().penetration(); }
+double BodyContact::excessive_penetration() const { return contact_->measures().excessive_penetration(); }
+double BodyContact::closing_of_new_contacts() const { return contact_->measures().closing_of_new_contacts(); }
+double BodyContact::augmentation_gap() const { return contact_->measures().augmentation_error(); }
+std::vector<SlaveForce> BodyContact::slave_forces() const { return contact_->measures().slave_forces(); }
+std::size_t BodyContact::history_size() const { return contact_->history_size(); }
 
 void BodyContact::collect(const NodeKeys &keys) {
   const Discretization &discretization = nodes_.discretization();
@@ -163,13 +197,13 @@ void BodyContact::update(const NodalVectors &displacements) {
 
 ContactLoad BodyContact::add_forces(NodalVectors &forces, NodalVectors &bounds) {
   row_sums_.assign(local_nodes_.size(), 0.);
-  contact_->add_row_sums(row_sums_);
+  contact_->bounds().add_row_sums(row_sums_);
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
     add_vector(forces.data(), local_nodes_[i], forces_[i]);
     bounds[std::size_t{nodal_stride} * local_nodes_[i]] += row_sums_[i];
   }
   ContactLoad load;
-  load.dissipation = contact_->local_dissipation();
+  load.dissipation = contact_->works().local_dissipation();
   return load;
 }
 
@@ -200,7 +234,7 @@ std::vector<std::array<DofIndex, 3>> BodyContact::find_all_dofs() const {
 void BodyContact::find_couplings() {
   const auto all_dofs = find_all_dofs();
   couplings_.clear();
-  contact_->visit_couplings(tangent_, [&](const std::vector<unsigned int> &nodes) {
+  contact_->couplings().find(tangent_, [&](const std::vector<unsigned int> &nodes) {
     couplings_.emplace_back();
     std::vector<DofIndex> &dofs = couplings_.back();
     for (const unsigned int node : nodes)
@@ -251,10 +285,10 @@ void BodyContact::add_tangent(const TangentSystem &system) const {
     constraints.push_back(constraint_of(system.constraints, nodes_.dofs(node)));
   contact_->exchange().update(constraints);
   const auto all_dofs = find_all_dofs(); // ghosts may have changed places since the couplings were found
-  FacetContact::Positions lift(all_dofs.size());
+  FacetSearch::Positions lift(all_dofs.size());
   dealii::FullMatrix<double> half, condensed;
   std::vector<DofIndex> dofs;
-  contact_->visit_tangents(
+  contact_->tangents().visit(
       tangent_, [&](const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K) {
         const std::size_t n = K.m();
         dofs.clear();
@@ -295,8 +329,8 @@ void BodyContact::add_tangent(const TangentSystem &system) const {
     system.lift->add(3, nodes_.dofs(local_nodes_[i]).data(), lift[i].begin_raw());
 }
 
-FacetContact::Positions BodyContact::positions_at(const NodalVectors &displacements) const {
-  FacetContact::Positions positions(local_nodes_.size());
+FacetSearch::Positions BodyContact::positions_at(const NodalVectors &displacements) const {
+  FacetSearch::Positions positions(local_nodes_.size());
   for (std::size_t i = 0; i < local_nodes_.size(); ++i)
     positions[i] = get_vector(nodes_.positions().data(), local_nodes_[i]) +
                    get_vector(displacements.data(), local_nodes_[i]);
@@ -323,8 +357,8 @@ void BodyContact::begin(const ContactStep & /*step*/, const NodalVectors &displa
   positions_n_ = positions_at(displacements);
 }
 
-FacetContact::Positions BodyContact::positions_at(const Vector &displacements) const {
-  FacetContact::Positions positions(local_nodes_.size());
+FacetSearch::Positions BodyContact::positions_at(const Vector &displacements) const {
+  FacetSearch::Positions positions(local_nodes_.size());
   for (std::size_t i = 0; i < local_nodes_.size(); ++i) {
     positions[i] = get_vector(nodes_.positions().data(), local_nodes_[i]);
     for (unsigned int c = 0; c < 3; ++c)
@@ -370,7 +404,7 @@ void BodyContact::save_couplings(StateWriter &writer) const {
   writer.write("couplings of", describe_couplings());
   writer.write_rows("dofs", 1, keys_, first_dofs());
   write_list(writer, "coupled dofs", rank, numbers);
-  write_list(writer, "coupled facets", rank, contact_->couplings());
+  write_list(writer, "coupled facets", rank, contact_->couplings().numbers());
 }
 
 bool BodyContact::load_couplings(const StateReader &reader) {
@@ -390,7 +424,7 @@ bool BodyContact::load_couplings(const StateReader &reader) {
     for (const std::size_t end = i + n; i < end; ++i)
       couplings_.back().push_back(static_cast<DofIndex>(numbers[i]));
   }
-  contact_->set_couplings(read_list(reader, "coupled facets", rank));
+  contact_->couplings().set(read_list(reader, "coupled facets", rank));
   return true;
 }
 
@@ -400,7 +434,7 @@ void BodyContact::commit() {
 }
 
 ContactLoad BodyContact::compute_load() const {
-  const FacetContactLoad all = contact_->compute_load();
+  const FacetContactLoad all = contact_->works().compute_load();
   ContactLoad load;
   load.force = all.force;
   load.moment = all.moment;
@@ -415,8 +449,8 @@ ContactLoad BodyContact::compute_load() const {
 void BodyContact::add_resistances(const std::size_t body, std::vector<Resistance> &resistances) const {
   if (pair_.bodies[0] == pair_.bodies[1])
     return;
-  contact_->visit_touching([&](const Tensor<1, 3> &position, const Tensor<1, 3> &normal,
-                               const unsigned int of_node, const unsigned int of_facet) {
+  contact_->measures().visit_touching([&](const Tensor<1, 3> &position, const Tensor<1, 3> &normal,
+                                          const unsigned int of_node, const unsigned int of_facet) {
     for (const unsigned int side : {of_node, of_facet})
       if (pair_.bodies[side] == body)
         add_contact(position, side == of_node ? normal : -normal, false, pair_.has_friction(), resistances);
@@ -431,15 +465,16 @@ void BodyContact::start_step(const ContactStep &step) {
 void BodyContact::visit_supporting(const VisitSupporting &visit) const {
   if (pair_.bodies[0] == pair_.bodies[1])
     return;
-  contact_->visit_supporting([&](const SupportingPoint &point, const unsigned int of, const unsigned int on) {
-    visit(point, pair_.bodies[of], pair_.bodies[on]);
-  });
+  contact_->measures().visit_supporting(
+      [&](const SupportingPoint &point, const unsigned int of, const unsigned int on) {
+        visit(point, pair_.bodies[of], pair_.bodies[on]);
+      });
 }
 
 std::string BodyContact::describe_restless() const {
   const MPI_Comm communicator = nodes_.discretization().communicator();
   std::array<double, 5> mine{}; // how often, where, how many nodes
-  for (const auto &node : contact_->find_restless()) {
+  for (const auto &node : contact_->measures().find_restless()) {
     mine[4] += 1.;
     if (node.n_changes > mine[0])
       mine = {static_cast<double>(node.n_changes), node.position[0], node.position[1], node.position[2],
@@ -487,7 +522,7 @@ void BodyContact::allow_overlap() {
 
 std::vector<ContactNodeReport> BodyContact::report() const {
   std::vector<ContactNodeReport> reports;
-  const auto states = contact_->report();
+  const auto states = contact_->measures().report();
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double area = nodes_.is_owned(local_nodes_[i]) ? states[i].area : 0.;
     reports.push_back({nodes_.dofs(local_nodes_[i]), states[i].status, states[i].pressure, states[i].gap,
