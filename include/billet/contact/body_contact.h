@@ -2,13 +2,14 @@
 #ifndef BILLET_CONTACT_BODY_CONTACT_H
 #define BILLET_CONTACT_BODY_CONTACT_H
 
+#include "billet/contact/body_surfaces.h"
 #include "billet/contact/contact_interface.h"
-#include "billet/contact/facet_search.h"
 
 #include <memory>
 
 namespace billet {
 
+class ContactBlocks;
 class FacetContact;
 class FacetPaths;
 
@@ -79,34 +80,24 @@ public:
   void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
-  void collect(const NodeKeys &keys);
-  FacetSearch::Positions positions_at(const NodalVectors &displacements) const;
-  FacetSearch::Positions positions_at(const Vector &displacements) const;
-  std::vector<ContactStiffness> compute_stiffness(const Scene &scene);
-  template <class DisplacementOf> void update_at(const DisplacementOf &displacement_of);
+  /// Computes where surface nodes are.
+  void place(const NodalVectors &displacements, FacetSearch::Positions &positions) const;
+  void place(const Vector &displacements, FacetSearch::Positions &positions) const;
+  /// Computes contact at positions_ in a step that lasts so long. Collective.
+  void evaluate(double duration);
   double augmentation_gap() const override;
-  /// Of surface nodes and ghosts. Collective.
-  std::vector<std::array<DofIndex, 3>> find_all_dofs() const;
-  std::vector<double> first_dofs() const;
   /// What decides on the couplings, besides where the nodes are.
   std::vector<double> describe_couplings() const;
 
   const BodyPair &pair_;
   const LocalNodes &nodes_;
-  std::vector<std::uint64_t> keys_;       ///< of each surface node
-  std::vector<unsigned int> local_nodes_; ///< of each surface node
-  std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
-  std::vector<double> sizes_;             ///< of the undeformed facets around it
-  std::vector<double> penalty_lengths_;   ///< penalty_length() there
-  std::vector<SurfaceFacet> facets_;
-  std::vector<double> areas_;  ///< of the undeformed facets
-  std::vector<double> depths_; ///< that nodes must not exceed on their ways, by facet
+  const BodySurfaces surfaces_;
   std::unique_ptr<FacetContact> contact_;
+  std::unique_ptr<ContactBlocks> blocks_;
   std::unique_ptr<FacetPaths> paths_; ///< of implicit scenes
   FacetSearch::Positions positions_n_, positions_;
   FacetSearch::Positions forces_; ///< of one step, as row_sums_
   std::vector<double> row_sums_;
-  std::vector<std::vector<DofIndex>> couplings_; ///< dofs of nodes that are coupled all with all, ascending
   ContactTangent tangent_;
   double duration_ = 0.; ///< of the step [time]
 };
