@@ -51,11 +51,9 @@ public:
 
   const SlaveTangents &tangents() const { return *tangents_; }
   FacetCouplings &couplings() { return couplings_; }
-  const FacetCouplings &couplings() const { return couplings_; }
   const FacetMeasures &measures() const { return measures_; }
   const FacetWorks &works() const { return works_; }
   FacetBounds &bounds() { return bounds_; }
-  const FacetBounds &bounds() const { return bounds_; }
   /// To bring data of own nodes to ghosts, and sums back.
   const SurfaceExchange &exchange() const { return parts_.surfaces.exchange(); }
   const FacetSearch &search() const { return parts_.surfaces.search(); }

@@ -23,7 +23,6 @@ public:
   explicit SlaveStart(const std::size_t n_slaves)
       : touched_(n_slaves), facet_keys_(n_slaves), pressed_(n_slaves) {}
 
-  std::size_t size() const { return touched_.size(); }
   /// Whether a step has ended.
   bool has_started() const { return has_started_; }
   const TouchedFacet &touched(const std::size_t s) const { return touched_[s]; }

@@ -40,7 +40,8 @@ public:
   TouchingSlaves(const ContactSurfaces &surfaces, const SlaveNodes &slaves, const GapOffsets &offsets,
                  const SlaveStart &start);
 
-  /// Begins an evaluation at the end of a step that lasts so long: set_state() of each slave follows.
+  /// Begins an evaluation at the end of a step that lasts so long. SlaveFinder then sets one state after the
+  /// other.
   void start_evaluation(const double duration) {
     duration_ = duration;
     shares_.clear();
@@ -52,8 +53,6 @@ public:
   /// Of all slaves, one after the other.
   std::vector<FacetShare> &shares() { return shares_; }
   const std::vector<FacetShare> &shares() const { return shares_; }
-  const SlaveNodes &nodes() const { return slaves_; }
-  const ContactSurfaces &surfaces() const { return surfaces_; }
 
   /// What a slave holds against a share's facet: itself, or a point of its own facet.
   dealii::Tensor<1, 3> point_of(const std::size_t s, const FacetShare &share,
