@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// The loop that finds what slave nodes touch and computes tractions and forces. Made once for each method
-/// and friction law, which no node asks for.
+/// The loop that finds what slave nodes touch and computes tractions and forces. Made once for the
+/// method, with friction or without, which no node asks for.
 class SlaveEvaluation {
 public:
   virtual ~SlaveEvaluation() = default;
