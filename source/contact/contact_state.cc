@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What contact keeps from step to step, given to a checkpoint and taken back.
-#include "billet/contact/facet_contact.h"
 #include "billet/contact/rigid_contact.h"
 
 #include <algorithm>
@@ -21,15 +20,9 @@ void restore(RowReader &row, Frame &frame) {
 }
 
 constexpr std::size_t pressed_width = 8;                  // of a node that may press
-constexpr std::size_t pressed_slave_width = 6;            // of a slave of a body
 constexpr std::size_t gap_width = 4, friction_width = 20; // of a node on a tool
 constexpr std::size_t behind_width = 4;                   // of a node that may be behind a tool
 constexpr std::size_t areas_width = 4;                    // of a facet
-
-constexpr std::size_t touch_width = 9, slave_width = 18; // of a node on facets
-
-// A facet's key has more bits than a double keeps.
-constexpr std::uint64_t half_key = 0xffffffffU;
 
 } // namespace
 
@@ -233,174 +226,6 @@ void RigidContact::begin(const ContactStep &step, const Vector &displacements) {
 
 void RigidContact::begin(const ContactStep &step, const NodalVectors &displacements) {
   begin_at(step, [&](const std::size_t i) { return get_vector(displacements.data(), local_nodes_[i]); });
-}
-
-std::vector<double> EdgeContact::offsets() const {
-  std::vector<double> numbers;
-  RowWriter row(numbers);
-  for (const auto &[pair, offset] : offsets_n_) {
-    for (const auto &[key, side] : pair)
-      row.number(static_cast<double>(key >> 32U))
-          .number(static_cast<double>(key & half_key))
-          .number(static_cast<double>(side));
-    row.number(offset);
-  }
-  return numbers;
-}
-
-void EdgeContact::add_offsets(const std::vector<double> &numbers) {
-  RowReader row(numbers.data());
-  for (std::size_t i = 0; i < numbers.size(); i += 7) {
-    PairId pair{};
-    for (auto &[key, side] : pair) {
-      const auto high = static_cast<std::uint64_t>(row.number());
-      key = (high << 32U) | static_cast<std::uint64_t>(row.number());
-      side = static_cast<std::uint64_t>(row.number());
-    }
-    offsets_n_[pair] = row.number();
-  }
-}
-
-void FacetContact::save(StateWriter &writer) const {
-  std::vector<std::uint64_t> keys;
-  std::vector<double> touches, histories, lifts;
-  RowWriter touch_row(touches), history_row(histories);
-  const auto any = [this](const std::vector<double> &of_slaves) {
-    return dealii::Utilities::MPI::max(of_slaves.empty() ? 0 : 1, communicator_) == 1;
-  };
-  const bool is_augmented = any(lifts_n_), has_depths = any(initial_depths_);
-  for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    keys.push_back(exchange_.node_keys()[slaves_[s].node]);
-    const TouchedFacet &touched = touched_n_[s];
-    const std::uint64_t key = !touched.exists()         ? 0
-                              : !restored_keys_.empty() ? restored_keys_[s]
-                                                        : search_.facets()[touched.facet].key;
-    touch_row.number(touched.exists() ? 1. : 0.)
-        .number(static_cast<double>(key >> 32U))
-        .number(static_cast<double>(key & half_key))
-        .number(touched.offset)
-        .number(touched.projection.parameters[0])
-        .number(touched.projection.parameters[1])
-        .vector(touched.projection.normal);
-    if (is_augmented || has_depths)
-      RowWriter(lifts).number(is_augmented ? lifts_n_[s] : 0.).number(has_depths ? initial_depths_[s] : 0.);
-    if (history_n_.empty())
-      continue;
-    const SlaveHistory &history = history_n_[s];
-    history_row.number(history.is_active ? 1. : 0.);
-    store(history.frame, history_row);
-    history_row.number(history.tangential[0]).number(history.tangential[1]);
-    history_row.number(history.slip).number(history.slip_rate).number(history.area);
-  }
-  writer.write("start",
-               {has_started_ ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0., allowed_part_});
-  writer.write("stiffening", {stiffening_, tangential_stiffening_});
-  writer.write_rows("touched", touch_width, keys, touches);
-  std::vector<double> pressed;
-  for (const auto &slave : pressed_n_)
-    RowWriter(pressed).number(slave.pressure).number(slave.depth).number(slave.area).vector(slave.normal);
-  writer.write_rows("pressed", pressed_slave_width, keys, pressed);
-  if (edges_)
-    write_list(writer, "edges", dealii::Utilities::MPI::this_mpi_process(communicator_), edges_->offsets());
-  if (is_augmented || has_depths)
-    writer.write_rows("lifts", 2, keys, lifts);
-  if (settings_.friction != nullptr)
-    writer.write_rows("friction", slave_width, keys, histories);
-}
-
-void FacetContact::load(const StateReader &reader) {
-  std::vector<std::uint64_t> keys;
-  for (const auto &slave : slaves_)
-    keys.push_back(exchange_.node_keys()[slave.node]);
-  // Of a pair that was in one pass before, slaves may be new.
-  std::vector<bool> is_known;
-  const std::vector<double> touches = reader.read_rows("touched", touch_width, keys, &is_known);
-  restored_keys_.assign(slaves_.size(), 0);
-  for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    RowReader row(&touches[touch_width * s]);
-    TouchedFacet &touched = touched_n_[s];
-    touched = TouchedFacet();
-    if (row.flag())
-      touched.facet = 0; // which one, rebuild() finds by its key
-    const auto high = static_cast<std::uint64_t>(row.number());
-    restored_keys_[s] = (high << 32U) | static_cast<std::uint64_t>(row.number());
-    touched.offset = row.number();
-    touched.projection.parameters[0] = row.number();
-    touched.projection.parameters[1] = row.number();
-    row.vector(touched.projection.normal);
-  }
-  if (edges_ && reader.has("edges"))
-    for (unsigned int rank = 0; rank < reader.n_ranks(); ++rank)
-      edges_->add_offsets(read_list(reader, "edges", rank));
-  if (reader.has("pressed")) {
-    const std::vector<double> pressed = reader.read_rows("pressed", pressed_slave_width, keys, &is_known);
-    for (std::size_t s = 0; s < slaves_.size(); ++s) {
-      RowReader row(&pressed[pressed_slave_width * s]);
-      pressed_n_[s].pressure = row.number();
-      pressed_n_[s].depth = row.number();
-      pressed_n_[s].area = row.number();
-      row.vector(pressed_n_[s].normal);
-    }
-  }
-  const std::vector<double> start = reader.read("start");
-  const bool is_augmented = start.at(1) != 0., has_depths = start.at(2) != 0.;
-  has_started_ = start.at(0) != 0.;
-  has_lifts_ = is_augmented || has_depths;
-  allowed_part_ = allowed_part_n_ = start.at(3);
-  if (reader.has("stiffening")) {
-    const std::vector<double> factors = reader.read("stiffening");
-    scale_penalties(factors.at(0) / stiffening_, factors.at(1) / tangential_stiffening_);
-  }
-  lifts_n_.assign(is_augmented ? slaves_.size() : 0, 0.);
-  initial_depths_.assign(has_depths ? slaves_.size() : 0, 0.);
-  if (has_lifts_) {
-    const std::vector<double> lifts = reader.read_rows("lifts", 2, keys, &is_known);
-    for (std::size_t s = 0; s < slaves_.size(); ++s) {
-      if (is_augmented)
-        lifts_n_[s] = lifts[2 * s];
-      if (has_depths)
-        initial_depths_[s] = lifts[2 * s + 1];
-    }
-  }
-  lifts_ = lifts_n_;
-  if (settings_.friction == nullptr || !reader.has("friction"))
-    return;
-  const std::vector<double> histories = reader.read_rows("friction", slave_width, keys, &is_known);
-  for (std::size_t s = 0; s < slaves_.size(); ++s) {
-    RowReader row(&histories[slave_width * s]);
-    SlaveHistory &history = history_n_[s];
-    history.is_active = row.flag();
-    restore(row, history.frame);
-    history.tangential[0] = row.number();
-    history.tangential[1] = row.number();
-    history.slip = row.number();
-    history.slip_rate = row.number();
-    history.area = row.number();
-  }
-  base_ = history_ = history_n_;
-}
-
-std::vector<double> FacetContact::couplings() const {
-  std::vector<double> numbers;
-  RowWriter row(numbers);
-  for (const auto &keys : coupled_) {
-    row.number(static_cast<double>(keys.size()));
-    for (const std::uint64_t key : keys)
-      row.number(static_cast<double>(key >> 32U)).number(static_cast<double>(key & half_key));
-  }
-  return numbers;
-}
-
-void FacetContact::set_couplings(const std::vector<double> &numbers) {
-  coupled_.assign(slaves_.size(), {});
-  RowReader row(numbers.data());
-  for (auto &keys : coupled_) {
-    keys.resize(static_cast<std::size_t>(row.number()));
-    for (std::uint64_t &key : keys) {
-      const auto high = static_cast<std::uint64_t>(row.number());
-      key = (high << 32U) | static_cast<std::uint64_t>(row.number());
-    }
-  }
 }
 
 } // namespace billet

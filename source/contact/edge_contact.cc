@@ -2,6 +2,7 @@
 #include "billet/contact/edge_contact.h"
 
 #include "billet/contact/facet_choice.h"
+#include "billet/contact/key_numbers.h"
 #include "billet/geometry/box_tree.h"
 #include "billet/geometry/segment_pair.h"
 
@@ -228,6 +229,31 @@ std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &
     crossings.push_back(crossing);
   }
   return crossings;
+}
+
+std::vector<double> EdgeContact::offsets() const {
+  std::vector<double> numbers;
+  RowWriter row(numbers);
+  for (const auto &[pair, offset] : offsets_n_) {
+    for (const auto &[key, side] : pair) {
+      write_key(row, key);
+      row.number(static_cast<double>(side));
+    }
+    row.number(offset);
+  }
+  return numbers;
+}
+
+void EdgeContact::add_offsets(const std::vector<double> &numbers) {
+  RowReader row(numbers.data());
+  for (std::size_t i = 0; i < numbers.size(); i += 7) {
+    PairId pair{};
+    for (auto &[key, side] : pair) {
+      key = read_key(row);
+      side = static_cast<std::uint64_t>(row.number());
+    }
+    offsets_n_[pair] = row.number();
+  }
 }
 
 } // namespace billet

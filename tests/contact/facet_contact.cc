@@ -95,7 +95,7 @@ void check_known_force(const FacetMethod method, const std::string &name) {
     FacetContact contact = make_contact(MPI_COMM_SELF, make_settings(method, nullptr, two_pass), part);
     Positions forces(positions.size());
     contact.add_forces(positions, positions, 0., forces);
-    const FacetContactLoad load = contact.compute_load();
+    const FacetContactLoad load = contact.works().compute_load();
     const std::string pass = name + (two_pass ? ", two passes" : ", one pass");
     // Below the smaller sheet's border, nodes of the larger one reach beyond its edge: their share of the
     // area is the quadrature's.
@@ -113,12 +113,12 @@ void check_known_force(const FacetMethod method, const std::string &name) {
         }
     report(pass + ": that is what its nodes feel", (sum - load.force).norm() / load.force.norm(), 1e-12);
     double area = 0.;
-    for (const auto &node : contact.report())
+    for (const auto &node : contact.measures().report())
       area += node.area;
     report(pass + ": reported area", std::abs(area / load.area - 1.), 1e-12);
     // Rigid sheets: ω² of the contact is below its bound, and not by far.
     std::vector<double> row_sums(positions.size());
-    contact.add_row_sums(row_sums);
+    contact.bounds().add_row_sums(row_sums);
     const double largest = *std::max_element(row_sums.begin(), row_sums.end());
     const double spring = penalty.normal / 35.; // of one node inside the smaller sheet
     report(pass + ": bound of the time step", largest < 2. * spring || largest > 10. * spring ? 1. : 0., 0.);
@@ -140,7 +140,7 @@ void check_balance(const FacetMethod method, const FrictionPointer &law, const s
     const Positions positions = part.take(whole);
     Positions forces(positions.size());
     contact.add_forces(positions_n, positions, 1., forces);
-    const FacetContactLoad load = contact.compute_load();
+    const FacetContactLoad load = contact.works().compute_load();
     contact.commit();
     const Sums sums = sum_up(positions, forces);
     force.add(sums.force.norm() / sums.scale);
@@ -199,7 +199,7 @@ void check_impact(const FacetMethod method, const std::string &name) {
     forces.assign(x.size(), {});
     contact.add_forces(x_n, x, dt, forces);
     contact.commit();
-    most_stored = std::max(most_stored, contact.compute_load().stored_energy);
+    most_stored = std::max(most_stored, contact.works().compute_load().stored_energy);
     for (std::size_t i = 0; i < x.size(); ++i)
       v[i] += dt / mass[i] * forces[i];
   }
@@ -207,7 +207,7 @@ void check_impact(const FacetMethod method, const std::string &name) {
   report(name + ": impact: momentum", (after.force - before.force).norm() / before.scale, 1e-14);
   report(name + ": impact: angular momentum", (after.moment - before.moment).norm() / before.scale, 1e-14);
   report(name + ": impact: a rebound",
-         most_stored > 0.5 * energy && contact.compute_load().n_touching == 0. ? 0. : 1., 0.);
+         most_stored > 0.5 * energy && contact.works().compute_load().n_touching == 0. ? 0. : 1., 0.);
   // What is lost, or won, over the facets' seams, and by mean planes, whose gap has not quite this gradient.
   report(name + ": impact: energy after it", std::abs(kinetic() / energy - 1.),
          method == FacetMethod::planed ? 5e-3 : 1e-3);
@@ -250,9 +250,9 @@ void check_edges() {
     const Positions positions = part.take(surface.positions);
     Positions forces(positions.size());
     contact.add_forces(positions, positions, 0., forces);
-    const FacetContactLoad load = contact.compute_load();
+    const FacetContactLoad load = contact.works().compute_load();
     std::vector<double> rows(positions.size());
-    contact.add_row_sums(rows);
+    contact.bounds().add_row_sums(rows);
     double sum_of_rows = 0.;
     for (const double row : rows)
       sum_of_rows += row;
@@ -291,7 +291,7 @@ void check_edges() {
   const Positions positions = part.take(apart.positions);
   Positions forces(positions.size());
   contact.add_forces(positions, positions, 0., forces);
-  report("roofs: apart they are free", contact.compute_load().absolute_force, 0.);
+  report("roofs: apart they are free", contact.works().compute_load().absolute_force, 0.);
 }
 
 /// Roofs of any shape: the forces are those of the energy, also where an edge crosses near the end of the
@@ -313,7 +313,7 @@ void check_potential_of_edges(const std::string &name, const Tensor<1, 3> &aside
     return forces;
   };
   const Positions forces = forces_at(at);
-  const FacetContactLoad load = contact.compute_load();
+  const FacetContactLoad load = contact.works().compute_load();
   WorstError gradient;
   for (std::size_t node = 0; node < at.size(); ++node)
     for (unsigned int i = 0; i < 3; ++i) {
@@ -322,7 +322,7 @@ void check_potential_of_edges(const std::string &name, const Tensor<1, 3> &aside
             Positions positions = at;
             positions[node][i] += h;
             forces_at(positions);
-            return contact.compute_load().stored_energy;
+            return contact.works().compute_load().stored_energy;
           },
           1e-4);
       gradient.add(std::abs(forces[node][i] + slope) / load.absolute_force);
@@ -362,7 +362,7 @@ void check_sliding(const FacetMethod method, const double zone, const bool expec
     FacetContact contact = make_contact(MPI_COMM_SELF, settings, part);
     Positions forces(positions.size());
     contact.add_forces(positions, positions, 0., forces);
-    const Tensor<1, 3> force = contact.compute_load().force;
+    const Tensor<1, 3> force = contact.works().compute_load().force;
     largest = std::max(largest, force.norm());
     if (step > 0)
       jump = std::max(jump, (force - last).norm());
@@ -439,14 +439,14 @@ void check_restless() {
             positions[node] += Tensor<1, 3>({i % 2 == 0 ? 0.01 : -0.01, 0., -0.02});
       Positions forces(positions.size());
       contact.add_forces(above, positions, 0., forces);
-      const double sideways = contact.compute_load().force[0];
+      const double sideways = contact.works().compute_load().force[0];
       n_changes += last * sideways < 0. ? 1 : 0;
       last = sideways;
     }
     const std::string name = most == 0 ? "a node may flip as it likes" : "or so often, and is held then";
     report(name, std::abs(n_changes - (most == 0 ? n_iterations - 1. : most + 1.)), 0.);
     double worst = 0.;
-    for (const auto &node : contact.find_restless())
+    for (const auto &node : contact.measures().find_restless())
       worst = std::max<double>(worst, node.n_changes);
     report(name + ": so it is reported", std::abs(worst - (most == 0 ? 0. : most + 1.)), 0.);
   }
@@ -476,7 +476,7 @@ void check_new_overlap(const FrictionPointer &friction, const std::string &name)
         make_contact(MPI_COMM_SELF, make_settings(FacetMethod::overlap, friction, false), part);
     Positions forces(positions.size());
     contact.add_forces(positions_n, positions, 1., forces);
-    scale = contact.compute_load().absolute_force;
+    scale = contact.works().compute_load().absolute_force;
     return forces;
   };
   double scale = 0.;
@@ -506,7 +506,7 @@ void check_ranks(const Surface &surface, const FacetContactSettings &settings, c
       Positions forces(nodes.nodes.size());
       std::vector<double> rows(nodes.nodes.size());
       at.add_forces(nodes.take(positions_n), nodes.take(positions), 1., forces);
-      at.add_row_sums(rows);
+      at.bounds().add_row_sums(rows);
       std::vector<double> result(4 * positions.size());
       for (std::size_t i = 0; i < forces.size(); ++i) {
         for (unsigned int c = 0; c < 3; ++c)
@@ -518,7 +518,7 @@ void check_ranks(const Surface &surface, const FacetContactSettings &settings, c
     const std::vector<double> expected = evaluate(serial, whole);
     std::vector<double> sums = evaluate(contact, part);
     dealii::Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
-    const FacetContactLoad serial_load = serial.compute_load(), load = contact.compute_load();
+    const FacetContactLoad serial_load = serial.works().compute_load(), load = contact.works().compute_load();
     double largest_row = 0.;
     for (std::size_t i = 3; i < expected.size(); i += 4)
       largest_row = std::max(largest_row, expected[i]);

@@ -42,14 +42,14 @@ struct Balls {
   /// −∂F/∂x v
   Positions product(const ContactTangent kind, const Positions &v) const {
     Positions result(v.size());
-    contact->visit_tangents(kind,
-                            [&](const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K) {
-                              for (std::size_t a = 0; a < nodes.size(); ++a)
-                                for (std::size_t b = 0; b < nodes.size(); ++b)
-                                  for (unsigned int i = 0; i < 3; ++i)
-                                    for (unsigned int j = 0; j < 3; ++j)
-                                      result[nodes[a]][i] += K(3 * a + i, 3 * b + j) * v[nodes[b]][j];
-                            });
+    contact->tangents().visit(
+        kind, [&](const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K) {
+          for (std::size_t a = 0; a < nodes.size(); ++a)
+            for (std::size_t b = 0; b < nodes.size(); ++b)
+              for (unsigned int i = 0; i < 3; ++i)
+                for (unsigned int j = 0; j < 3; ++j)
+                  result[nodes[a]][i] += K(3 * a + i, 3 * b + j) * v[nodes[b]][j];
+        });
     return result;
   }
 
@@ -96,7 +96,7 @@ void check_tangents(const FacetMethod method, const FrictionPointer &law, const 
     motion.advance(balls.surface, balls.surface.slaves(), whole, Tensor<1, 3>());
     balls.x = balls.part.take(whole);
     balls.forces_at(balls.x);
-    for (const auto &node : balls.contact->report())
+    for (const auto &node : balls.contact->measures().report())
       n_status[static_cast<unsigned int>(node.status)] += 1.;
     Positions v(balls.x.size()), w(v);
     for (std::size_t i = 0; i < v.size(); ++i) {

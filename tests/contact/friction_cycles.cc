@@ -66,7 +66,7 @@ void check_cycles(const FacetMethod method, const std::string &name) {
       contact.add_forces(cycle == 0 && place == 0 ? places[0]
                                                   : places[(place + n_per_cycle - 1) % n_per_cycle],
                          places[place], 1., forces);
-      const double taken = contact.local_dissipation();
+      const double taken = contact.works().local_dissipation();
       work += taken;
       if (cycle == settled) {
         least = std::min(least, taken);

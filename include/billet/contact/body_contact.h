@@ -2,37 +2,37 @@
 #ifndef BILLET_CONTACT_BODY_CONTACT_H
 #define BILLET_CONTACT_BODY_CONTACT_H
 
+#include "billet/contact/body_surfaces.h"
 #include "billet/contact/contact_interface.h"
-#include "billet/contact/facet_contact.h"
-#include "billet/contact/facet_paths.h"
 
 #include <memory>
 
 namespace billet {
+
+class ContactBlocks;
+class FacetContact;
+class FacetPaths;
 
 /// Contact of a scene's two bodies, or of one with itself: FacetContact on the boundary facets and nodes of
 /// this rank.
 class BodyContact final : public ContactInterface {
 public:
   BodyContact(const Scene &scene, std::size_t pair, const LocalNodes &nodes, ContactTangent tangent);
+  ~BodyContact() override;
 
   void start_step(const ContactStep &step) override;
-  void set_friction_account(const double start_weight, const bool is_static) override {
-    contact_->set_friction_account(start_weight, is_static);
-  }
+  void set_friction_account(double start_weight, bool is_static) override;
   void commit() override;
 
   void update(const Vector &displacements) override;
   void add_forces(Vector &residual) const override;
   void set_tangent(const ContactTangent tangent) override { tangent_ = tangent; }
   void add_tangent(const TangentSystem &system) const override;
-  StepWorks compute_step_works(const double weight) const override {
-    return contact_->compute_step_works(weight);
-  }
+  StepWorks compute_step_works(double weight) const override;
   /// Of motions in which a node of either body goes through the other's facets, see FacetPaths.
   double find_free_part(const ContactPath &path) const override;
 
-  bool has_new_couplings() const override { return contact_->has_new_couplings(); }
+  bool has_new_couplings() const override;
   void find_couplings() override;
   void add_foreign_dofs(dealii::IndexSet &dofs) const override;
   void add_couplings(SparsityPattern &pattern) const override;
@@ -42,31 +42,27 @@ public:
   void update(const NodalVectors &displacements) override;
   /// Bounds are such that impacts keep their energy.
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) override;
-  void add_crossings(Crossings &crossings) const override { contact_->add_crossings(crossings); }
+  void add_crossings(Crossings &crossings) const override;
 
-  void restart() override { contact_->restart(); }
-  void augment() override { contact_->augment(); }
-  void take_back_augmentation() override { contact_->take_back_augmentation(); }
-  ContactSprings compute_springs() const override { return contact_->compute_springs(); }
-  void scale_penalties(const double normal, const double tangential) override {
-    contact_->scale_penalties(normal, tangential);
-  }
-  void stiffen_under_load(const double normal, const double tangential) override {
-    contact_->stiffen_under_load(normal, tangential);
-  }
-  double stiffening() const override { return contact_->stiffening(); }
-  double tangential_stiffening() const override { return contact_->tangential_stiffening(); }
-  double largest_spring() const override { return contact_->largest_spring(); }
+  void restart() override;
+  void augment() override;
+  void take_back_augmentation() override;
+  ContactSprings compute_springs() const override;
+  void scale_penalties(double normal, double tangential) override;
+  void stiffen_under_load(double normal, double tangential) override;
+  double stiffening() const override;
+  double tangential_stiffening() const override;
+  double largest_spring() const override;
 
-  Penetration penetration() const override { return contact_->penetration(); }
-  double excessive_penetration() const override { return contact_->excessive_penetration(); }
-  double closing_of_new_contacts() const override { return contact_->closing_of_new_contacts(); }
+  Penetration penetration() const override;
+  double excessive_penetration() const override;
+  double closing_of_new_contacts() const override;
   /// On the first body, by the second.
   ContactLoad compute_load() const override;
-  std::vector<SlaveForce> slave_forces() const override { return contact_->slave_forces(); }
+  std::vector<SlaveForce> slave_forces() const override;
   /// Of nodes that are slaves.
   std::vector<ContactNodeReport> report() const override;
-  std::size_t history_size() const override { return contact_->history_size(); }
+  std::size_t history_size() const override;
   void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const override;
   void visit_supporting(const VisitSupporting &visit) const override;
 
@@ -84,34 +80,24 @@ public:
   void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
-  void collect(const NodeKeys &keys);
-  FacetContact::Positions positions_at(const NodalVectors &displacements) const;
-  FacetContact::Positions positions_at(const Vector &displacements) const;
-  std::vector<ContactStiffness> compute_stiffness(const Scene &scene);
-  template <class DisplacementOf> void update_at(const DisplacementOf &displacement_of);
-  double augmentation_gap() const override { return contact_->augmentation_error(); }
-  /// Of surface nodes and ghosts. Collective.
-  std::vector<std::array<DofIndex, 3>> find_all_dofs() const;
-  std::vector<double> first_dofs() const;
+  /// Computes where surface nodes are.
+  void place(const NodalVectors &displacements, FacetSearch::Positions &positions) const;
+  void place(const Vector &displacements, FacetSearch::Positions &positions) const;
+  /// Computes contact at positions_ in a step that lasts so long. Collective.
+  void evaluate(double duration);
+  double augmentation_gap() const override;
   /// What decides on the couplings, besides where the nodes are.
   std::vector<double> describe_couplings() const;
 
   const BodyPair &pair_;
   const LocalNodes &nodes_;
-  std::vector<std::uint64_t> keys_;       ///< of each surface node
-  std::vector<unsigned int> local_nodes_; ///< of each surface node
-  std::vector<unsigned int> surface_of_;  ///< which of the two bodies it belongs to
-  std::vector<double> sizes_;             ///< of the undeformed facets around it
-  std::vector<double> penalty_lengths_;   ///< penalty_length() there
-  std::vector<SurfaceFacet> facets_;
-  std::vector<double> areas_;  ///< of the undeformed facets
-  std::vector<double> depths_; ///< that nodes must not exceed on their ways, by facet
+  const BodySurfaces surfaces_;
   std::unique_ptr<FacetContact> contact_;
+  std::unique_ptr<ContactBlocks> blocks_;
   std::unique_ptr<FacetPaths> paths_; ///< of implicit scenes
-  FacetContact::Positions positions_n_, positions_;
-  FacetContact::Positions forces_; ///< of one step, as row_sums_
+  FacetSearch::Positions positions_n_, positions_;
+  FacetSearch::Positions forces_; ///< of one step, as row_sums_
   std::vector<double> row_sums_;
-  std::vector<std::vector<DofIndex>> couplings_; ///< dofs of nodes that are coupled all with all, ascending
   ContactTangent tangent_;
   double duration_ = 0.; ///< of the step [time]
 };

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_BODY_SURFACES_H
+#define BILLET_CONTACT_BODY_SURFACES_H
+
+#include "billet/contact/facet_search.h"
+#include "billet/contact/traction.h"
+#include "billet/discretization/local_nodes.h"
+#include "billet/discretization/node_keys.h"
+#include "billet/scene/scene.h"
+
+#include <limits>
+#include <vector>
+
+namespace billet {
+
+/// The faces of a pair of bodies, or of one body with itself, that may touch: those of this rank, undeformed.
+struct BodySurfaces {
+  BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const NodeKeys &keys);
+
+  // Of each surface node.
+
+  std::vector<std::uint64_t> keys;
+  std::vector<unsigned int> local_nodes;
+  std::vector<unsigned int> surface_of; ///< which of the two bodies it belongs to
+  std::vector<double> sizes;            ///< of the facets around it [length]
+  std::vector<double> penalty_lengths;  ///< penalty_length() there [length]
+
+  // Of each facet.
+
+  std::vector<SurfaceFacet> facets;
+  std::vector<double> areas;  ///< [length²]
+  std::vector<double> depths; ///< that nodes must not exceed on their ways [length]
+
+  /// Returns the size of the smallest facet of all ranks [length]. Collective.
+  double find_smallest_size(MPI_Comm communicator) const;
+};
+
+/// The penalties that a pair of bodies asks for.
+struct PairPenalties {
+  std::vector<ContactStiffness> of_nodes;
+  /// The factors after which the first of this rank's penalties is 10 E/h; the second one is infinite without
+  /// friction.
+  double max_stiffening = std::numeric_limits<double>::infinity(),
+         max_tangential_stiffening = std::numeric_limits<double>::infinity();
+};
+
+/// Collective.
+PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const BodySurfaces &surfaces,
+                                MPI_Comm communicator);
+
+} // namespace billet
+
+#endif

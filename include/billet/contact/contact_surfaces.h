@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_CONTACT_SURFACES_H
+#define BILLET_CONTACT_CONTACT_SURFACES_H
+
+#include "billet/contact/moved_facets.h"
+#include "billet/contact/surface_exchange.h"
+#include "billet/usage.h"
+
+#include <mpi.h>
+
+#include <optional>
+#include <vector>
+
+namespace billet {
+
+/// The surfaces that touch each other, at the start of the step and now: own facets and those of other ranks
+/// that are near, and the search for what is near slave nodes.
+class ContactSurfaces {
+public:
+  using Positions = FacetSearch::Positions;
+
+  /// `node_keys` and `facets` as SurfaceExchange wants them; `margin` > 0 is that of the search [length].
+  ContactSurfaces(MPI_Comm communicator, FacetSearch::Partners partners, double margin,
+                  std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets);
+  ContactSurfaces(const ContactSurfaces &) = delete;
+  ContactSurfaces &operator=(const ContactSurfaces &) = delete;
+
+  /// Moves this rank's nodes, and ghosts. Returns whether rebuild() has to follow. Collective.
+  bool update(const Positions &positions_n, const Positions &positions);
+  /// Lists anew what is near: indices of ghosts change. With `depth`, in reaches of facets, whole facets that
+  /// are so near count, not only nodes within the reach. Collective.
+  void rebuild(const std::vector<SlaveNode> &slaves, const std::optional<double> &depth);
+  /// Whether the last update() asked for a rebuild().
+  bool is_rebuilt() const { return is_rebuilt_; }
+
+  MPI_Comm communicator() const { return communicator_; }
+  double margin() const { return margin_; }
+  const SurfaceExchange &exchange() const { return exchange_; }
+  const FacetSearch &search() const { return search_; }
+  const MovedFacets &moved() const { return moved_; }
+  const SurfaceFacet &facet(const unsigned int f) const { return search_.facets()[f]; }
+  /// Whether the facet is this rank's.
+  bool owns(const unsigned int f) const { return f < exchange_.n_own_facets(); }
+  /// With ghosts.
+  const Positions &positions_n() const { return positions_n_; }
+  const Positions &positions() const { return positions_; }
+
+private:
+  double find_distance(const std::optional<double> &depth) const;
+
+  MPI_Comm communicator_;
+  FacetSearch::Partners partners_;
+  double margin_;
+  SurfaceExchange exchange_;
+  FacetSearch search_;
+  double largest_reach_ = 0.;
+  Positions positions_n_, positions_;
+  MovedFacets moved_{search_, positions_};
+  bool is_rebuilt_ = false;
+  HeldMemory memory_{Capability::body_contact}, self_memory_{Capability::self_contact};
+};
+
+} // namespace billet
+
+#endif

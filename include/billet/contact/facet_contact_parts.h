@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_CONTACT_PARTS_H
+#define BILLET_CONTACT_FACET_CONTACT_PARTS_H
+
+#include "billet/contact/contact_surfaces.h"
+#include "billet/contact/edge_springs.h"
+#include "billet/contact/facet_contact_settings.h"
+#include "billet/contact/gap_offsets.h"
+#include "billet/contact/restless_nodes.h"
+#include "billet/contact/slave_friction.h"
+#include "billet/contact/slave_nodes.h"
+#include "billet/contact/slave_overlaps.h"
+#include "billet/contact/slave_start.h"
+#include "billet/contact/touching_slaves.h"
+
+#include <optional>
+
+namespace billet {
+
+/// The state of contact between surfaces, which FacetContact steps, and what evaluates and measures it reads.
+struct FacetContactParts {
+  /// As FacetContact's.
+  FacetContactParts(MPI_Comm communicator, const FacetContactSettings &settings,
+                    std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
+                    const std::vector<ContactStiffness> &stiffness, const std::vector<double> &sizes);
+  FacetContactParts(const FacetContactParts &) = delete;
+  FacetContactParts &operator=(const FacetContactParts &) = delete;
+
+  FacetContactSettings settings;
+  ContactSurfaces surfaces;
+  SlaveNodes slaves;
+  SlavePenalties penalties;
+  GapOffsets offsets;
+  SlaveStart start;
+  RestlessNodes restless;
+  TouchingSlaves touching;
+  std::optional<SlaveOverlaps> overlaps; ///< of FacetMethod::overlap
+  std::optional<SlaveFriction> friction; ///< none without friction
+  std::optional<EdgeSprings> edges;      ///< none unless the settings ask for them
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_MEASURES_H
+#define BILLET_CONTACT_FACET_MEASURES_H
+
+#include "billet/contact/contact_load.h"
+#include "billet/contact/facet_contact_parts.h"
+#include "billet/contact/status_changes.h"
+#include "billet/contact/supporting_point.h"
+
+#include <vector>
+
+namespace billet {
+
+/// Measures and reports of contact between surfaces at the last evaluation, of this rank.
+class FacetMeasures {
+public:
+  /// The parts have to outlive this.
+  explicit FacetMeasures(const FacetContactParts &parts) : parts_(parts) {}
+
+  /// The largest penalty times the facets' size squared [force/length].
+  double largest_spring() const;
+  /// How deep nodes are.
+  Penetration penetration() const;
+  /// The same, as part of the reach of the facets that they touch.
+  double excessive_penetration() const;
+  /// The most by which a node closes in the step that presses at its end and did not at its start, as part of
+  /// the size of its facets.
+  double closing_of_new_contacts() const;
+  /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its
+  /// facets.
+  double augmentation_error() const;
+  /// Of this rank's areas.
+  ContactSprings compute_springs() const;
+  /// Returns the status of each slave and its traction times its area.
+  std::vector<SlaveForce> slave_forces() const;
+
+  /// State of a slave node, for output.
+  struct NodeReport {
+    ContactStatus status = ContactStatus::open;
+    double pressure = 0., gap = 0., slip = 0.;
+    double area = 0.; ///< of all facets around it
+    dealii::Tensor<1, 3> traction;
+    double penetration = 0.;          ///< where it presses, as penetration() has it
+    double tangential_stiffness = 0.; ///< 0 without friction [force/length³]
+  };
+  /// Of each of this rank's nodes.
+  std::vector<NodeReport> report() const;
+
+  /// A node that has changed facet or status more often than it may since restart().
+  struct Restless {
+    dealii::Tensor<1, 3> position;
+    unsigned int n_changes;
+  };
+  std::vector<Restless> find_restless() const;
+
+  /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
+  template <class Visit> void visit_touching(const Visit &visit) const {
+    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+      if (const SlaveState &state = parts_.touching[s]; state.presses())
+        visit(parts_.surfaces.positions()[parts_.slaves.node(s)], state.contact.normal,
+              parts_.slaves.surface(s), parts_.surfaces.facet(state.touched.facet).surface);
+  }
+  /// The same of slaves and crossing edges as visit(SupportingPoint, surface of the point, surface of what it
+  /// touches).
+  template <class Visit> void visit_supporting(const Visit &visit) const {
+    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+      if (const SlaveState &state = parts_.touching[s]; state.presses())
+        visit(make_supporting_point(parts_.surfaces.positions()[parts_.slaves.node(s)], state.contact.normal,
+                                    parts_.settings.friction.get(), state.traction.status,
+                                    state.traction.traction),
+              parts_.slaves.surface(s), parts_.surfaces.facet(state.touched.facet).surface);
+    if (parts_.edges)
+      parts_.edges->visit_supporting(parts_.surfaces.positions(), visit);
+  }
+
+private:
+  const FacetContactParts &parts_;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_FACET_WORKS_H
+#define BILLET_CONTACT_FACET_WORKS_H
+
+#include "billet/contact/facet_contact_load.h"
+#include "billet/contact/facet_contact_parts.h"
+#include "billet/contact/step_works.h"
+
+namespace billet {
+
+/// Forces, energies and works of contact between surfaces in the step, after its last evaluation.
+class FacetWorks {
+public:
+  /// The parts have to outlive this.
+  explicit FacetWorks(const FacetContactParts &parts) : parts_(parts) {}
+
+  /// Collective.
+  FacetContactLoad compute_load() const;
+  /// By friction in this step, of this rank [energy].
+  double local_dissipation() const;
+  /// As ContactInterface's. Collective.
+  StepWorks compute_step_works(double weight) const;
+
+private:
+  /// Whether load goes over from slaves that leave to slaves that enter, as FrictionAccount has it.
+  /// Collective.
+  bool hands_over() const;
+  void add_slave(std::size_t s, bool hands_over, FacetContactLoad &load) const;
+  void add_forces(std::size_t s, FacetContactLoad &load) const;
+  FrictionWorks friction_of(const std::size_t s) const {
+    return parts_.friction ? parts_.friction->works(s) : FrictionWorks();
+  }
+
+  const FacetContactParts &parts_;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_RESTLESS_NODES_H
+#define BILLET_CONTACT_RESTLESS_NODES_H
+
+#include <cstdint>
+#include <vector>
+
+namespace billet {
+
+/// Counts how often nodes change what they touch, or how, in the iterations of one step.
+class RestlessNodes {
+public:
+  /// A node that changes more often than this is restless; 0: nothing is counted.
+  explicit RestlessNodes(const unsigned int max_changes) : max_changes_(max_changes) {}
+
+  bool is_counting() const { return max_changes_ > 0; }
+  /// Starts the step anew.
+  void restart();
+  /// Compares each node's state with the one before, and keeps it. Any numbers stand for states.
+  void count(std::vector<std::uint64_t> states);
+  bool is_restless(const std::size_t i) const {
+    return i < n_changes_.size() && n_changes_[i] > max_changes_;
+  }
+  /// Calls visit(node, number of changes) for each restless one.
+  template <class Visit> void visit(const Visit &visit) const {
+    for (std::size_t i = 0; i < n_changes_.size(); ++i)
+      if (is_restless(i))
+        visit(i, n_changes_[i]);
+  }
+
+private:
+  unsigned int max_changes_;
+  std::vector<unsigned int> n_changes_;
+  std::vector<std::uint64_t> states_; ///< of the last count()
+};
+
+} // namespace billet
+
+#endif

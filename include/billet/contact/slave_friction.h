@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_SLAVE_FRICTION_H
+#define BILLET_CONTACT_SLAVE_FRICTION_H
+
+#include "billet/contact/touching_slaves.h"
+#include "billet/state.h"
+#include "billet/usage.h"
+
+#include <vector>
+
+namespace billet {
+
+/// Works of friction at one slave in the step, this rank's part [energy].
+struct FrictionWorks {
+  double dissipation = 0., damping = 0., taken_beyond = 0., missed = 0.;
+  double dissipation_handed_over = 0.; ///< the first one by FrictionAccount::handed_over()
+};
+
+/// What friction keeps of slave nodes, and what it takes from their motion. Made where there is friction.
+class SlaveFriction {
+public:
+  /// All have to outlive this.
+  SlaveFriction(const FrictionLaw &law, const TouchingSlaves &slaves, const SlavePenalties &penalties,
+                const GapOffsets &offsets, const SlaveStart &start);
+
+  /// Sets how FrictionRule accounts for friction: ½ and false unless they are set.
+  void set_account(const double start_weight, const bool is_static) {
+    start_weight_ = start_weight;
+    is_static_ = is_static;
+  }
+  bool is_static() const { return is_static_; }
+  const FrictionLaw &law() const { return law_; }
+
+  /// Computes traction and works of a slave that presses.
+  SlaveTraction press(const std::size_t s) {
+    const SlaveState &state = slaves_[s];
+    const SlaveMotion motion = slaves_.motion_of(s);
+    const SlaveTraction traction = compute_slave_traction(law_, penalties_[s], state.contact.normal,
+                                                          state.contact.gap, motion, base_[s], history_[s]);
+    history_[s].area = state.area;
+    account_for(s, traction, motion);
+    return traction;
+  }
+  /// Lets go of a slave that does not press.
+  void release(std::size_t s);
+
+  const FrictionWorks &works(const std::size_t s) const { return works_[s]; }
+  /// Length of the path slipped [length].
+  double slip(const std::size_t s) const { return history_[s].slip; }
+  /// What the traction of this step starts from: that at its start, or augmented.
+  const SlaveHistory &base(const std::size_t s) const { return base_[s]; }
+  /// Of a slave that sticks, in this step, or since its traction was augmented [length].
+  double elastic_slip(std::size_t s) const;
+
+  /// What the tractions of slaves that press start from becomes what they are.
+  void augment();
+  /// Takes back the augmentations of this step.
+  void restart() { base_ = history_n_; }
+  void commit() { base_ = history_n_ = history_; }
+
+  /// The state at the start of the step, under the keys of the slaves.
+  void save(StateWriter &writer, const std::vector<std::uint64_t> &keys) const;
+  void load(const StateReader &reader, const std::vector<std::uint64_t> &keys);
+
+private:
+  /// Takes note of what friction has dissipated. Of a node that several ranks have, each takes the part of
+  /// its facets.
+  void account_for(std::size_t s, const SlaveTraction &traction, const SlaveMotion &motion);
+  /// Whether what a slave touches was there at the start of the step: one that came in within the step does
+  /// not go back to where it was before.
+  bool was_touching(std::size_t s) const;
+  void augment_one(std::size_t s);
+
+  const FrictionLaw &law_;
+  const TouchingSlaves &slaves_;
+  const SlavePenalties &penalties_;
+  const GapOffsets &offsets_;
+  const SlaveStart &start_;
+  std::vector<SlaveHistory> history_n_, history_, base_;
+  std::vector<FrictionWorks> works_;
+  double start_weight_ = 0.5;
+  bool is_static_ = false;
+  HeldMemory memory_{Capability::friction};
+};
+
+} // namespace billet
+
+#endif

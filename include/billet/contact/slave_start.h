@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_SLAVE_START_H
+#define BILLET_CONTACT_SLAVE_START_H
+
+#include "billet/contact/facet_choice.h"
+#include "billet/state.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace billet {
+
+/// What slave nodes touched at the start of the step, and how they pressed.
+class SlaveStart {
+public:
+  struct Pressure {
+    double pressure = 0.; ///< [stress]
+    double depth = 0.;    ///< [length]
+    double area = 0.;     ///< of the facets of all ranks [length²]
+    dealii::Tensor<1, 3> normal;
+  };
+
+  explicit SlaveStart(const std::size_t n_slaves)
+      : touched_(n_slaves), facet_keys_(n_slaves), pressed_(n_slaves) {}
+
+  /// Whether a step has ended.
+  bool has_started() const { return has_started_; }
+  const TouchedFacet &touched(const std::size_t s) const { return touched_[s]; }
+  const Pressure &pressed(const std::size_t s) const { return pressed_[s]; }
+  bool pressed_anywhere() const;
+
+  /// Ends a step; set() of each slave follows.
+  void commit() { has_started_ = true; }
+  void set(std::size_t s, const TouchedFacet &touched, const std::vector<SurfaceFacet> &facets,
+           const Pressure &pressed);
+  /// Finds again the facets that are touched, by their keys, after their indices have changed. A facet that
+  /// is no longer near is not touched.
+  void find_facets(const std::vector<SurfaceFacet> &facets);
+  /// Where a penalty has become so many times as stiff at the same pressure.
+  void divide_depth(const std::size_t s, const double factor) { pressed_[s].depth /= factor; }
+
+  /// Under the keys of the slaves.
+  void save(StateWriter &writer, const std::vector<std::uint64_t> &keys) const;
+  /// Facets have indices after find_facets().
+  void load(const StateReader &reader, const std::vector<std::uint64_t> &keys, bool has_started);
+
+private:
+  std::vector<TouchedFacet> touched_;
+  std::vector<std::uint64_t> facet_keys_; ///< of what is touched
+  std::vector<Pressure> pressed_;
+  bool has_started_ = false;
+};
+
+} // namespace billet
+
+#endif

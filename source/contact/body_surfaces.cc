@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/body_surfaces.h"
+
+#include "billet/contact/overlap.h"
+#include "billet/discretization/boundary_facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace billet {
+
+namespace {
+
+/// The same on any number of ranks, and no other facet's: those of two opposite corners.
+std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
+  const std::uint64_t first = keys(facet.dofs[0][0]), second = keys(facet.dofs[3][0]);
+  return (std::min(first, second) << 32U) | std::max(first, second);
+}
+
+} // namespace
+
+BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const NodeKeys &node_keys) {
+  const Discretization &discretization = nodes.discretization();
+  std::map<DofIndex, unsigned int> index;
+  const unsigned int n_surfaces = pair.is_self_contact ? 1 : 2;
+  std::vector<BoundaryFacet> all;
+  for (unsigned int surface = 0; surface < n_surfaces; ++surface)
+    for (const auto &boundary :
+         collect_boundary_facets(discretization, pair.bodies[surface], pair.boundary_ids[surface])) {
+      all.push_back(boundary);
+      SurfaceFacet facet{};
+      facet.surface = surface;
+      facet.key = make_key(boundary, node_keys);
+      areas.push_back(boundary.area_vector().norm());
+      facet.reach = std::max(contact_reach(boundary), 1.1 * pair.overlap.closed_gap);
+      facet.bulge = bulge_of(boundary, pair.correction);
+      facet.wall = boundary.thickness;
+      constexpr double part_of_facet = 0.4; // all methods find nodes there, and no element is as thin
+      depths.push_back(part_of_facet * std::min(std::sqrt(areas.back()), boundary.thickness));
+      for (unsigned int a = 0; a < 4; ++a) {
+        const auto [entry, is_new] =
+            index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes.size()));
+        if (is_new) {
+          local_nodes.push_back(nodes.find(boundary.dofs[a][0]));
+          surface_of.push_back(surface);
+        }
+        facet.nodes[a] = entry->second;
+      }
+      facets.push_back(facet);
+    }
+  const auto sizes_around = compute_facet_sizes(discretization, all);
+  for (const unsigned int node : local_nodes) {
+    keys.push_back(node_keys(nodes.dofs(node)[0]));
+    const FacetSize size = sizes_around.at(nodes.dofs(node)[0]);
+    sizes.push_back(size.size);
+    penalty_lengths.push_back(penalty_length(pair.penalty_counts_thickness, size.size, size.thickness));
+  }
+}
+
+double BodySurfaces::find_smallest_size(MPI_Comm communicator) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double area : areas)
+    smallest = std::min(smallest, std::sqrt(area));
+  return dealii::Utilities::MPI::min(smallest, communicator);
+}
+
+PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const BodySurfaces &surfaces,
+                                MPI_Comm communicator) {
+  std::array<double, 6> totals{}; // area, number of facets and volume below them, by surface
+  for (std::size_t f = 0; f < surfaces.facets.size(); ++f) {
+    totals[surfaces.facets[f].surface] += surfaces.areas[f];
+    totals[2 + surfaces.facets[f].surface] += 1.;
+    totals[4 + surfaces.facets[f].surface] += surfaces.areas[f] * surfaces.facets[f].wall;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, totals.data(), 6, MPI_DOUBLE, MPI_SUM, communicator);
+  const auto young = [&](const unsigned int surface) {
+    return scene.bodies()[pair.bodies[surface]].young_modulus;
+  };
+  const auto mean_length = [&](const unsigned int surface) {
+    return penalty_length(pair.penalty_counts_thickness, std::sqrt(totals[surface] / totals[2 + surface]),
+                          totals[4 + surface] / totals[surface]);
+  };
+  // Overlapping facets pass a uniform pressure exactly if all nodes have the same penalty.
+  const bool is_uniform = pair.facets == parameters::ContactPair::Facets::overlap;
+  PairPenalties penalties;
+  for (std::size_t i = 0; i < surfaces.local_nodes.size(); ++i) {
+    const unsigned int other = pair.is_self_contact ? 0 : 1 - surfaces.surface_of[i];
+    const double own_side = young(surfaces.surface_of[i]) /
+                            (is_uniform ? mean_length(surfaces.surface_of[i]) : surfaces.penalty_lengths[i]);
+    const double other_side = young(other) / mean_length(other);
+    const double of_factor = pair.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
+                                 ? std::max(own_side, other_side)
+                                 : own_side * other_side / (own_side + other_side);
+    const double unit = pair.penalty_is_factor ? of_factor : 1.;
+    penalties.of_nodes.push_back({unit * pair.normal_penalty, unit * pair.tangential_penalty});
+    const double enough = enough_penalty * of_factor / unit;
+    penalties.max_stiffening = std::min(penalties.max_stiffening, enough / pair.normal_penalty);
+    if (pair.has_friction())
+      penalties.max_tangential_stiffening =
+          std::min(penalties.max_tangential_stiffening, enough / pair.tangential_penalty);
+  }
+  return penalties;
+}
+
+} // namespace billet

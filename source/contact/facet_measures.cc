@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/facet_measures.h"
+
+#include <algorithm>
+
+namespace billet {
+
+double FacetMeasures::largest_spring() const {
+  double largest = 0.;
+  for (std::size_t s = 0; s < parts_.slaves.size(); ++s)
+    largest = std::max(
+        largest, std::max(parts_.penalties[s].normal, parts_.friction ? parts_.penalties[s].tangential : 0.) *
+                     parts_.slaves.facet_size(s) * parts_.slaves.facet_size(s));
+  return largest;
+}
+
+Penetration FacetMeasures::penetration() const {
+  Penetration deepest;
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+    if (parts_.touching[s].has_pressure())
+      deepest.add(parts_.touching.penetration_of(s), parts_.slaves.facet_size(s));
+  return deepest;
+}
+
+double FacetMeasures::excessive_penetration() const {
+  double largest = 0.;
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+    if (const SlaveState &state = parts_.touching[s]; state.has_pressure())
+      largest = std::max(largest, parts_.touching.penetration_of(s) /
+                                      parts_.surfaces.facet(state.touched.facet).reach);
+  return largest;
+}
+
+double FacetMeasures::closing_of_new_contacts() const {
+  double largest = 0.;
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+    if (const SlaveState &state = parts_.touching[s];
+        state.has_pressure() && !(parts_.start.pressed(s).pressure > 0.))
+      largest = std::max(largest, -(parts_.touching.motion_of(s).displacement * state.contact.normal) /
+                                      parts_.slaves.facet_size(s));
+  return largest;
+}
+
+double FacetMeasures::augmentation_error() const {
+  double worst = penetration().of_facet;
+  if (parts_.friction)
+    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+      worst = std::max(worst, parts_.friction->elastic_slip(s) / parts_.slaves.facet_size(s));
+  return worst;
+}
+
+ContactSprings FacetMeasures::compute_springs() const {
+  ContactSprings springs;
+  springs.normal.of_nodes.resize(parts_.touching.size());
+  springs.tangential.of_nodes.resize(parts_.touching.size());
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
+    const SlaveState &state = parts_.touching[s];
+    if (!state.presses())
+      continue;
+    const double elastic_slip = parts_.friction ? parts_.friction->elastic_slip(s) : 0.;
+    springs.add(s, state.own_area * state.traction.traction, state.contact.normal,
+                state.own_area * parts_.penalties[s].normal * parts_.touching.penetration_of(s),
+                state.own_area * parts_.penalties[s].tangential * elastic_slip);
+  }
+  return springs;
+}
+
+std::vector<SlaveForce> FacetMeasures::slave_forces() const {
+  std::vector<SlaveForce> result(parts_.touching.size());
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+    if (const SlaveState &state = parts_.touching[s]; state.presses())
+      result[s] = {state.traction.status, state.own_area * state.traction.traction};
+  return result;
+}
+
+std::vector<FacetMeasures::NodeReport> FacetMeasures::report() const {
+  std::vector<NodeReport> reports(parts_.surfaces.exchange().n_own_nodes());
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
+    const SlaveState &state = parts_.touching[s];
+    const bool touches = state.presses();
+    reports[parts_.slaves.node(s)] = {
+        state.traction.status,
+        state.traction.pressure,
+        touches ? state.contact.gap - state.touched.offset + parts_.offsets.of(s).now : 0.,
+        parts_.friction ? parts_.friction->slip(s) : 0.,
+        touches ? state.area : 0.,
+        state.traction.traction,
+        state.has_pressure() ? parts_.touching.penetration_of(s) : 0.,
+        parts_.friction ? parts_.penalties[s].tangential : 0.};
+  }
+  return reports;
+}
+
+std::vector<FacetMeasures::Restless> FacetMeasures::find_restless() const {
+  std::vector<Restless> restless;
+  parts_.restless.visit([&](const std::size_t s, const unsigned int n_changes) {
+    restless.push_back({parts_.surfaces.positions()[parts_.slaves.node(s)], n_changes});
+  });
+  return restless;
+}
+
+} // namespace billet

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/facet_works.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+namespace {
+
+void sum_over_ranks(FacetContactLoad &load, MPI_Comm communicator) {
+  std::array<double, 18> sums{load.stored_energy, load.dissipation,    load.area,
+                              load.n_touching,    load.absolute_force, load.damping};
+  std::array<double, 2> largest{load.deepest, load.deepest_relative};
+  const std::array<Tensor<1, 3> *, 4> vectors{&load.force, &load.moment, &load.residual_force,
+                                              &load.residual_moment};
+  for (unsigned int v = 0; v < vectors.size(); ++v)
+    for (unsigned int i = 0; i < 3; ++i)
+      sums[6 + 3 * v + i] = (*vectors[v])[i];
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, communicator);
+  load.stored_energy = sums[0];
+  load.dissipation = sums[1];
+  load.area = sums[2];
+  load.n_touching = sums[3];
+  load.absolute_force = sums[4];
+  load.damping = sums[5];
+  for (unsigned int v = 0; v < vectors.size(); ++v)
+    for (unsigned int i = 0; i < 3; ++i)
+      (*vectors[v])[i] = sums[6 + 3 * v + i];
+  load.deepest = largest[0];
+  load.deepest_relative = largest[1];
+}
+
+} // namespace
+
+bool FacetWorks::hands_over() const {
+  if (!parts_.friction || !parts_.friction->is_static())
+    return false;
+  bool presses = false;
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+    presses = presses || parts_.touching[s].has_pressure();
+  std::vector<int> ends{parts_.start.pressed_anywhere() ? 1 : 0, presses ? 1 : 0};
+  dealii::Utilities::MPI::max(ends, parts_.surfaces.communicator(), ends);
+  return ends[0] + ends[1] == 2;
+}
+
+FacetContactLoad FacetWorks::compute_load() const {
+  FacetContactLoad load;
+  const bool hands_load_over = hands_over();
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+    add_slave(s, hands_load_over, load);
+  if (parts_.edges)
+    parts_.edges->add_load(parts_.surfaces.positions(), load);
+  sum_over_ranks(load, parts_.surfaces.communicator());
+  return load;
+}
+
+void FacetWorks::add_slave(const std::size_t s, const bool hands_load_over, FacetContactLoad &load) const {
+  const SlaveState &state = parts_.touching[s];
+  const FrictionWorks friction = friction_of(s);
+  load.dissipation += hands_load_over ? friction.dissipation_handed_over : friction.dissipation;
+  load.damping += friction.damping;
+  if (!state.presses())
+    return;
+  add_forces(s, load);
+  load.absolute_force += state.own_area * state.traction.traction.norm();
+  const double augmentation = parts_.offsets.augmentation[s];
+  // What augmented tractions hold is no stretch of a spring.
+  load.stored_energy += parts_.offsets.augmentation.is_empty()
+                            ? state.own_area * state.traction.stored_energy
+                            : 0.5 * state.own_area * parts_.penalties[s].normal *
+                                  (state.contact.gap + augmentation) * (state.contact.gap + augmentation);
+  load.area += state.own_area;
+  load.n_touching += 1.;
+  const FacetCorners corners = parts_.surfaces.moved().corners(state.touched.facet);
+  const double size =
+      std::sqrt(0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]).norm());
+  const double depth = state.touched.offset - state.contact.gap - parts_.offsets.of(s).now;
+  load.deepest = std::max(load.deepest, depth);
+  load.deepest_relative = std::max(load.deepest_relative, depth / size);
+}
+
+void FacetWorks::add_forces(const std::size_t s, FacetContactLoad &load) const {
+  const FacetSearch::Positions &positions = parts_.surfaces.positions();
+  parts_.touching.visit_forces(
+      s, [&](const FacetShare &share, const Tensor<1, 3> &force, const FacetCorners &reaction) {
+        const FacetCorners corners = parts_.surfaces.moved().corners(share.facet);
+        const Tensor<1, 3> point = parts_.touching.point_of(s, share, positions);
+        load.residual_force += force;
+        for (unsigned int a = 0; a < 4; ++a) {
+          load.residual_force += reaction[a];
+          load.residual_moment += dealii::cross_product_3d(corners[a] - point, reaction[a]);
+        }
+        const unsigned int of_node = parts_.slaves.surface(s),
+                           of_facet = parts_.surfaces.facet(share.facet).surface;
+        if (of_node == of_facet) // nothing in all
+          return;
+        if (of_node == 0) {
+          load.force += force;
+          load.moment += dealii::cross_product_3d(point, force);
+        }
+        if (of_facet == 0) {
+          load.force -= force;
+          for (unsigned int a = 0; a < 4; ++a)
+            load.moment += dealii::cross_product_3d(corners[a], reaction[a]);
+        }
+      });
+}
+
+double FacetWorks::local_dissipation() const {
+  double dissipation = 0.;
+  if (parts_.friction)
+    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+      dissipation += parts_.friction->works(s).dissipation;
+  return dissipation;
+}
+
+StepWorks FacetWorks::compute_step_works(const double weight) const {
+  StepWorks works;
+  const bool hands_load_over = hands_over();
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
+    const SlaveState &state = parts_.touching[s];
+    const FrictionWorks friction = friction_of(s);
+    works.touching -= friction.taken_beyond - friction.missed -
+                      (hands_load_over ? friction.dissipation_handed_over - friction.dissipation : 0.);
+    const SlaveStart::Pressure &before = parts_.start.pressed(s);
+    const double ramp_depth = parts_.offsets.depths.ramp(s);
+    if (state.has_pressure()) {
+      const double depth = std::max(0., -(state.contact.gap + parts_.offsets.augmentation[s]));
+      const double closing = ramp_depth - parts_.touching.motion_of(s).displacement * state.contact.normal;
+      works.add(before.pressure * state.own_area, state.traction.pressure * state.own_area, before.depth,
+                depth, closing, ramp_depth, weight);
+    } else if (before.pressure > 0. && parts_.start.touched(s).exists()) {
+      const SlaveMotion motion = parts_.touching.motion_after_contact(s);
+      const Tensor<1, 3> normal = motion.rotation * before.normal;
+      works.add(before.pressure * parts_.touching.own_part(s) * before.area, 0., before.depth, 0.,
+                ramp_depth - motion.displacement * normal, ramp_depth, weight);
+    }
+  }
+  works.touching = dealii::Utilities::MPI::sum(works.touching, parts_.surfaces.communicator());
+  works.ramp = dealii::Utilities::MPI::sum(works.ramp, parts_.surfaces.communicator());
+  return works;
+}
+
+} // namespace billet

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/gap_offsets.h"
+
+#include "billet/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+void MultiplierOffsets::start_augmentation(const std::size_t n) {
+  is_used_ = true;
+  offsets_.resize(n);
+  last_.resize(n);
+  Usage::count(Capability::augmentation, n);
+  memory_.set(offsets_.size() * (sizeof(double) + sizeof(Augmentation)));
+}
+
+void MultiplierOffsets::augment_one(const std::size_t s, const std::optional<double> &gap_less_offset) {
+  const double gap = gap_less_offset ? *gap_less_offset + offsets_[s] : 0.;
+  const double next = gap_less_offset ? std::max(0., offsets_[s] - find_pace(s, gap) * gap) : 0.;
+  last_[s] = {offsets_[s], gap};
+  offsets_[s] = next;
+}
+
+double MultiplierOffsets::find_pace(const std::size_t s, const double gap) const {
+  const auto [offset_before, gap_before] = last_[s];
+  const double taken_up = offsets_[s] - offset_before, closed = gap - gap_before;
+  // Not where neighbours decided what became of it.
+  const bool goes_on =
+      gap_before * gap > 0. && std::abs(gap) < std::abs(gap_before) && taken_up * closed > 0.;
+  constexpr double fastest = 4.;
+  return goes_on ? std::clamp(taken_up / closed, 1., fastest) : 1.;
+}
+
+void MultiplierOffsets::restart() {
+  offsets_ = offsets_n_;
+  last_.clear();
+}
+
+void MultiplierOffsets::scale(const double normal) {
+  for (auto &offset : offsets_)
+    offset /= normal;
+  for (auto &offset : offsets_n_)
+    offset /= normal;
+  last_.assign(last_.size(), Augmentation());
+}
+
+void MultiplierOffsets::set(std::optional<std::vector<double>> offsets) {
+  is_used_ = offsets.has_value();
+  offsets_n_ = std::move(offsets).value_or(std::vector<double>());
+  offsets_ = offsets_n_;
+}
+
+void InitialDepths::assign(const std::size_t n, const double depth) {
+  is_used_ = true;
+  depths_.assign(n, depth);
+}
+
+void InitialDepths::start(const std::size_t n) {
+  is_used_ = true;
+  depths_.resize(n);
+}
+
+void InitialDepths::set(std::optional<std::vector<double>> depths) {
+  is_used_ = depths.has_value();
+  depths_ = std::move(depths).value_or(std::vector<double>());
+}
+
+double InitialDepths::counted(const double depth, const double part) {
+  return InitialOverlap::counted(depth, part);
+}
+
+} // namespace billet
