@@ -14,6 +14,11 @@ inline const DiagnosticKind
     bad_input("bad-input", Severity::error,
               "The scene file, a file that it names or the command line cannot be used.", "");
 
+inline const DiagnosticKind
+    old_name("old-name", Severity::warning,
+             "The scene uses the old name of a parameter or of a value. Version 1.0 will refuse it.",
+             "Convert the scene by 'billet --update-scene'");
+
 inline const DiagnosticKind tool_smaller_than_facets(
     "tool-smaller-than-facets", Severity::warning,
     "A tool is smaller than the facets that it meets. It can enter between their nodes without a force.",

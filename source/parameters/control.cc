@@ -262,9 +262,9 @@ void Solver::declare(ParameterHandler &prm) {
       "Displacement tolerance", "1e-2", Patterns::Double(),
       "A step converges when the last correction moves no node by more than this part of the largest "
       "displacement in the step. A residual below 5e-6 of the forces needs no such check.");
-  prm.declare_entry("Most iterations", "60", Patterns::Integer(0),
+  prm.declare_entry("Maximum iterations", "60", Patterns::Integer(0),
                     "A step that needs more has failed; it is given up earlier if at its pace it would.");
-  prm.declare_entry("Most augmentations", "20", Patterns::Integer(0),
+  prm.declare_entry("Maximum augmentations", "20", Patterns::Integer(0),
                     "Of contact with a 'Penetration tolerance' in a step; one that needs more has failed.");
   prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
                     "energy: shorten a correction while the residual's work along it grows; in any case a "
@@ -303,8 +303,8 @@ void Solver::parse(Reader &reader) {
     reader.reject("Force tolerance", "a number > 0 and < 1");
   energy_tolerance = reader.positive("Energy tolerance");
   displacement_tolerance = reader.positive("Displacement tolerance");
-  most_iterations = reader.count("Most iterations", 1);
-  most_augmentations = reader.count("Most augmentations", 1);
+  most_iterations = reader.count("Maximum iterations", 1);
+  most_augmentations = reader.count("Maximum augmentations", 1);
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
   predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
   linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));

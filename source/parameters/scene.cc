@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
 #include "billet/parameters/declaration.h"
+#include "billet/parameters/scene_update.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -284,6 +285,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   file.set_all(prm);
 
   Scene scene;
+  scene.warnings = describe_old_names(file);
   scene.presets = apply_presets(prm, file);
   scene.target_error = read_target_error(file);
   Reader reader(prm, file);

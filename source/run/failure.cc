@@ -105,8 +105,8 @@ std::string explain_failed_step(const parameters::Scene &parameters, const StepR
             << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
                                         : ":")
             << (report.newton.goes_round   ? ""
-                : parameters.pairs.empty() ? " try more 'Most iterations', or"
-                                           : " try a softer penalty, more 'Most iterations', or")
+                : parameters.pairs.empty() ? " try a larger 'Maximum iterations', or"
+                                           : " try a softer penalty, a larger 'Maximum iterations', or")
             << " look at the last picture for an unstable or torn mesh";
   return message.str() + describe_incompressibility(parameters) +
          (is_unstable ? ". Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +

@@ -110,7 +110,7 @@ def tight(entries, depth):
         "Time stepping/Error tolerance": 1e-3,
         "Time stepping/Largest step": repr(end / 50),
         "Time stepping/Initial step": repr(end / 400),
-        "Solver/Most augmentations": 60,
+        "Solver/Maximum augmentations": 60,
         **({f"Contact pairs/{name}/Penetration tolerance": depth for name in names} if depth else {}),
     }
 

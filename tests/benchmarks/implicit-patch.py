@@ -34,7 +34,7 @@ def solve(scene, facets, passes, penalty, tolerance, changes):
                 PAIR + "Normal penalty": penalty,
                 PAIR + "Penetration tolerance": tolerance,
                 "Output/Every steps": 0,
-                "Solver/Most augmentations": 100,
+                "Solver/Maximum augmentations": 100,
                 **changes,
             },
             folder,

@@ -143,7 +143,7 @@ def reference(path, changes, depth, residual, dynamic):
         return {"Solver/Force tolerance": max(residual, 1e-9), "Implicit dynamics/Error tolerance": dynamic}
     result = {
         "Solver/Force tolerance": residual,
-        "Solver/Most augmentations": 60,
+        "Solver/Maximum augmentations": 60,
         **{f"Contact pairs/{name}/Penetration tolerance": depth for name in names},
     }
     result["Time stepping/Initial step"] = repr(end / 400)

@@ -49,7 +49,7 @@ class Implicit:
             **self.steps(REFERENCE_STEPS),
             **pairs(self.pairs, Penetration_tolerance=self.depth),
             "Solver/Force tolerance": 1e-9,
-            "Solver/Most augmentations": 60,
+            "Solver/Maximum augmentations": 60,
         }
 
     def by_hand(self):

@@ -238,7 +238,7 @@ for part in ("upper", "lower", "mean"):
         f"symmetrised {part}",
         (
             f"{FIXED_SOFT} & Solver: Contact tangent = symmetrised {part}"
-            " & Solver: Linear solver = MUMPS symmetric & Solver: Most iterations = 100"
+            " & Solver: Linear solver = MUMPS symmetric & Solver: Maximum iterations = 100"
         ),
         as_run=steady,
         tolerance=1e-4,

@@ -199,7 +199,7 @@ class TestPlan(unittest.TestCase):
             [scene.get("Contact pairs/faces/Penetration tolerance") for _, scene in plan.axes[1].levels],
             ["0.001", "0.00025", "6.25e-05"],
         )
-        self.assertEqual((plan.axes[1].centre, plan.centre.get("Solver/Most augmentations")), (1, "100"))
+        self.assertEqual((plan.axes[1].centre, plan.centre.get("Solver/Maximum augmentations")), (1, "100"))
         # Bodies that touch in an implicit scene: augmented, though the scene is not.
         plan = Plan(shipped("ironing"), lambda scene: 1, GIVEN)
         self.assertEqual(
