@@ -54,11 +54,11 @@ void TimeStepping::declare(ParameterHandler &prm) {
       "one ends the run.");
   prm.declare_entry("Initial step", "automatic", Patterns::Anything(),
                     "First step; every step where they are fixed. automatic: a hundredth of the end time, or "
-                    "the largest step if that is less. [time]");
-  prm.declare_entry("Smallest step", "automatic", Patterns::Anything(),
+                    "the maximum step if that is less. [time]");
+  prm.declare_entry("Minimum step", "automatic", Patterns::Anything(),
                     "The run ends when a step would have to be cut below this. automatic: a millionth of the "
                     "end time, or the initial step if that is less. [time]");
-  prm.declare_entry("Largest step", "automatic", Patterns::Anything(),
+  prm.declare_entry("Maximum step", "automatic", Patterns::Anything(),
                     "A step grows up to this length. automatic: a tenth of the end time, or the initial step "
                     "if that is more. [time]");
   prm.declare_entry(
@@ -66,10 +66,10 @@ void TimeStepping::declare(ParameterHandler &prm) {
       "Quasi-static scenes with automatic steps: steps are as long as their error, estimated by steps of "
       "twice the length now and then, is below this part of the forces. 0: steps follow the iterations "
       "alone.");
-  prm.declare_entry("Few iterations", "5", Patterns::Integer(0),
-                    "The step grows after at most so many iterations.");
-  prm.declare_entry("Many iterations", "9", Patterns::Integer(0),
-                    "The step shrinks after at least so many iterations.");
+  prm.declare_entry("Growth iterations", "5", Patterns::Integer(0),
+                    "The step grows after at most this many iterations.");
+  prm.declare_entry("Shrink iterations", "9", Patterns::Integer(0),
+                    "The step shrinks after at least this many iterations.");
   prm.declare_entry("Growth factor", "1.5", Patterns::Double(), "At least 1.");
   prm.declare_entry("Shrink factor", "0.7", Patterns::Double(), "Between 0 and 1.");
   prm.declare_entry("Cut factor", "0.5", Patterns::Double(),
@@ -88,8 +88,8 @@ void TimeStepping::parse(Reader &reader) {
                                            : Scheme::quasi_static;
   if (scheme == Scheme::explicit_dynamics) {
     for (const std::string key :
-         {"Step control", "Initial step", "Smallest step", "Largest step", "Few iterations",
-          "Many iterations", "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
+         {"Step control", "Initial step", "Minimum step", "Maximum step", "Growth iterations",
+          "Shrink iterations", "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the steps of an explicit scene follow from its elements");
     return;
@@ -103,33 +103,33 @@ void TimeStepping::parse(Reader &reader) {
     text << time;
     return text.str();
   };
-  largest_step = step("Largest step", 0.1 * end_time);
+  largest_step = step("Maximum step", 0.1 * end_time);
   initial_step = step("Initial step", std::min(0.01 * end_time, largest_step));
   if (initial_step > end_time)
     reader.reject("Initial step", "a number not above the end time, " + print(end_time));
-  if (reader.text("Largest step") == "automatic")
+  if (reader.text("Maximum step") == "automatic")
     largest_step = std::max(largest_step, initial_step);
   if (control == Control::fixed)
-    for (const std::string key : {"Smallest step", "Largest step", "Few iterations", "Many iterations",
+    for (const std::string key : {"Minimum step", "Maximum step", "Growth iterations", "Shrink iterations",
                                   "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: steps are fixed");
-  smallest_step = step("Smallest step", std::min(1e-6 * end_time, initial_step));
+  smallest_step = step("Minimum step", std::min(1e-6 * end_time, initial_step));
   if (control == Control::automatic) {
     if (smallest_step > initial_step)
-      reader.reject("Smallest step", "a number not above the initial step, " + print(initial_step));
+      reader.reject("Minimum step", "a number not above the initial step, " + print(initial_step));
     if (largest_step < initial_step)
-      reader.reject("Largest step", "a number not below the initial step, " + print(initial_step));
+      reader.reject("Maximum step", "a number not below the initial step, " + print(initial_step));
   }
   error_tolerance = reader.not_negative("Error tolerance");
   if (error_tolerance >= 1.)
     reader.reject("Error tolerance", "a number >= 0 and < 1");
   if (error_tolerance > 0. && scheme == Scheme::implicit_dynamics)
     reader.reject("Error tolerance", "no value: that of 'Implicit dynamics' holds");
-  few_iterations = reader.count("Few iterations");
-  many_iterations = reader.count("Many iterations");
+  few_iterations = reader.count("Growth iterations");
+  many_iterations = reader.count("Shrink iterations");
   if (many_iterations <= few_iterations)
-    reader.reject("Many iterations", "a number above 'Few iterations'");
+    reader.reject("Shrink iterations", "a number above 'Growth iterations'");
   growth_factor = reader.positive("Growth factor");
   if (growth_factor < 1.)
     reader.reject("Growth factor", "a number >= 1");
@@ -158,10 +158,10 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
   prm.declare_entry("Mass scaling step", "0", Patterns::Double(),
                     "Elements whose stable step, safety included, is shorter at the start get mass until it "
                     "is not; the mass added is reported. 0: none. [time]");
-  prm.declare_entry("Largest drift", "0.05", Patterns::Double(),
-                    "The run ends where the energies fail to balance by more than this part of the largest "
-                    "energy so far, for a hundred steps or at the end; > 0.");
-  prm.declare_entry("Instructions", "automatic", Patterns::Selection("automatic|scalar|SSE2|AVX2|AVX-512"),
+  prm.declare_entry("Maximum energy drift", "0.05", Patterns::Double(),
+                    "> 0. The run ends if the energies fail to balance by more than this part of the "
+                    "largest energy so far, for a hundred steps or at the end.");
+  prm.declare_entry("Instruction set", "automatic", Patterns::Selection("automatic|scalar|SSE2|AVX2|AVX-512"),
                     "Instruction set of the element kernels; automatic: the best of this machine.");
   prm.declare_entry("Number type", "double", Patterns::Selection("double|float"),
                     "What elements compute with. float: twice as many at once, to about seven digits; nodes, "
@@ -178,8 +178,8 @@ void ExplicitDynamics::parse(Reader &reader) {
   linear_viscosity = reader.not_negative("Linear bulk viscosity");
   quadratic_viscosity = reader.not_negative("Quadratic bulk viscosity");
   scaled_step = reader.not_negative("Mass scaling step");
-  largest_drift = reader.positive("Largest drift");
-  const std::string chosen_set = reader.text("Instructions");
+  largest_drift = reader.positive("Maximum energy drift");
+  const std::string chosen_set = reader.text("Instruction set");
   instructions = chosen_set == "automatic" ? Instructions::automatic
                  : chosen_set == "scalar"  ? Instructions::scalar
                  : chosen_set == "SSE2"    ? Instructions::sse2
@@ -263,9 +263,11 @@ void Solver::declare(ParameterHandler &prm) {
       "A step converges when the last correction moves no node by more than this part of the largest "
       "displacement in the step. A residual below 5e-6 of the forces needs no such check.");
   prm.declare_entry("Maximum iterations", "60", Patterns::Integer(0),
-                    "A step that needs more has failed; it is given up earlier if at its pace it would.");
+                    "Newton iterations of a step. A step that would need more fails, as soon as its pace "
+                    "shows that.");
   prm.declare_entry("Maximum augmentations", "20", Patterns::Integer(0),
-                    "Of contact with a 'Penetration tolerance' in a step; one that needs more has failed.");
+                    "Augmentations of contact with a 'Penetration tolerance' in a step. A step that needs "
+                    "more fails.");
   prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
                     "energy: shorten a correction while the residual's work along it grows; in any case a "
                     "correction that turns an element "
@@ -284,14 +286,15 @@ void Solver::declare(ParameterHandler &prm) {
       "Iterative, with multigrid: CG, for symmetric matrices, and GMRES. automatic: a direct one "
       "for small scenes, as long as the machine's memory lets it.");
   prm.declare_entry(
-      "Forcing", "Eisenstat-Walker", Patterns::Selection("Eisenstat-Walker|fixed"),
-      "How exactly iterative solvers solve. Eisenstat-Walker: the closer the better Newton's "
-      "method goes (Eisenstat & Walker 1996, choice 2); fixed: always to the linear tolerance.");
+      "Forcing term", "Eisenstat-Walker", Patterns::Selection("Eisenstat-Walker|fixed"),
+      "The relative residual to which iterative solvers solve. Eisenstat-Walker: it falls as Newton's "
+      "method converges (Eisenstat & Walker 1996, choice 2); fixed: the linear tolerance.");
   prm.declare_entry("Linear tolerance", "1e-6", Patterns::Double(),
                     "Of iterative solvers: residual over right-hand side, > 0 and < 1; with Eisenstat-Walker "
                     "the smallest that is asked for.");
-  prm.declare_entry("Most linear iterations", "200", Patterns::Integer(0),
-                    "An iterative solver that needs more leaves the matrix to a direct one.");
+  prm.declare_entry("Maximum linear iterations", "200", Patterns::Integer(0),
+                    "Iterations of an iterative solver. If it needs more, a direct solver replaces it for "
+                    "that matrix.");
 }
 
 void Solver::parse(Reader &reader) {
@@ -308,14 +311,14 @@ void Solver::parse(Reader &reader) {
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
   predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
   linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));
-  forcing = reader.text("Forcing") == "fixed" ? Forcing::fixed : Forcing::eisenstat_walker;
+  forcing = reader.text("Forcing term") == "fixed" ? Forcing::fixed : Forcing::eisenstat_walker;
   linear_tolerance = reader.positive("Linear tolerance");
   if (linear_tolerance >= 1.)
     reader.reject("Linear tolerance", "a number > 0 and < 1");
-  most_linear_iterations = reader.count("Most linear iterations", 1);
+  most_linear_iterations = reader.count("Maximum linear iterations", 1);
   if (linear_solver.value == LinearSolver::mumps || linear_solver.value == LinearSolver::mumps_symmetric ||
       linear_solver.value == LinearSolver::klu)
-    for (const std::string key : {"Forcing", "Linear tolerance", "Most linear iterations"})
+    for (const std::string key : {"Forcing term", "Linear tolerance", "Maximum linear iterations"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the linear solver is direct");
 }
@@ -326,9 +329,9 @@ void Output::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
       "Fields for ParaView: VTU and PVD; HDF5 and XDMF, one file a time on any number of ranks; or none.");
-  prm.declare_entry("Every steps", "1", Patterns::Integer(0),
-                    "Fields are written every so many steps, at the start and at the end. 0, the "
-                    "default of explicit scenes: only there, or by the interval.");
+  prm.declare_entry("Step interval", "1", Patterns::Integer(0),
+                    "Fields are written each time after this many steps, at the start and at the end. 0, "
+                    "the default of explicit scenes: only there, or by the interval.");
   prm.declare_entry(
       "Interval", "0", Patterns::Double(),
       "If not 0, fields are written at multiples of this time instead: steps end there; in explicit "
@@ -346,9 +349,9 @@ void Output::declare(ParameterHandler &prm) {
       "Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"),
       "quiet: warnings and errors alone; steps: a line for each; iterations: their residuals, too.");
   prm.enter_subsection("Checkpoint");
-  prm.declare_entry("Every steps", "0", Patterns::Integer(0),
-                    "A checkpoint, from which the run can go on, is written every so many steps and at the "
-                    "end. 0: not by steps.");
+  prm.declare_entry("Step interval", "0", Patterns::Integer(0),
+                    "A checkpoint, from which the run can resume, is written each time after this many "
+                    "steps and at the end. 0: not by steps.");
   prm.declare_entry("Interval", "0", Patterns::Double(),
                     "... or whenever a multiple of this time has been reached or passed, and at the end. 0: "
                     "not by time. [time]");
@@ -363,11 +366,11 @@ void Output::parse(Reader &reader) {
     reader.reject("Folder", "the name of a folder");
   const std::string chosen_format = reader.text("Format");
   format = chosen_format == "vtu" ? Format::vtu : chosen_format == "hdf5" ? Format::hdf5 : Format::none;
-  every_steps = reader.count("Every steps");
+  every_steps = reader.count("Step interval");
   interval = reader.not_negative("Interval");
   history_interval = reader.not_negative("History interval");
-  if (interval > 0. && every_steps > 0 && reader.is_set("Every steps"))
-    reader.reject("Every steps", "no value, or 0: fields are written by the 'Interval'");
+  if (interval > 0. && every_steps > 0 && reader.is_set("Step interval"))
+    reader.reject("Step interval", "no value, or 0: fields are written by the 'Interval'");
   stress = reader.flag("Stress");
   plastic_strain = reader.flag("Plastic strain");
   contact = reader.flag("Contact");
@@ -376,11 +379,11 @@ void Output::parse(Reader &reader) {
               : chosen_verbosity == "steps" ? Verbosity::steps
                                             : Verbosity::iterations;
   reader.in("Checkpoint", [&] {
-    checkpoint.every_steps = reader.count("Every steps");
+    checkpoint.every_steps = reader.count("Step interval");
     checkpoint.interval = reader.not_negative("Interval");
     checkpoint.keep = reader.count("Keep", 1);
     if (checkpoint.every_steps > 0 && checkpoint.interval > 0.)
-      reader.reject("Every steps", "no value, or 0: checkpoints are written by the 'Interval'");
+      reader.reject("Step interval", "no value, or 0: checkpoints are written by the 'Interval'");
   });
 }
 

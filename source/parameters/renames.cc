@@ -7,8 +7,28 @@ namespace billet {
 
 const std::vector<Rename> &renames() {
   static const std::vector<Rename> table = {
+      {{"Bodies", "*"},
+       "Stabilise",
+       "Contact stabilisation",
+       {{"no", "none"}, {"until touched", "until contact"}}},
+      {{"Bodies", "*", "Material"}, "Kinematics", "Elasticity", {}},
+      {{"Tools", "*", "Surfaces", "*"}, "Sharp angle", "Feature angle", {}},
+      {{"Tools", "*", "Motion"}, "Removed at", "Removal time", {}},
+      {{"Contact pairs", "*"}, "Edges", "Edge contact", {}},
+      {{"Contact pairs", "*"}, "Penalty of", "Reference stiffness", {}},
+      {{"Time stepping"}, "Smallest step", "Minimum step", {}},
+      {{"Time stepping"}, "Largest step", "Maximum step", {}},
+      {{"Time stepping"}, "Few iterations", "Growth iterations", {}},
+      {{"Time stepping"}, "Many iterations", "Shrink iterations", {}},
+      {{"Explicit dynamics"}, "Largest drift", "Maximum energy drift", {}},
+      {{"Explicit dynamics"}, "Instructions", "Instruction set", {}},
+      {{"Implicit dynamics"}, "Largest drift", "Maximum energy drift", {}},
       {{"Solver"}, "Most iterations", "Maximum iterations", {}},
       {{"Solver"}, "Most augmentations", "Maximum augmentations", {}},
+      {{"Solver"}, "Most linear iterations", "Maximum linear iterations", {}},
+      {{"Solver"}, "Forcing", "Forcing term", {}},
+      {{"Output"}, "Every steps", "Step interval", {}},
+      {{"Output", "Checkpoint"}, "Every steps", "Step interval", {}},
   };
   return table;
 }

@@ -38,10 +38,10 @@ KEPT = {
         "Ramp time",
         "Initial gap",
         "Surface correction",
-        "Edges",
+        "Edge contact",
     ),
 }
-DROPPED = ("Element", "Kinematics")  # of bodies
+DROPPED = ("Element", "Elasticity")  # of bodies
 
 # Those that take long end earlier, in both runs.
 ENDS = {
@@ -108,7 +108,7 @@ def tight(entries, depth):
         }
     return {
         "Time stepping/Error tolerance": 1e-3,
-        "Time stepping/Largest step": repr(end / 50),
+        "Time stepping/Maximum step": repr(end / 50),
         "Time stepping/Initial step": repr(end / 400),
         "Solver/Maximum augmentations": 60,
         **({f"Contact pairs/{name}/Penetration tolerance": depth for name in names} if depth else {}),

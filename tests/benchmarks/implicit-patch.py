@@ -33,7 +33,7 @@ def solve(scene, facets, passes, penalty, tolerance, changes):
                 PAIR + "Passes": passes,
                 PAIR + "Normal penalty": penalty,
                 PAIR + "Penetration tolerance": tolerance,
-                "Output/Every steps": 0,
+                "Output/Step interval": 0,
                 "Solver/Maximum augmentations": 100,
                 **changes,
             },

@@ -16,18 +16,18 @@ PROFILES = ("fast", "balanced", "accurate")
 PROFILED = {
     "Time stepping": (
         "Initial step",
-        "Smallest step",
-        "Largest step",
+        "Minimum step",
+        "Maximum step",
         "Error tolerance",
-        "Few iterations",
-        "Many iterations",
+        "Growth iterations",
+        "Shrink iterations",
         "Growth factor",
     ),
     "Implicit dynamics": ("Error tolerance",),
     "Solver": ("Force tolerance", "Energy tolerance", "Displacement tolerance", "Linear tolerance"),
     "Contact pairs": ("Penetration tolerance",),
     "Explicit dynamics": ("Contact resolution", "Safety factor"),
-    "Bodies": ("Element", "Kinematics"),
+    "Bodies": ("Element", "Elasticity"),
 }
 
 # Scenes that take long are cut: these are the ends that they get, and other changes.
@@ -148,7 +148,7 @@ def reference(path, changes, depth, residual, dynamic):
     }
     result["Time stepping/Initial step"] = repr(end / 400)
     if entries.get("Time stepping/Step control") != "fixed":
-        result["Time stepping/Largest step"] = repr(end / 400)
+        result["Time stepping/Maximum step"] = repr(end / 400)
     return result
 
 

@@ -32,8 +32,9 @@ class Rename(NamedTuple):
 
 def read_renames() -> list[Rename]:
     """Returns the table."""
+    entry = r'\{\{("[^{}]*")\},\s*"([^"]*)",\s*"([^"]*)",\s*\{((?:\s*\{"[^{}]*"\},?)*)\}\},'
     found = []
-    for match in re.finditer(r'\{\{("[^{}]*")\},\s*"(.*?)",\s*"(.*?)",\s*\{(.*?)\}\},\n', read_text(RENAMES)):
+    for match in re.finditer(entry, read_text(RENAMES)):
         names = re.findall(r'"(.*?)"', match[4])
         path = "/".join(re.findall(r'"(.*?)"', match[1]))
         found.append(Rename(path, match[2], match[3], list(zip(names[::2], names[1::2]))))
@@ -76,7 +77,7 @@ def by_new_names(text: str) -> str:
 
 @check("the scenes use every old name")
 def _() -> None:
-    equal("number of renames", len(table), read_text(RENAMES).count("      {{"))
+    equal("number of renames", len(table), read_text(RENAMES).count("\n      {{"))
     text = "".join(map(read_text, OLD))
     for rename in table:
         says(rf"^\s*set {rename.old}\s*=", text)
