@@ -118,13 +118,12 @@ void Material::declare(ParameterHandler &prm) {
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
-                    "Of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
+                    "Density of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
   declare_selection(prm, "Hardening", "linear", hardening_types(),
-                    "Yield stress over equivalent plastic strain e.");
-  declare_selection(
-      prm, "Rate factor", "none", rate_factor_types(),
-      "Factor of the yield stress over the rate of plastic strain; static scenes take their time for "
-      "that of the process.");
+                    "Law of the yield stress over equivalent plastic strain e.");
+  declare_selection(prm, "Rate factor", "none", rate_factor_types(),
+                    "Factor of the yield stress over the rate of plastic strain. In static scenes the time "
+                    "of the scene is that of the process.");
 }
 
 void Material::parse(Reader &reader) {
@@ -245,15 +244,14 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
                     "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' of a plate "
                     "or 'x ; y ; 0' of a tube about z. Each brick takes its axis nearest to it.");
   prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Of dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
+                    "Dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
                     "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or "
                     "with a normal and "
                     "the distance along it, '1, 1, 0 = 3.5'. [length]");
-  prm.declare_entry(
-      "Contact stabilisation", "none", Patterns::Selection("none|until contact"),
-      "Of static scenes. until contact: a weak viscous force holds a body that neither supports "
-      "nor contact hold at the start, and fades once contact supports it.");
+  prm.declare_entry("Contact stabilisation", "none", Patterns::Selection("none|until contact"),
+                    "Static scenes. until contact: a weak viscous force holds a body that neither supports "
+                    "nor contact constrain at the start, and fades once contact supports it.");
   prm.enter_subsection("Mesh");
   Mesh::declare(prm);
   prm.leave_subsection();

@@ -279,16 +279,14 @@ void check_what_is_estimated(const SceneFile &file, const double target) {
 } // namespace
 
 void declare_presets(dealii::ParameterHandler &prm) {
-  prm.declare_entry(
-      profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
-      "One word for speed or accuracy: what parameters of steps, solver, contact and elements are by "
-      "themselves. What the scene sets stays as it is; --check tells what the profile sets. balanced: the "
-      "defaults.");
-  prm.declare_entry(
-      target_key, "", dealii::Patterns::Anything(),
-      "The error of the force curves that the scene is content with, '1 percent', '1 %' or '0.01': steps, "
-      "tolerances and augmentation are chosen, and controlled during the run, by estimates of the error, "
-      "which is told at the end. What the mesh makes is not in it. Empty: none.");
+  prm.declare_entry(profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
+                    "Choice between speed and accuracy: it sets the defaults of parameters of steps, solver, "
+                    "contact and elements. Values in the scene take precedence; --check lists what the "
+                    "profile sets. balanced: the defaults that are listed here.");
+  prm.declare_entry(target_key, "", dealii::Patterns::Anything(),
+                    "Maximum error of the force curves, such as '1 percent', '1 %' or '0.01'. Error "
+                    "estimates control steps, tolerances and augmentation during the run. The estimated "
+                    "error is printed at the end; it excludes the error of the mesh. Empty: none.");
 }
 
 double read_target_error(const SceneFile &file) {

@@ -16,6 +16,8 @@ const std::vector<Rename> &renames() {
       {{"Tools", "*", "Motion"}, "Removed at", "Removal time", {}},
       {{"Contact pairs", "*"}, "Edges", "Edge contact", {}},
       {{"Contact pairs", "*"}, "Penalty of", "Reference stiffness", {}},
+      {{"Contact pairs", "*"}, "Largest shear stress", "Maximum shear stress", {}},
+      {{"Contact pairs", "*"}, "Decay", "Decay coefficient", {}},
       {{"Time stepping"}, "Smallest step", "Minimum step", {}},
       {{"Time stepping"}, "Largest step", "Maximum step", {}},
       {{"Time stepping"}, "Few iterations", "Growth iterations", {}},

@@ -33,7 +33,7 @@ void Motion::declare(ParameterHandler &prm) {
       "translation takes it, along the force direction, until it presses on the bodies with this force. "
       "[force]");
   prm.declare_entry("Force direction", "", Patterns::Anything(),
-                    "Where a tool with a force, or a stop force, presses to.");
+                    "Direction in which a tool with a force, or a stop force, presses.");
   prm.declare_entry(
       "Moment", "", Patterns::Anything(),
       "The same for the rotation: it turns on about its axis until it twists the bodies with this moment. "
@@ -43,14 +43,15 @@ void Motion::declare(ParameterHandler &prm) {
       "Expression of t and the names of amplitudes. Unless empty, the tool stops for good where it presses "
       "along the force direction with this force. [force]");
   prm.declare_entry("Mass", "0", Patterns::Double(),
-                    "Of a tool with a force, in dynamic scenes: > 0. Without a force a heavy tool flies on: "
-                    "'Force = 0'. [mass]");
-  prm.declare_entry("Moment of inertia", "0", Patterns::Double(),
-                    "Of a tool with a moment, in dynamic scenes: > 0, about its axis. [mass length^2]");
+                    "Mass of a tool with a force, in dynamic scenes: > 0. With 'Force = 0' the tool moves by "
+                    "its inertia and contact alone. [mass]");
+  prm.declare_entry(
+      "Moment of inertia", "0", Patterns::Double(),
+      "Moment of inertia of a tool with a moment about its axis, in dynamic scenes: > 0. [mass length^2]");
   prm.declare_entry(
       "Initial speed", "0", Patterns::Double(),
-      "Of a tool with a force or moment, in dynamic scenes: along the force direction, or about "
-      "its axis, on top of its translation and rotation. [length/time, or radians/time]");
+      "Initial speed of a tool with a force or moment, in dynamic scenes: along the force direction, or "
+      "about its axis, in addition to its translation and rotation. [length/time, or radians/time]");
   prm.declare_entry("Removal time", "", Patterns::Anything(),
                     "The tool is removed at this time, so that the bodies spring back; empty: never. [time]");
   prm.declare_entry("Release time", "0", Patterns::Double(),
@@ -185,11 +186,10 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Pairs of bodies, nodes against facets, > 0 and <= 0.5: within this part of a facet's size "
       "from its border normal and gap go over into those of its neighbour. 0.5: across the whole "
       "facet, a smooth surface of mean normals.");
-  prm.declare_entry(
-      "Search margin", "0.5", Patterns::Double(),
-      "Pairs of bodies, > 0: facets up to so far from a node are kept in mind for it; they are "
-      "looked up anew when nodes have moved farther towards each other. Changes the cost, not the "
-      "result. [smallest facet size]");
+  prm.declare_entry("Search margin", "0.5", Patterns::Double(),
+                    "Pairs of bodies, > 0: facets up to this distance from a node are its candidates. The "
+                    "search is repeated when nodes have moved farther towards each other. The margin changes "
+                    "the cost, not the result. [smallest facet size]");
   prm.declare_entry("Reference stiffness", "automatic", Patterns::Selection("automatic|stiffer|series"),
                     "Pairs of bodies, penalty as a factor: the E/h that it multiplies. stiffer: that of the "
                     "stiffer body; series: both in series; automatic: stiffer in explicit scenes, series "
@@ -198,13 +198,13 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Friction law", "Coulomb",
       Patterns::Selection("Coulomb|shear limited|static-kinetic|pressure dependent"),
       "The shear stress at which nodes slide under a pressure p. Coulomb: mu p; shear limited: mu p, at most "
-      "the largest shear stress; static-kinetic: mu falls from rest to fast sliding as mu_k + (mu - mu_k) "
+      "the maximum shear stress; static-kinetic: mu falls from rest to fast sliding as mu_k + (mu - mu_k) "
       "exp(-c v), v the slip rate; pressure dependent: mu (p/p_0)^(e-1) p.");
   prm.declare_entry("Friction coefficient", "0", Patterns::Double(),
                     "mu >= 0; at rest, or at the reference pressure. 0: no friction.");
-  prm.declare_entry("Largest shear stress", "0", Patterns::Double(), "> 0, whatever the pressure. [stress]");
+  prm.declare_entry("Maximum shear stress", "0", Patterns::Double(), "> 0, whatever the pressure. [stress]");
   prm.declare_entry("Kinetic friction coefficient", "0", Patterns::Double(), "mu_k > 0, not above mu.");
-  prm.declare_entry("Decay", "0", Patterns::Double(), "c >= 0. [time/length]");
+  prm.declare_entry("Decay coefficient", "0", Patterns::Double(), "c >= 0. [time/length]");
   prm.declare_entry("Reference pressure", "0", Patterns::Double(), "p_0 > 0. [stress]");
   prm.declare_entry("Pressure exponent", "1", Patterns::Double(), "0 < e <= 1.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection("factor|absolute"),
@@ -229,12 +229,13 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Allowed initial penetration", "1e-3", Patterns::Double(),
       "A body that starts deeper than this inside the tool, or another body, is refused. [facet "
       "sizes]");
-  prm.declare_entry("Initial penetration", "error", Patterns::Selection("error|shift|ramp"),
-                    "Where more than that is found. error: the scene is refused; shift, of implicit scenes: "
-                    "gaps are measured from where nodes start, without stress; ramp, of implicit scenes: the "
-                    "same at the start, but less and less until the 'Ramp time', as in a press fit.");
+  prm.declare_entry(
+      "Initial penetration", "error", Patterns::Selection("error|shift|ramp"),
+      "Treatment of an initial penetration above the allowed one. error: the scene is refused; shift, in "
+      "implicit scenes: gaps are measured from where nodes start, without stress; ramp, in implicit scenes: "
+      "the same at the start, but the shift vanishes until the 'Ramp time', as in a press fit.");
   prm.declare_entry("Ramp time", "0", Patterns::Double(),
-                    "> 0: when an initial penetration is resolved. [time]");
+                    "> 0: time at which an initial penetration is resolved. [time]");
   prm.declare_entry("Initial gap", "open", Patterns::Anything(),
                     "open; or 'close within D', D > 0: faces that start apart by no more than D count as "
                     "touching, without stress, and their gap is measured from there. For assemblies that "
@@ -403,18 +404,18 @@ void ContactPair::parse_friction(Reader &reader) {
                  : law == "static-kinetic" ? FrictionLaw::static_kinetic
                                            : FrictionLaw::pressure_dependent;
   friction_coefficient = reader.not_negative("Friction coefficient");
-  largest_shear_stress = reader.number("Largest shear stress");
+  largest_shear_stress = reader.number("Maximum shear stress");
   kinetic_coefficient = reader.number("Kinetic friction coefficient");
-  friction_decay = reader.number("Decay");
+  friction_decay = reader.number("Decay coefficient");
   reference_pressure = reader.number("Reference pressure");
   pressure_exponent = reader.number("Pressure exponent");
   if (friction_coefficient == 0. && friction_law != FrictionLaw::coulomb)
     reader.reject("Friction coefficient", "a number > 0, since there is a friction law");
 
   const std::vector<std::pair<std::string, FrictionLaw>> users = {
-      {"Largest shear stress", FrictionLaw::shear_limited},
+      {"Maximum shear stress", FrictionLaw::shear_limited},
       {"Kinetic friction coefficient", FrictionLaw::static_kinetic},
-      {"Decay", FrictionLaw::static_kinetic},
+      {"Decay coefficient", FrictionLaw::static_kinetic},
       {"Reference pressure", FrictionLaw::pressure_dependent},
       {"Pressure exponent", FrictionLaw::pressure_dependent}};
   for (const auto &[key, user] : users)
@@ -424,13 +425,13 @@ void ContactPair::parse_friction(Reader &reader) {
   case FrictionLaw::coulomb:
     break;
   case FrictionLaw::shear_limited:
-    reader.positive("Largest shear stress");
+    reader.positive("Maximum shear stress");
     break;
   case FrictionLaw::static_kinetic:
     reader.positive("Kinetic friction coefficient");
     if (kinetic_coefficient > friction_coefficient)
       reader.reject("Kinetic friction coefficient", "a number not above the friction coefficient");
-    reader.not_negative("Decay");
+    reader.not_negative("Decay coefficient");
     break;
   case FrictionLaw::pressure_dependent:
     reader.positive("Reference pressure");

@@ -219,12 +219,12 @@ def pair(k, f, **more):
         p["Friction law"] = k.friction_law
         law = friction(k)
         if k.friction_law == "shear limited":
-            p["Largest shear stress"] = number(law["largest"] * f.stress)
+            p["Maximum shear stress"] = number(law["largest"] * f.stress)
         elif k.friction_law == "static-kinetic":
             p.update(
                 {
                     "Kinetic friction coefficient": number(law["kinetic"]),
-                    "Decay": number(law["decay"] / f.speed),
+                    "Decay coefficient": number(law["decay"] / f.speed),
                 }
             )
         elif k.friction_law == "pressure dependent":

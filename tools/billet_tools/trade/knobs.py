@@ -291,7 +291,7 @@ def pairs(scene: Scene, of_bodies: bool = False) -> list[str]:
 
 def has_friction(scene: Scene) -> bool:
     return any(
-        scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Largest shear stress") > 0
+        scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Maximum shear stress") > 0
         for pair in pairs(scene)
     )
 
