@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/parameters/scene_update.h"
 #include "billet/run/check.h"
 #include "billet/run/simulation.h"
 #include "billet/version.h"
 
 #include <deal.II/base/mpi.h>
 
+#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -19,6 +21,7 @@ const char help[] =
     R"(Usage: mpirun -n N billet SCENE.prm      run a scene on N processes
        billet --restart FILE SCENE.prm  resume from a checkpoint
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
+       billet --update-scene OLD [NEW]  write a scene with today's names of parameters to NEW, or print it
        billet --print-parameters        every parameter with default, range, unit and meaning
        billet --print-diagnostics       every message by its key, with meaning and remedy
        billet --version | --help
@@ -32,7 +35,7 @@ in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1
 exceeds the 'Target error'.
 )";
 
-enum class Task { run, check, print_parameters, print_diagnostics, version, help };
+enum class Task { run, check, update_scene, print_parameters, print_diagnostics, version, help };
 
 struct CommandLine {
   Task task = Task::help;
@@ -61,6 +64,8 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
       command.task = Task::print_diagnostics;
     else if (argument == "--check")
       command.task = Task::check;
+    else if (argument == "--update-scene")
+      command.task = Task::update_scene;
     else if (argument == "--restart") {
       if (++next == arguments.end() || next->empty())
         throw billet::InputError(std::string("command line: --restart names no checkpoint.\n") + help);
@@ -74,13 +79,15 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     return command;
   if (command.scenes.empty())
     throw billet::InputError(std::string("command line: no scene file is named.\n") + help);
-  if (command.task != Task::check) {
+  if (command.task == Task::check)
+    return command;
+  if (command.json)
+    refuse("--json");
+  if (command.task != Task::update_scene)
     command.task = Task::run;
-    if (command.json)
-      refuse("--json");
-    if (command.scenes.size() > 1)
-      refuse(command.scenes[1]);
-  }
+  const std::size_t max_files = command.task == Task::run ? 1 : 2;
+  if (command.scenes.size() > max_files)
+    refuse(command.scenes[max_files]);
   return command;
 }
 
@@ -100,6 +107,29 @@ template <class Error> void print_error(const Error &error, const bool is_first)
 void print_refusal(const std::string &file, const billet::InputError &error, const bool is_first) {
   if (is_first)
     std::cout << billet::describe_refusal_as_json(file, error.diagnostic()) << "\n";
+}
+
+/// Writes the scene of the first file under today's names to the second file, or prints it. What was changed
+/// is printed beside it.
+void update_scene(const std::vector<std::string> &files) {
+  const billet::SceneUpdate update = billet::update_scene(files.front());
+  const bool has_target = files.size() > 1;
+  if (has_target) {
+    std::ofstream stream(files.back(), std::ios::binary);
+    stream << update.text;
+    stream.close();
+    if (!stream)
+      throw billet::InputError("command line: found '" + files.back() +
+                               "', allowed is a file that can be written");
+  } else
+    std::cout << update.text;
+  std::ostream &report = has_target ? std::cout : std::cerr;
+  for (const auto &change : update.changes)
+    report << change << "\n";
+  for (const auto &change : update.left)
+    report << change << "; this included file is not changed, update it too\n";
+  if (update.changes.empty() && update.left.empty())
+    report << files.front() << ": all names are today's\n";
 }
 
 void print_diagnostic_kinds(std::ostream &stream) {
@@ -149,6 +179,12 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
           print_error(error, is_first);
         code = ExitCode::bad_input;
       }
+    break;
+  case Task::update_scene:
+    billet::fail_together(MPI_COMM_WORLD, [&] {
+      if (is_first)
+        update_scene(command.scenes);
+    });
     break;
   case Task::run:
     code = billet::run_simulation(read_scene(command.scenes.front(), command.restart_file), MPI_COMM_WORLD);

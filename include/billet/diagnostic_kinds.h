@@ -14,6 +14,11 @@ inline const DiagnosticKind
     bad_input("bad-input", Severity::error,
               "The scene file, a file that it names or the command line cannot be used.", "");
 
+inline const DiagnosticKind
+    old_name("old-name", Severity::warning,
+             "The scene uses the old name of a parameter or of a value. Version 1.0 will refuse it.",
+             "Convert the scene by 'billet --update-scene'");
+
 inline const DiagnosticKind tool_smaller_than_facets(
     "tool-smaller-than-facets", Severity::warning,
     "A tool is smaller than the facets that it meets. It can enter between their nodes without a force.",
@@ -179,13 +184,13 @@ inline const DiagnosticKind contact_dissipates(
     "contact-dissipates", Severity::warning,
     "Contact has removed much energy beside friction, because the time steps do not resolve how it opens "
     "and closes. The message names the cause.",
-    "Where bodies should bounce, reduce 'Error tolerance', 'Largest step' or the penalty");
+    "Where bodies should bounce, reduce 'Error tolerance', 'Maximum step' or the penalty");
 
 inline const DiagnosticKind numerical_dissipation(
     "numerical-dissipation", Severity::warning,
     "Implicit time integration has dissipated, or made, more than 5 % of the largest energy: its steps "
     "do not resolve the motion.",
-    "Reduce 'Error tolerance' or 'Largest step', if the motion matters that is damped; 'Method = Newmark' "
+    "Reduce 'Error tolerance' or 'Maximum step', if the motion matters that is damped; 'Method = Newmark' "
     "dissipates nothing");
 
 inline const DiagnosticKind lumped_inertia(
@@ -225,7 +230,7 @@ inline const DiagnosticKind ill_conditioned(
 inline const DiagnosticKind
     energy_imbalance("energy-imbalance", Severity::warning,
                      "The energies do not balance: forces do work that no account knows.",
-                     "Reduce 'Largest step'");
+                     "Reduce 'Maximum step'");
 
 inline const DiagnosticKind element_too_stiff(
     "element-too-stiff", Severity::warning,
@@ -311,7 +316,7 @@ inline const DiagnosticKind unsupported_body(
 
 inline const DiagnosticKind stabilisation_too_strong(
     "stabilisation-too-strong", Severity::warning,
-    "The viscous forces of 'Stabilise = until touched' did more than 0.1 % of all work.",
+    "The viscous forces of 'Contact stabilisation = until contact' did more than 0.1 % of all work.",
     "Let the body touch at the start or move over a shorter way, close small gaps by 'Initial gap = close "
     "within', or hold it by a support or a symmetry plane");
 
@@ -319,20 +324,21 @@ inline const DiagnosticKind stabilised_at_end(
     "stabilised-at-end", Severity::note,
     "At the end of the run contact still leaves a rigid-body mode of a body free, and only the viscous "
     "forces "
-    "of 'Stabilise = until touched' resist it. Where the body stands along that mode is arbitrary.",
+    "of 'Contact stabilisation = until contact' resist it. Where the body stands along that mode is "
+    "arbitrary.",
     "Hold the mode by a support or a symmetry plane, or use friction");
 
-inline const DiagnosticKind
-    stabilised_loads("stabilised-loads", Severity::warning,
-                     "At the end of the run the viscous forces of 'Stabilise = until touched' bear more than "
-                     "0.1 % of the forces: contact does not hold the body yet, or no longer.",
-                     "Check whether the body reaches what it is to touch, or hold it by a support or a "
-                     "symmetry plane");
+inline const DiagnosticKind stabilised_loads(
+    "stabilised-loads", Severity::warning,
+    "At the end of the run the viscous forces of 'Contact stabilisation = until contact' bear more than "
+    "0.1 % of the forces: contact does not hold the body yet, or no longer.",
+    "Check whether the body reaches what it is to touch, or hold it by a support or a "
+    "symmetry plane");
 
 inline const DiagnosticKind needless_stabilisation(
     "needless-stabilisation", Severity::note,
-    "'Stabilise = until touched' has no effect on a body that supports and symmetry planes hold.",
-    "Set 'Stabilise = no'");
+    "'Contact stabilisation = until contact' has no effect on a body that supports and symmetry planes hold.",
+    "Set 'Contact stabilisation = none'");
 
 inline const DiagnosticKind exact_tangent(
     "exact-tangent", Severity::note,
@@ -342,7 +348,7 @@ inline const DiagnosticKind stalled_step(
     "stalled-step", Severity::warning,
     "Newton's method could not reach its tolerances in a step, because of round-off or contact chatter. The "
     "step was accepted with a residual of at most 2 % of the forces.",
-    "Compare the forces with those of a run with a smaller 'Largest step' or a lower 'Normal penalty'");
+    "Compare the forces with those of a run with a smaller 'Maximum step' or a lower 'Normal penalty'");
 
 inline const DiagnosticKind direct_solver("direct-solver", Severity::note,
                                           "The iterative linear solver failed, or the matrix is nearly "
@@ -375,9 +381,9 @@ inline const DiagnosticKind checkpoint_failed("checkpoint-failed", Severity::war
 inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
                                             "The computation cannot continue.", "");
 
-inline const DiagnosticKind energy_drift("energy-drift", Severity::error,
-                                         "The energies fail to balance by more than 'Largest drift' allows.",
-                                         "");
+inline const DiagnosticKind
+    energy_drift("energy-drift", Severity::error,
+                 "The energies fail to balance by more than 'Maximum energy drift' allows.", "");
 
 inline const DiagnosticKind internal_error("internal-error", Severity::error,
                                            "A defect of the program or of the machine.",

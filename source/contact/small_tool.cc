@@ -42,7 +42,7 @@ std::string RigidContact::describe_passage() const {
   text << "nodes of contact pair '" << pair_.name << "' go through tool '" << tool_.name() << "', which is "
        << thin_tool_->thickness()
        << " thick: they travel further in a step, or its penalty lets them in as deep. Try "
-       << (is_explicit_ ? "a smaller 'Safety factor'" : "a smaller 'Largest step'")
+       << (is_explicit_ ? "a smaller 'Safety factor'" : "a smaller 'Maximum step'")
        << ", a larger 'Normal penalty', or facets as small as the tool";
   return text.str();
 }

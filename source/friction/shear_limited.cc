@@ -18,10 +18,10 @@ FrictionLawType shear_limited_type() {
   return {"shear limited",
           "mu p, at most the largest shear stress",
           {friction_coefficient_parameter,
-           {"Largest shear stress", "0", Kind::number, "> 0, whatever the pressure. [stress]"}},
+           {"Maximum shear stress", "0", Kind::number, "> 0, whatever the pressure. [stress]"}},
           [](const TypeInput &input) {
             const double coefficient = read_friction_coefficient(input);
-            return std::make_shared<const ShearLimited>(coefficient, input.positive("Largest shear stress"));
+            return std::make_shared<const ShearLimited>(coefficient, input.positive("Maximum shear stress"));
           }};
 }
 

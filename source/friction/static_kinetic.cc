@@ -19,14 +19,15 @@ FrictionLawType static_kinetic_type() {
           "mu falls from rest to fast sliding as mu_k + (mu - mu_k) exp(-c v), v the slip rate",
           {friction_coefficient_parameter,
            {"Kinetic friction coefficient", "0", Kind::number, "mu_k > 0, not above mu."},
-           {"Decay", "0", Kind::number, "c >= 0. [time/length]"}},
+           {"Decay coefficient", "0", Kind::number, "c >= 0. [time/length]"}},
           [](const TypeInput &input) {
             const double at_rest = read_friction_coefficient(input);
             const std::string key = "Kinetic friction coefficient";
             const double kinetic = input.positive(key);
             if (kinetic > at_rest)
               input.reject(key, "a number not above the friction coefficient");
-            return std::make_shared<const StaticKinetic>(at_rest, kinetic, input.not_negative("Decay"));
+            return std::make_shared<const StaticKinetic>(at_rest, kinetic,
+                                                         input.not_negative("Decay coefficient"));
           }};
 }
 

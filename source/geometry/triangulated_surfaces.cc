@@ -43,12 +43,12 @@ TriangleEdges connect(const TypeInput &input, const TriangleMesh &mesh) {
 SurfacePatches make(const TypeInput &input) {
   const double scale = input.positive("Scale");
   const auto translation = input.vector("Translation");
-  const double sharp_angle = input.number("Sharp angle");
+  const double sharp_angle = input.number("Feature angle");
   const bool is_smoothed = input.flag("Smoothing");
   if (!(sharp_angle >= 0. && sharp_angle <= 90.))
-    input.reject("Sharp angle", "a number from 0 to 90");
-  if (!is_smoothed && input.is_set("Sharp angle"))
-    input.reject("Sharp angle", "no value: without smoothing every edge stays as it is");
+    input.reject("Feature angle", "a number from 0 to 90");
+  if (!is_smoothed && input.is_set("Feature angle"))
+    input.reject("Feature angle", "no value: without smoothing every edge stays as it is");
 
   TriangleMesh mesh = read_welded(input);
   const double sign = side_sign(input);
@@ -85,7 +85,7 @@ SurfaceType stl_type() {
        {"Closed", "true", Kind::flag,
         "Whether every edge must have two facets; else there is no surface beyond those that have one."},
        {"Smoothing", "true", Kind::flag, "Whether triangles are curved; else they are flat."},
-       {"Sharp angle", "30", Kind::number,
+       {"Feature angle", "30", Kind::number,
         "From 0 to 90. Edges at which the facets' normals differ by more stay sharp. [degrees]"}},
       make};
 }

@@ -25,15 +25,16 @@ std::string EnergyWatch::advise(const Cause cause) {
            "'Body' and 'Second body' of that contact pair, or use smaller facets there";
   case Cause::unstable_law:
     return "the law of an elastic body has lost its ellipticity. Reduce the strains, or choose the "
-           "'Kinematics' "
+           "'Elasticity' "
            "that the warning names";
   case Cause::inexact_dissipation:
     return "a body that yields has large elastic strains, and its law, which is not Hencky's, knows its "
-           "dissipation only to their order. Choose 'Kinematics = Hencky', or increase 'Largest drift'";
+           "dissipation only to their order. Choose 'Elasticity = Hencky', or increase 'Maximum energy "
+           "drift'";
   case Cause::steps:
     break;
   }
-  return "the steps do not resolve how contacts open and close. Reduce 'Error tolerance', 'Largest step', "
+  return "the steps do not resolve how contacts open and close. Reduce 'Error tolerance', 'Maximum step', "
          "the "
          "penalty or 'Spectral radius'";
 }
@@ -52,7 +53,7 @@ DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energie
     what.precision(3);
     what << "the energies fail to balance by " << 100. * drift / largest_ << " % of the largest so far";
     if (balance_ == Balance::is_kept) {
-      what << ", allowed are " << 100. * allowed_drift_ << " % ('Largest drift'): " << advise(*cause_);
+      what << ", allowed are " << 100. * allowed_drift_ << " % ('Maximum energy drift'): " << advise(*cause_);
       imbalance_ = what.str();
     } else {
       std::string text = what.str(), advice = advise(*cause_);

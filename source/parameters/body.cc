@@ -113,22 +113,22 @@ void Mesh::parse(Reader &reader) {
 
 void Material::declare(ParameterHandler &prm) {
   prm.declare_entry("Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
-                    "Elasticity, alone or with J2 plasticity (yield in Kirchhoff stress, exact return map).");
-  declare_selection(prm, "Kinematics", "Hencky", elasticity_types(),
-                    "Elasticity, and how it goes with plasticity.");
+                    "elastic: no plasticity; elastoplastic: J2 plasticity (yield in Kirchhoff stress, exact "
+                    "return map).");
+  declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
+                    "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
-                    "Of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
+                    "Density of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
   declare_selection(prm, "Hardening", "linear", hardening_types(),
-                    "Yield stress over equivalent plastic strain e.");
-  declare_selection(
-      prm, "Rate factor", "none", rate_factor_types(),
-      "Factor of the yield stress over the rate of plastic strain; static scenes take their time for "
-      "that of the process.");
+                    "Law of the yield stress over equivalent plastic strain e.");
+  declare_selection(prm, "Rate factor", "none", rate_factor_types(),
+                    "Factor of the yield stress over the rate of plastic strain. In static scenes the time "
+                    "of the scene is that of the process.");
 }
 
 void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
-  elasticity = make_selected(reader, "Kinematics", elasticity_types());
+  elasticity = make_selected(reader, "Elasticity", elasticity_types());
   if (reader.text("Law") == "elastic") {
     // What the law does not use may not be set: a forgotten switch is the usual reason.
     for (const std::string key : {"Hardening", "Rate factor"})
@@ -143,7 +143,7 @@ void Material::parse(Reader &reader) {
       make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
                        make_selected(reader, "Rate factor", rate_factor_types())));
   if (law == nullptr)
-    reader.reject("Law", "elastic, since '" + reader.text("Kinematics") + "' knows no plasticity");
+    reader.reject("Law", "elastic, since '" + reader.text("Elasticity") + "' knows no plasticity");
 }
 
 void Support::declare(ParameterHandler &prm) {
@@ -207,15 +207,14 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
                     "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' of a plate "
                     "or 'x ; y ; 0' of a tube about z. Each brick takes its axis nearest to it.");
   prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Of dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
+                    "Dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
                     "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or "
                     "with a normal and "
                     "the distance along it, '1, 1, 0 = 3.5'. [length]");
-  prm.declare_entry(
-      "Stabilise", "no", Patterns::Selection("no|until touched"),
-      "Of static scenes. until touched: a weak viscous force holds a body that neither supports "
-      "nor contact hold at the start, and fades once contact supports it.");
+  prm.declare_entry("Contact stabilisation", "none", Patterns::Selection("none|until contact"),
+                    "Static scenes. until contact: a weak viscous force holds a body that neither supports "
+                    "nor contact constrain at the start, and fades once contact supports it.");
   prm.enter_subsection("Mesh");
   Mesh::declare(prm);
   prm.leave_subsection();
@@ -309,7 +308,7 @@ void Body::parse(Reader &reader) {
     reader.reject("Initial velocity", "three expressions, separated by semicolons");
   initial_velocity =
       reader.located("Initial velocity", std::array<std::string, 3>{velocity[0], velocity[1], velocity[2]});
-  is_stabilised = reader.located("Stabilise", reader.text("Stabilise") != "no");
+  is_stabilised = reader.located("Contact stabilisation", reader.text("Contact stabilisation") != "none");
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));

@@ -14,8 +14,7 @@ namespace Patterns = dealii::Patterns;
 void ImplicitDynamics::declare(ParameterHandler &prm) {
   declare_selection(
       prm, "Method", "generalised-alpha", time_integrator_types(),
-      "How accelerations follow from displacements. Contact needs some damping of what the step "
-      "cannot resolve.");
+      "Time integration method. Contact needs some damping of motions that the step does not resolve.");
   prm.declare_entry("Mass", "consistent", Patterns::Selection("consistent|lumped"),
                     "consistent: that of the elements' shape functions; lumped: its row sums at the nodes, "
                     "as in explicit scenes.");
@@ -23,13 +22,14 @@ void ImplicitDynamics::declare(ParameterHandler &prm) {
                     "Automatic steps: a step is cut if the error of its time integration (Zienkiewicz & Xie "
                     "1991, root mean square over the mass) is above this part of the reference displacement, "
                     "and grows no faster than the error allows. 0: steps follow the iterations alone.");
-  prm.declare_entry("Reference displacement", "0", Patterns::Double(),
-                    "What the error tolerance is a part of. 0: the largest displacement so far (root mean "
-                    "square over the mass), where the motion of whole bodies counts up to the largest one's "
-                    "radius of gyration, and no less than a millionth of the scene's radius. [length]");
-  prm.declare_entry("Largest drift", "0.05", Patterns::Double(),
-                    "The run ends where the energies fail to balance by more than this part of the largest "
-                    "energy so far. 0: it goes on, and 5 % are told.");
+  prm.declare_entry(
+      "Reference displacement", "0", Patterns::Double(),
+      "Displacement to which the error tolerance refers. 0: the largest displacement so far (root mean "
+      "square over the mass), where the motion of whole bodies counts up to the largest one's radius of "
+      "gyration, and no less than a millionth of the scene's radius. [length]");
+  prm.declare_entry("Maximum energy drift", "0.05", Patterns::Double(),
+                    "The run ends if the energies fail to balance by more than this part of the largest "
+                    "energy so far. 0: it continues, and a warning is printed at 5 %.");
 }
 
 void ImplicitDynamics::parse(Reader &reader, const bool steps_are_fixed) {
@@ -37,7 +37,7 @@ void ImplicitDynamics::parse(Reader &reader, const bool steps_are_fixed) {
   mass = reader.text("Mass") == "lumped" ? Mass::lumped : Mass::consistent;
   error_tolerance = reader.not_negative("Error tolerance");
   reference_displacement = reader.not_negative("Reference displacement");
-  largest_drift = reader.not_negative("Largest drift");
+  largest_drift = reader.not_negative("Maximum energy drift");
   if (steps_are_fixed)
     for (const std::string key : {"Error tolerance", "Reference displacement"})
       if (reader.is_set(key))

@@ -45,21 +45,21 @@ constexpr std::array<Row, 34> rows = {{
     {statics_with_slip, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.1 T"},
     {statics_with_folds, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.02 T"},
     {statics_without_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.3 T"},
-    {statics, "Time stepping", "Smallest step", "1e-6 T", "1e-6 T", "1e-6 T"},
-    {statics_with_path, "Time stepping", "Largest step", "0.1 T", "0.02 T", "0.1 T"},
-    {statics_with_slip, "Time stepping", "Largest step", "0.1 T", "0.02 T", "0.2 T"},
-    {statics_with_folds, "Time stepping", "Largest step", "0.1 T", "0.02 T", "0.05 T"},
-    {statics_without_path, "Time stepping", "Largest step", "0.1 T", "0.02 T", "0.5 T"},
+    {statics, "Time stepping", "Minimum step", "1e-6 T", "1e-6 T", "1e-6 T"},
+    {statics_with_path, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.1 T"},
+    {statics_with_slip, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.2 T"},
+    {statics_with_folds, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.05 T"},
+    {statics_without_path, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.5 T"},
     {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.4 E"},
     {implicit_dynamics, "Time stepping", "Initial step", "", "", "0.01 T"},
-    {implicit_dynamics, "Time stepping", "Smallest step", "", "", "1e-7 T"},
-    {implicit_dynamics, "Time stepping", "Largest step", "", "", "0.1 T"},
+    {implicit_dynamics, "Time stepping", "Minimum step", "", "", "1e-7 T"},
+    {implicit_dynamics, "Time stepping", "Maximum step", "", "", "0.1 T"},
     {implicit_dynamics, "Implicit dynamics", "Error tolerance", "2e-2", "1e-4", "0.2 E 2e-2"},
-    {implicit_dynamics, "Time stepping", "Few iterations", "8", "", "8"},
-    {implicit_dynamics, "Time stepping", "Many iterations", "14", "", "14"},
+    {implicit_dynamics, "Time stepping", "Growth iterations", "8", "", "8"},
+    {implicit_dynamics, "Time stepping", "Shrink iterations", "14", "", "14"},
     {implicit_dynamics, "Time stepping", "Growth factor", "2", "", "2"},
-    {statics, "Time stepping", "Few iterations", "", "", "8"},
-    {statics, "Time stepping", "Many iterations", "", "", "14"},
+    {statics, "Time stepping", "Growth iterations", "", "", "8"},
+    {statics, "Time stepping", "Shrink iterations", "", "", "14"},
     {statics, "Time stepping", "Growth factor", "", "", "2"},
     // Equilibrium.
     {statics, "Solver", "Force tolerance", "", "1e-8", "0.3 E 5e-3"},
@@ -81,7 +81,7 @@ constexpr std::array<Row, 34> rows = {{
     // the final instantaneous rotation differs from the multiplicative one by less than a thousandth where
     // elastic strains are small.
     {explicit_dynamics, "Bodies", "Element", "one point", "", ""},
-    {explicit_dynamics, "Materials", "Kinematics", "hypoelastic", "", "hypoelastic"},
+    {explicit_dynamics, "Materials", "Elasticity", "hypoelastic", "", "hypoelastic"},
 }};
 
 constexpr const char *profile_key = "Profile", *target_key = "Target error";
@@ -103,7 +103,7 @@ bool depends_on_path(const SceneFile &file) {
   return std::any_of(bodies.begin(), bodies.end(), [&file](const std::string &name) {
     const Path path = {"Bodies", name, "Material"};
     return file.value(path, "Law", "elastoplastic") != "elastic" ||
-           file.value(path, "Kinematics", "") == "hypoelastic";
+           file.value(path, "Elasticity", "") == "hypoelastic";
   });
 }
 
@@ -172,7 +172,7 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const double 
     return file.value(path, "Penalty unit", "factor") == "factor";
   if (key == "Facets")
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
-  if (key == "Kinematics") // rates of stress keep no elastic energy
+  if (key == "Elasticity") // rates of stress keep no elastic energy
     return file.value(path, "Law", "elastoplastic") != "elastic" &&
            (target == 0. || (target >= least_target_of_rates && has_small_elastic_strains(path, file)));
   return true;
@@ -218,13 +218,13 @@ std::string between(const std::string &key, const std::string &value, const Scen
   };
   const double step = number_in(value, 0.);
   if (key == "Initial step") {
-    const double clamped = std::max(std::min({step, set("Largest step", step), set("End time", 1.)}),
-                                    set("Smallest step", step));
+    const double clamped =
+        std::max(std::min({step, set("Maximum step", step), set("End time", 1.)}), set("Minimum step", step));
     return clamped == step ? value : print(clamped);
   }
-  if (key == "Largest step" && set("Initial step", 0.) > step)
+  if (key == "Maximum step" && set("Initial step", 0.) > step)
     return print(set("Initial step", step));
-  if (key == "Smallest step" && set("Initial step", step) < step)
+  if (key == "Minimum step" && set("Initial step", step) < step)
     return print(set("Initial step", step));
   return value;
 }
@@ -279,16 +279,14 @@ void check_what_is_estimated(const SceneFile &file, const double target) {
 } // namespace
 
 void declare_presets(dealii::ParameterHandler &prm) {
-  prm.declare_entry(
-      profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
-      "One word for speed or accuracy: what parameters of steps, solver, contact and elements are by "
-      "themselves. What the scene sets stays as it is; --check tells what the profile sets. balanced: the "
-      "defaults.");
-  prm.declare_entry(
-      target_key, "", dealii::Patterns::Anything(),
-      "The error of the force curves that the scene is content with, '1 percent', '1 %' or '0.01': steps, "
-      "tolerances and augmentation are chosen, and controlled during the run, by estimates of the error, "
-      "which is told at the end. What the mesh makes is not in it. Empty: none.");
+  prm.declare_entry(profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
+                    "Choice between speed and accuracy: it sets the defaults of parameters of steps, solver, "
+                    "contact and elements. Values in the scene take precedence; --check lists what the "
+                    "profile sets. balanced: the defaults that are listed here.");
+  prm.declare_entry(target_key, "", dealii::Patterns::Anything(),
+                    "Maximum error of the force curves, such as '1 percent', '1 %' or '0.01'. Error "
+                    "estimates control steps, tolerances and augmentation during the run. The estimated "
+                    "error is printed at the end; it excludes the error of the mesh. Empty: none.");
 }
 
 double read_target_error(const SceneFile &file) {

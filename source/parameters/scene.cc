@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
 #include "billet/parameters/declaration.h"
+#include "billet/parameters/scene_update.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -206,7 +207,7 @@ public:
     }
     for (const auto &pair : scene_.pairs)
       if (pair.edges == ContactPair::Edges::held && !scene_.is_explicit())
-        refuse_entry({"Contact pairs", pair.name}, "Edges");
+        refuse_entry({"Contact pairs", pair.name}, "Edge contact");
       else if (scene_.is_explicit()) {
         refuse({"Contact pairs", pair.name}, "Initial penetration");
         if (pair.penetration_tolerance.value_or(0.) > 0.)
@@ -220,7 +221,7 @@ private:
       require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
     if (scene_.is_dynamic() && body.is_stabilised.value)
       throw InputError(body.is_stabilised.origin +
-                       ": found 'until touched', allowed is 'no', since 'Scheme' is " + name_of_scheme() +
+                       ": found 'until contact', allowed is 'none', since 'Scheme' is " + name_of_scheme() +
                        ": the mass of a body resists its motion");
     if (scene_.is_explicit() && body.points_through.value > 2)
       throw InputError(body.points_through.origin + ": found '" + std::to_string(body.points_through.value) +
@@ -284,6 +285,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   file.set_all(prm);
 
   Scene scene;
+  scene.warnings = describe_old_names(file);
   scene.presets = apply_presets(prm, file);
   scene.target_error = read_target_error(file);
   Reader reader(prm, file);
@@ -320,7 +322,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   }
   check_twice(scene.pairs);
   SchemeCheck(scene, file).check();
-  if (scene.is_explicit() && !file.is_set({"Output"}, "Every steps"))
+  if (scene.is_explicit() && !file.is_set({"Output"}, "Step interval"))
     scene.output.every_steps = 0;
   for (const auto &tool : scene.tools)
     if (std::isfinite(tool.motion.removal_time.value) &&

@@ -2,6 +2,7 @@
 #include "billet/parameters/scene_file.h"
 
 #include "billet/errors.h"
+#include "billet/parameters/renames.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -29,6 +30,15 @@ bool take_keyword(std::string &line, const std::string &keyword) {
     return false;
   line = trim(line.substr(keyword.size()));
   return true;
+}
+
+[[noreturn]] void refuse_second(const SceneFile::Entry &entry, const SceneFile::Entry &first) {
+  if (entry.written_key != first.written_key)
+    throw InputError(entry.where + ": found '" + entry.written_key + "' beside '" + first.written_key +
+                     "' at " + first.where + ", which is the same parameter: allowed is '" + entry.key +
+                     "' alone");
+  throw InputError(entry.where + ": '" + entry.written_key + "' is set twice; the first time at " +
+                   first.where);
 }
 
 std::string single_spaced(const std::string &text) {
@@ -100,6 +110,7 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
   const std::size_t outer_depth = path.size();
   std::string line;
   for (unsigned int number = 1; std::getline(text, line); ++number) {
+    const unsigned int first_line = number;
     const std::string where = name + ":" + std::to_string(number);
     std::string next;
     while (!trim(line).empty() && trim(line).back() == '\\' && std::getline(text, next)) {
@@ -133,10 +144,12 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       const auto equals = statement.find('=');
       if (equals == std::string::npos)
         throw InputError(where + ": found 'set " + statement + "'; allowed is 'set parameter = value'");
-      Entry entry{path, single_spaced(trim(statement.substr(0, equals))), trim(statement.substr(equals + 1)),
-                  where};
+      const std::string key = single_spaced(trim(statement.substr(0, equals))),
+                        value = trim(statement.substr(equals + 1));
+      const CurrentNames names = current_names(path, key, value);
+      const Entry entry{path, names.key, names.value, where, key, value, first_line, depth > 0};
       if (const Entry *first = find(path, entry.key))
-        throw InputError(where + ": '" + entry.key + "' is set twice; the first time at " + first->where);
+        refuse_second(entry, *first);
       entries_.push_back(entry);
     } else if (statement == "end") {
       if (path.size() == outer_depth)

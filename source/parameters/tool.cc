@@ -33,7 +33,7 @@ void Motion::declare(ParameterHandler &prm) {
       "translation takes it, along the force direction, until it presses on the bodies with this force. "
       "[force]");
   prm.declare_entry("Force direction", "", Patterns::Anything(),
-                    "Where a tool with a force, or a stop force, presses to.");
+                    "Direction in which a tool with a force, or a stop force, presses.");
   prm.declare_entry(
       "Moment", "", Patterns::Anything(),
       "The same for the rotation: it turns on about its axis until it twists the bodies with this moment. "
@@ -43,17 +43,17 @@ void Motion::declare(ParameterHandler &prm) {
       "Expression of t and the names of amplitudes. Unless empty, the tool stops for good where it presses "
       "along the force direction with this force. [force]");
   prm.declare_entry("Mass", "0", Patterns::Double(),
-                    "Of a tool with a force, in dynamic scenes: > 0. Without a force a heavy tool flies on: "
-                    "'Force = 0'. [mass]");
-  prm.declare_entry("Moment of inertia", "0", Patterns::Double(),
-                    "Of a tool with a moment, in dynamic scenes: > 0, about its axis. [mass length^2]");
+                    "Mass of a tool with a force, in dynamic scenes: > 0. With 'Force = 0' the tool moves by "
+                    "its inertia and contact alone. [mass]");
+  prm.declare_entry(
+      "Moment of inertia", "0", Patterns::Double(),
+      "Moment of inertia of a tool with a moment about its axis, in dynamic scenes: > 0. [mass length^2]");
   prm.declare_entry(
       "Initial speed", "0", Patterns::Double(),
-      "Of a tool with a force or moment, in dynamic scenes: along the force direction, or about "
-      "its axis, on top of its translation and rotation. [length/time, or radians/time]");
-  prm.declare_entry(
-      "Removed at", "", Patterns::Anything(),
-      "The tool is taken away at this time, so that the bodies spring back; empty: never. [time]");
+      "Initial speed of a tool with a force or moment, in dynamic scenes: along the force direction, or "
+      "about its axis, in addition to its translation and rotation. [length/time, or radians/time]");
+  prm.declare_entry("Removal time", "", Patterns::Anything(),
+                    "The tool is removed at this time, so that the bodies spring back; empty: never. [time]");
   prm.declare_entry("Release time", "0", Patterns::Double(),
                     ">= 0, in which the forces of a removed tool fade. [time]");
 }
@@ -97,12 +97,12 @@ void Motion::parse_control(Reader &reader) {
     if (!used && reader.is_set(key))
       reader.reject(key, "no value: the tool's motion is not free");
 
-  removal_time = reader.located("Removed at", std::numeric_limits<double>::infinity());
+  removal_time = reader.located("Removal time", std::numeric_limits<double>::infinity());
   release_time = reader.not_negative("Release time");
-  if (!reader.text("Removed at").empty()) {
-    const auto times = reader.numbers("Removed at");
+  if (!reader.text("Removal time").empty()) {
+    const auto times = reader.numbers("Removal time");
     if (times.size() != 1 || !(times[0] > 0.))
-      reader.reject("Removed at", "a number > 0, or nothing");
+      reader.reject("Removal time", "a number > 0, or nothing");
     removal_time.value = times[0];
   } else if (reader.is_set("Release time"))
     reader.reject("Release time", "no value: the tool is not removed");
@@ -178,23 +178,22 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Passes", "automatic", Patterns::Selection("automatic|one|two"),
       "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
       "half the penalty; one: those of 'Body' alone; automatic: one where faces overlap, else two.");
-  prm.declare_entry(
-      "Edges", "automatic", Patterns::Selection("automatic|true|false|yes|no"),
-      "Pairs of bodies, nodes against facets: true: edges are kept out of edges, too, which nodes "
-      "against facets miss; automatic: true in explicit scenes.");
+  prm.declare_entry("Edge contact", "automatic", Patterns::Selection("automatic|true|false|yes|no"),
+                    "Pairs of bodies, nodes against facets. true: contact of edges with edges, which nodes "
+                    "against facets miss; automatic: true in explicit scenes.");
   prm.declare_entry(
       "Smoothing", "0.1", Patterns::Double(),
       "Pairs of bodies, nodes against facets, > 0 and <= 0.5: within this part of a facet's size "
       "from its border normal and gap go over into those of its neighbour. 0.5: across the whole "
       "facet, a smooth surface of mean normals.");
-  prm.declare_entry(
-      "Search margin", "0.5", Patterns::Double(),
-      "Pairs of bodies, > 0: facets up to so far from a node are kept in mind for it; they are "
-      "looked up anew when nodes have moved farther towards each other. Changes the cost, not the "
-      "result. [smallest facet size]");
-  prm.declare_entry("Penalty of", "automatic", Patterns::Selection("automatic|stiffer|series"),
-                    "Pairs of bodies, penalty as a factor: the E/h of the stiffer body, or both in series; "
-                    "automatic: of the stiffer one in explicit scenes, in series in implicit ones.");
+  prm.declare_entry("Search margin", "0.5", Patterns::Double(),
+                    "Pairs of bodies, > 0: facets up to this distance from a node are its candidates. The "
+                    "search is repeated when nodes have moved farther towards each other. The margin changes "
+                    "the cost, not the result. [smallest facet size]");
+  prm.declare_entry("Reference stiffness", "automatic", Patterns::Selection("automatic|stiffer|series"),
+                    "Pairs of bodies, penalty as a factor: the E/h that it multiplies. stiffer: that of the "
+                    "stiffer body; series: both in series; automatic: stiffer in explicit scenes, series "
+                    "in implicit ones.");
   declare_selection(prm, "Friction law", "Coulomb", friction_law_types(),
                     "The shear stress at which nodes slide under a pressure p.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection("factor|absolute"),
@@ -219,12 +218,13 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Allowed initial penetration", "1e-3", Patterns::Double(),
       "A body that starts deeper than this inside the tool, or another body, is refused. [facet "
       "sizes]");
-  prm.declare_entry("Initial penetration", "error", Patterns::Selection("error|shift|ramp"),
-                    "Where more than that is found. error: the scene is refused; shift, of implicit scenes: "
-                    "gaps are measured from where nodes start, without stress; ramp, of implicit scenes: the "
-                    "same at the start, but less and less until the 'Ramp time', as in a press fit.");
+  prm.declare_entry(
+      "Initial penetration", "error", Patterns::Selection("error|shift|ramp"),
+      "Treatment of an initial penetration above the allowed one. error: the scene is refused; shift, in "
+      "implicit scenes: gaps are measured from where nodes start, without stress; ramp, in implicit scenes: "
+      "the same at the start, but the shift vanishes until the 'Ramp time', as in a press fit.");
   prm.declare_entry("Ramp time", "0", Patterns::Double(),
-                    "> 0: when an initial penetration is resolved. [time]");
+                    "> 0: time at which an initial penetration is resolved. [time]");
   prm.declare_entry("Initial gap", "open", Patterns::Anything(),
                     "open; or 'close within D', D > 0: faces that start apart by no more than D count as "
                     "touching, without stress, and their gap is measured from there. For assemblies that "
@@ -361,8 +361,8 @@ void ContactPair::parse_bodies(Reader &reader) {
   second_boundary_ids = reader.located("Second boundary ids", reader.counts("Second boundary ids"));
   refuse_twice(reader, "Second boundary ids", second_boundary_ids.value);
   if (!is_between_bodies())
-    for (const std::string key :
-         {"Second boundary ids", "Facets", "Passes", "Edges", "Penalty of", "Smoothing", "Search margin"})
+    for (const std::string key : {"Second boundary ids", "Facets", "Passes", "Edge contact",
+                                  "Reference stiffness", "Smoothing", "Search margin"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the pair is of a body and a tool");
   if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.value.empty())
@@ -377,19 +377,19 @@ void ContactPair::parse_bodies(Reader &reader) {
   passes = chosen_passes == "one" ? Passes::one : chosen_passes == "two" ? Passes::two : Passes::automatic;
   if (passes == Passes::one && second_body.value == body.value)
     reader.reject("Passes", "two: of a body that touches itself, every node is kept out");
-  const std::string edge_contact = reader.text("Edges");
+  const std::string edge_contact = reader.text("Edge contact");
   edges = edge_contact == "automatic"                       ? Edges::automatic
           : edge_contact == "true" || edge_contact == "yes" ? Edges::held
                                                             : Edges::free;
   if (edges == Edges::held && facets.value == Facets::overlap)
-    reader.reject("Edges", "no value: faces that overlap see edges");
+    reader.reject("Edge contact", "no value: faces that overlap see edges");
   smoothing = reader.positive("Smoothing");
   if (smoothing > 0.5)
     reader.reject("Smoothing", "a number > 0 and <= 0.5");
   if (facets.value == Facets::overlap && reader.is_set("Smoothing"))
     reader.reject("Smoothing", "no value: faces that overlap go over into each other by their areas");
   search_margin = reader.positive("Search margin");
-  const std::string chosen_penalty = reader.text("Penalty of");
+  const std::string chosen_penalty = reader.text("Reference stiffness");
   penalty_of = chosen_penalty == "stiffer"  ? PenaltyOf::stiffer
                : chosen_penalty == "series" ? PenaltyOf::series
                                             : PenaltyOf::automatic;

@@ -61,8 +61,9 @@ void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator
     const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
   const Scene scene(parameters);
   constexpr std::size_t max_elements = 500000; // a minute and some GB on one rank
-  DiagnosticList messages = scene.count_elements() <= max_elements ? check_start(scene, communicator)
-                                                                   : check_outline(scene, communicator);
+  DiagnosticList messages = parameters.warnings;
+  append(messages, scene.count_elements() <= max_elements ? check_start(scene, communicator)
+                                                          : check_outline(scene, communicator));
   append(messages, check_bricks(scene));
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
     return;

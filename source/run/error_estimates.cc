@@ -18,7 +18,7 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
   result.is_known = belief.has_results;
   result.sources = {
       {"steps", estimate.steps,
-       "Reduce 'Largest step' or 'Initial step': no step is rejected for its error, and where contacts open "
+       "Reduce 'Maximum step' or 'Initial step': no step is rejected for its error, and where contacts open "
        "and "
        "close the estimate is on the safe side",
        !watch.measures_steps() || watch.n_measurements() > 0},

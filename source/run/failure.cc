@@ -101,12 +101,12 @@ std::string explain_failed_step(const parameters::Scene &parameters, const StepR
   if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
   else
-    message << "The step cannot be cut below 'Smallest step' = " << parameters.time_stepping.smallest_step
+    message << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.smallest_step
             << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
                                         : ":")
             << (report.newton.goes_round   ? ""
-                : parameters.pairs.empty() ? " try more 'Most iterations', or"
-                                           : " try a softer penalty, more 'Most iterations', or")
+                : parameters.pairs.empty() ? " try a larger 'Maximum iterations', or"
+                                           : " try a softer penalty, a larger 'Maximum iterations', or")
             << " look at the last picture for an unstable or torn mesh";
   return message.str() + describe_incompressibility(parameters) +
          (is_unstable ? ". Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +
@@ -129,7 +129,7 @@ std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, c
   if (std::isfinite(problem.relative_drift()))
     message << "fail to balance by " << 100. * problem.relative_drift()
             << " % of the largest energy so far, allowed are "
-            << 100. * parameters.explicit_dynamics.largest_drift << " % ('Largest drift'): "
+            << 100. * parameters.explicit_dynamics.largest_drift << " % ('Maximum energy drift'): "
             << (!advice.empty() ? advice
                 : problem.has_soft_penalties()
                     ? "contact pairs are soft, and nodes that are deep make energy: try a larger 'Normal "

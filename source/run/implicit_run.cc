@@ -193,7 +193,7 @@ void ImplicitRun::end(RunOutput &output) {
   if (watch_)
     report_errors(make_report(*watch_, report_), problem_, discretization_, parameters_, review_, output);
   if (errors_) {
-    ErrorReport estimate = make_report(*errors_, "Reduce 'Largest step'");
+    ErrorReport estimate = make_report(*errors_, "Reduce 'Maximum step'");
     estimate.costs = {{"steps taken", report_.step}, {"Newton iterations", report_.total_iterations}};
     report_errors(std::move(estimate), problem_, discretization_, parameters_, review_, output);
   }

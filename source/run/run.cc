@@ -10,6 +10,7 @@ namespace billet {
 void Run::announce(const Solution &solution, RunOutput &output, const Resumption *resumption,
                    const double force_tolerance) const {
   output.progress().start(discretization_, solution);
+  output.report(scene_.parameters().warnings);
   output.report(solution.initial_diagnostics());
   output.report(review_.start());
   if (resumption == nullptr)

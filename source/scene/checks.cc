@@ -126,7 +126,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const auto &is_stabilised = parameters_.bodies[b].is_stabilised;
     if (is_stabilised.value && !may_touch_bodies &&
         std::none_of(pairs_.begin(), pairs_.end(), [b](const auto &pair) { return pair.body == b; }))
-      throw InputError(is_stabilised.origin + ": found 'until touched', allowed is 'no': body '" +
+      throw InputError(is_stabilised.origin + ": found 'until contact', allowed is 'none': body '" +
                        bodies_[b].name +
                        "' has no contact pair with a tool or another body that could support it");
     if (may_touch_bodies)
@@ -151,7 +151,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     if (motion && std::isfinite(last_removal)) {
       std::ostringstream message;
       message << parameters_.bodies[b].origin << ": the body is without support from time " << last_removal
-              << " on, when all tools that it may touch are removed ('Removed at'): neither supports nor "
+              << " on, when all tools that it may touch are removed ('Removal time'): neither supports nor "
                  "symmetry planes hold its rigid motion with "
               << print(*motion) << ". Allowed in a static scene: none that is free";
       throw InputError(message.str());

@@ -492,7 +492,7 @@ void Scene::describe(std::ostream &stream) const {
     stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_law(body) << ", "
            << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
            << " supports, " << body.loads.size() << " loads"
-           << (body.is_stabilised.value ? ", stabilised until touched\n" : "\n");
+           << (body.is_stabilised.value ? ", stabilised until contact\n" : "\n");
   }
   for (const auto &tool : tools_) {
     stream << "Tool           " << tool.name() << ": rigid " << tool.shapes();
@@ -591,7 +591,7 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
                                {"supports", body.supports.size()},
                                {"loads", body.loads.size()}});
     if (body.is_stabilised.value)
-      scene["bodies"].back()["stabilised"] = "until touched";
+      scene["bodies"].back()["stabilised"] = "until contact";
   }
   scene["tools"] = Json::array();
   for (const auto &tool : tools_) {

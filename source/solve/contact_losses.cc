@@ -19,10 +19,10 @@ struct Description {
 };
 constexpr std::array<Description, 3> descriptions{
     {{"impacts within a step, which are damped",
-      "Where bodies should bounce, reduce 'Error tolerance', 'Largest step' or 'Normal penalty'"},
-     {"springs of friction in damped steps", "Reduce 'Largest step' or 'Tangential penalty'"},
+      "Where bodies should bounce, reduce 'Error tolerance', 'Maximum step' or 'Normal penalty'"},
+     {"springs of friction in damped steps", "Reduce 'Maximum step' or 'Tangential penalty'"},
      {"nodes that enter or leave contact within a step, and contact areas that change",
-      "Reduce 'Largest step' or 'Normal penalty'"}}};
+      "Reduce 'Maximum step' or 'Normal penalty'"}}};
 
 } // namespace
 

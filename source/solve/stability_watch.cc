@@ -58,7 +58,7 @@ DiagnosticList StabilityWatch::check(const double time, const Vector &displaceme
             .body(watched.name)
             .time(time)
             .advice(NeoHookeanElasticity(watched.law->elastic()).least_wave_stiffness(stretches) > 0.
-                        ? "Choose 'Kinematics = neo-Hookean', which is stable there, or reduce "
+                        ? "Choose 'Elasticity = neo-Hookean', which is stable there, or reduce "
                           "the strains"
                         : ""));
   }

@@ -13,7 +13,7 @@ LIMIT = 40  # CPU seconds of CalculiX
 steps = {
     "Time stepping/End time": PART,
     "Time stepping/Initial step": STEP,
-    "Time stepping/Largest step": STEP,
+    "Time stepping/Maximum step": STEP,
 }
 BILLET = {"billet, MUMPS": "MUMPS", "billet, GMRES with multigrid": "GMRES"}
 CCX = {"ccx C3D8R, node to surface": NODES, "ccx C3D8R, surface to surface": FACES_CONTACT}

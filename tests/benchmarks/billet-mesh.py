@@ -7,7 +7,7 @@ from billet_runs import Run, arguments, curve_error, mesh, n_elements, number, p
 
 options = arguments("billet-mesh")
 STEPS = 50
-stepping = {"Time stepping/Initial step": 1 / STEPS, "Time stepping/Largest step": 1 / STEPS}
+stepping = {"Time stepping/Initial step": 1 / STEPS, "Time stepping/Maximum step": 1 / STEPS}
 TIMES = (0.2, 0.4, 0.6, 0.8, 0.9, 1.0)
 levels = (1, 2) if options.quick else (1, 2, 3, 4) if options.large else (1, 2, 3)
 runs = {level: Run({**mesh(level), **stepping}, options.ranks) for level in levels}

@@ -32,7 +32,7 @@ def run(level, end, solver):
         {
             **mesh(level),
             "Time stepping/End time": end,
-            "Time stepping/Largest step": 0.02,
+            "Time stepping/Maximum step": 0.02,
             "Solver/Linear solver": solver,
             "Output/Format": "none",
             "Output/Verbosity": "quiet",

@@ -27,7 +27,7 @@ def outcome(r):
 
 def automatic(tangent, *changes):
     # A tangent that needs thousands of steps is no choice: it may give up.
-    r = run(tangent, {"Time stepping/Smallest step": 1e-4}, *changes)
+    r = run(tangent, {"Time stepping/Minimum step": 1e-4}, *changes)
     return (
         [f"{r.iterations} / {r.steps}", r.cuts, number(r.forces[-1], 4)]
         if r.converged

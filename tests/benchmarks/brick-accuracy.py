@@ -24,7 +24,7 @@ def dead_load(kind, traction, axis, far, components="x, y, z"):
         "Time stepping/Scheme": "implicit dynamics",
         "Bodies/body/Material/Density": 1e-20,
         "Implicit dynamics/Spectral radius": 0,
-        "Implicit dynamics/Largest drift": 0,
+        "Implicit dynamics/Maximum energy drift": 0,
         load + "Type": "spring",
         load + "Boundary ids": kind,
         load + "Stiffness": repr(traction / far),
@@ -221,7 +221,7 @@ def hinge(layers, aspect, element, length):
         changes={
             **plastic(yield_stress),
             "Time stepping/Initial step": 1 / n,
-            "Time stepping/Largest step": 1 / n,
+            "Time stepping/Maximum step": 1 / n,
         },
     )
     return run.slope(way) * length / (2 / math.sqrt(3) * yield_stress / 4), run
@@ -304,7 +304,7 @@ def circle(n, aspect, element):
             **held("end", 2, "x, z", motion),
             **held("clamp", 1, "x, z", f"0 ; 0 ; z*(1{mitre} - 1)"),
             "Time stepping/Initial step": 0.02,
-            "Time stepping/Largest step": 0.02,
+            "Time stepping/Maximum step": 0.02,
         },
         steps=None,
     )
@@ -413,7 +413,7 @@ def large_cook():
             modulus,
             traction,
             far,
-            {"Bodies/body/Material/Kinematics": "neo-Hookean"},
+            {"Bodies/body/Material/Elasticity": "neo-Hookean"},
             10,
             True,
         )
@@ -808,9 +808,9 @@ def wipe(layers, size, element, points=2):
             "Amplitudes/press/Times": "0, 1, 2",
             "Amplitudes/press/Values": "0, 1, -0.1",
             "Time stepping/End time": 2,
-            "Time stepping/Largest step": 0.02,
+            "Time stepping/Maximum step": 0.02,
             "Solver/Force tolerance": 1e-5,
-            "Output/Every steps": None,
+            "Output/Step interval": None,
             "Output/Interval": 1,
         },
         modulus=70e3,
@@ -897,7 +897,7 @@ def vibration(label, mesh, element, velocity, period):
             "Bodies/body/Material/Density": 1e-3,
             "Time stepping/Scheme": "explicit",
             "Time stepping/End time": repr(2 * period),
-            "Output/Every steps": None,
+            "Output/Step interval": None,
             "Output/Interval": repr(period / 50),
             **{f"Solver/{key}": None for key in ("Force tolerance", "Energy tolerance", "Linear solver")},
         },
@@ -989,7 +989,7 @@ def laws():
         rows.append([name, *cells])
     Solution.law = LAWS[0]
     return (
-        "Some of the scenes above with each `Kinematics`. Errors in %, against the same references: elastic"
+        "Some of the scenes above with each `Elasticity`. Errors in %, against the same references: elastic"
         " strains are small in them, so that the laws agree but for the order of those strains. Mean"
         " dilatation was the default of the version before, with the same figures. One point of that version:"
         " strips of one brick +1.0, +0.2, 0.0 and 0.0 % (10 : 1 to 1 : 1), hinge of 60 -2 and -3.5 % (2.5 : 1"

@@ -121,14 +121,14 @@ class Solution:
             body + "Mesh/File": "mesh.msh",
             body + "Element": element,
             material + "Law": "elastic",
-            material + "Kinematics": law or Solution.law,
+            material + "Elasticity": law or Solution.law,
             material + "Young modulus": repr(modulus),
             material + "Poisson ratio": repr(nu),
             "Solver/Force tolerance": 1e-6,
             "Solver/Energy tolerance": 1e-10,
             "Solver/Linear solver": "MUMPS",
             "Output/Format": "vtu" if pictures else "none",
-            "Output/Every steps": 0,
+            "Output/Step interval": 0,
             "Output/Verbosity": "quiet",
         }
         if steps:

@@ -67,7 +67,7 @@ def scene(
         "set Normal penalty = 1\n"
         + ("set Friction coefficient = 0.1\n" if friction else "")
         + ("set Penetration tolerance = 1e-4\n" if augmented else "")
-        + ("set Edges = true\n" if edges else "")
+        + ("set Edge contact = true\n" if edges else "")
     )
     if second:
         pairs += (
@@ -77,7 +77,7 @@ def scene(
     if tool:
         pairs += (
             "subsection die\n set Body = block\n set Boundary ids = 1\n set Tool = die\n"
-            + of_pair.replace("set Edges = true\n", "")
+            + of_pair.replace("set Edge contact = true\n", "")
             + "end\n"
         )
     if self_contact:
@@ -101,7 +101,7 @@ def scene(
         text += (
             "subsection Time stepping\n set Scheme = explicit\n set End time ="
             f" {END if whole else SHORT_END}\nend\n"
-            "subsection Explicit dynamics\n set Instructions = AVX2\n"  # what valgrind knows
+            "subsection Explicit dynamics\n set Instruction set = AVX2\n"  # what valgrind knows
             # many steps: what looks a hundred times in a run is in both runs
             " set Safety factor = 0.05\nend\n"
         )

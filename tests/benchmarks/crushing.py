@@ -28,8 +28,8 @@ HEIGHTS = {0.5: 2.0, 0.4: 2.4, 0.3: 2.8, 0.25: 3.0}  # of a unit block: at these
 TIMES = {
     "Time stepping/End time": 3,
     "Time stepping/Initial step": 0.03,
-    "Time stepping/Largest step": 0.1,
-    "Output/Every steps": None,
+    "Time stepping/Maximum step": 0.1,
+    "Output/Step interval": None,
     "Output/Interval": 0.2,
 }
 HARDENING, PERFECT = "plastic, hardening", "perfectly plastic"
@@ -819,7 +819,7 @@ def neck_run(refinements, layers, element):
             **held("grip", 9, "x, y, z", "0 ; 0 ; t"),
             "Time stepping/End time": 7,
             "Time stepping/Initial step": 0.05,
-            "Time stepping/Largest step": 0.35,
+            "Time stepping/Maximum step": 0.35,
             "Output/Interval": 1,
             **{material + key: value for key, value in law.items()},
         },
@@ -903,7 +903,7 @@ def die(n, law, element):
             **tool("back", plane("0, 1.25, 0", "0, -1, 0"), "0 ; 0 ; 0", "2, 4, 6", 0.1),
             "Time stepping/End time": 1,
             "Time stepping/Initial step": 0.01,
-            "Time stepping/Largest step": 0.02,
+            "Time stepping/Maximum step": 0.02,
             "Output/Interval": 0.1,
         },
         law,
@@ -1010,7 +1010,7 @@ def local(kind, n, law, element):
             **tool("press", shape, motion, faces, 0.1),
             "Time stepping/End time": 1,
             "Time stepping/Initial step": 0.01,
-            "Time stepping/Largest step": 0.04,
+            "Time stepping/Maximum step": 0.04,
             "Output/Interval": 0.5,
         },
         law,

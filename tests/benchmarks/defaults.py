@@ -28,9 +28,9 @@ KEPT = {
         "Second boundary ids",
         "Friction law",
         "Friction coefficient",
-        "Largest shear stress",
+        "Maximum shear stress",
         "Kinetic friction coefficient",
-        "Decay",
+        "Decay coefficient",
         "Reference pressure",
         "Pressure exponent",
         "Initial penetration",
@@ -38,10 +38,10 @@ KEPT = {
         "Ramp time",
         "Initial gap",
         "Surface correction",
-        "Edges",
+        "Edge contact",
     ),
 }
-DROPPED = ("Element", "Kinematics")  # of bodies
+DROPPED = ("Element", "Elasticity")  # of bodies
 
 # Those that take long end earlier, in both runs.
 ENDS = {
@@ -108,9 +108,9 @@ def tight(entries, depth):
         }
     return {
         "Time stepping/Error tolerance": 1e-3,
-        "Time stepping/Largest step": repr(end / 50),
+        "Time stepping/Maximum step": repr(end / 50),
         "Time stepping/Initial step": repr(end / 400),
-        "Solver/Most augmentations": 60,
+        "Solver/Maximum augmentations": 60,
         **({f"Contact pairs/{name}/Penetration tolerance": depth for name in names} if depth else {}),
     }
 

@@ -27,7 +27,7 @@ RATIOS = (10, 1000) if options.quick else (1, 10, 100, 1000)
 LOADED = {"Time stepping/End time": 1, "Time stepping/Stops": "", **fixed_steps(50)}
 FOLDER = tempfile.TemporaryDirectory()
 IN_FIXED_STEPS = Path(FOLDER.name) / "scene.prm"  # they have no largest one
-IN_FIXED_STEPS.write_text(variant(read_scene(SCENE), {"Time stepping/Largest step": None}))
+IN_FIXED_STEPS.write_text(variant(read_scene(SCENE), {"Time stepping/Maximum step": None}))
 rigid = Run(fixed_steps(50), options.ranks)
 
 

@@ -29,7 +29,7 @@ def cylinders(n, facets, passes, augmented):
                 pair + "Facets": facets,
                 pair + "Passes": passes,
                 pair + "Penetration tolerance": augmented,
-                "Output/Every steps": 1000,
+                "Output/Step interval": 1000,
             },
             folder,
             options.ranks,
@@ -68,7 +68,7 @@ def twist():
             else {}
         )
         run = ExplicitRun(
-            ROOT / "prm/twisted_hemisphere.prm", {**mesh, "Output/Every steps": 1}, folder, options.ranks
+            ROOT / "prm/twisted_hemisphere.prm", {**mesh, "Output/Step interval": 1}, folder, options.ranks
         )
         rows = []
         for index, row in enumerate(run.rows, 1):

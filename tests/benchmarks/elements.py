@@ -31,7 +31,7 @@ from billet_tools.output import read_rows
 
 options = arguments("elements")
 COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/element_cost")
-ELEMENT, KINEMATICS = "Bodies/billet/Element", "Bodies/billet/Material/Kinematics"
+ELEMENT, KINEMATICS = "Bodies/billet/Element", "Bodies/billet/Material/Elasticity"
 ELEMENTS, LAWS = ("assumed strain", "mean dilatation", "one point"), ("Hencky", "neo-Hookean", "hypoelastic")
 CLASSES = {
     "AssumedStrainElement": "assumed strain",
@@ -127,12 +127,12 @@ def explicit_scene(element, law):
             "Bodies/block/Mesh/Arguments": "6, 6, 6 : 0, 0, 0 : 6, 6, 6 : true",
             "Bodies/block/Material/Density": "7.8e-9",
             "Bodies/block/Material/Young modulus": "200e3",
-            "Bodies/block/Material/Kinematics": law,
+            "Bodies/block/Material/Elasticity": law,
             "Bodies/block/Material/Yield stress": 100,
             "Bodies/block/Material/Hardening modulus": 1000,
             "Time stepping/Scheme": "explicit",
             "Time stepping/End time": repr(1e-4 * end),
-            "Explicit dynamics/Instructions": "AVX2",
+            "Explicit dynamics/Instruction set": "AVX2",
             "Output/Format": "none",
             "Output/Verbosity": "quiet",
             "Output/Folder": "results",

@@ -26,7 +26,7 @@ BODY = """
     end
     subsection Material
       set Law               = elastoplastic
-      set Kinematics        = {kinematics}
+      set Elasticity        = {kinematics}
       set Density           = 7800
       set Young modulus     = 200e9
       set Poisson ratio     = 0.3
@@ -87,7 +87,7 @@ def measure(kernel, instructions, number_type, bodies, more=""):
         + "end\n"
     )
     text += (
-        f"subsection Explicit dynamics\n  set Instructions = {instructions}\n  set Number type ="
+        f"subsection Explicit dynamics\n  set Instruction set = {instructions}\n  set Number type ="
         f" {number_type}\nend\n" + REST + more
     )
     with tempfile.TemporaryDirectory() as folder:

@@ -92,7 +92,7 @@ def solve(n, far, penalty, sphere=RADIUS):
         r = Run(
             {
                 "Output/Format": "vtu",
-                "Output/Every steps": 0,
+                "Output/Step interval": 0,
                 "Contact pairs/pair/Normal penalty": penalty,
                 "Tools/sphere/Surfaces/all/Centre": f"0, 0, {sphere!r}",
                 "Tools/sphere/Surfaces/all/Radius": repr(sphere),

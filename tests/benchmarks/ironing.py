@@ -36,7 +36,7 @@ def sweep(facets, passes, part):
             "Time stepping/Stops": "",
             "Time stepping/Step control": "fixed",
             "Time stepping/Initial step": 1,
-            "Time stepping/Largest step": None,
+            "Time stepping/Maximum step": None,
         },
         options.ranks,
         SCENE,
@@ -116,7 +116,7 @@ def going_on():
         for before in (1, 2):
             place = f"{folder}/{before}"
             whole = Run(
-                {"Output/Checkpoint/Every steps": STOP, "Output/Checkpoint/Keep": 9},
+                {"Output/Checkpoint/Step interval": STOP, "Output/Checkpoint/Keep": 9},
                 before,
                 SCENE,
                 "face",

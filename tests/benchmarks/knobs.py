@@ -56,12 +56,12 @@ GROUPS = [
         "billet_upsetting",
         ITERATIVE,
         [
-            ("`Forcing`", "fixed", {"Solver/Forcing": "fixed"}),
-            ("`Forcing`", "Eisenstat-Walker", {}),
+            ("`Forcing term`", "fixed", {"Solver/Forcing term": "fixed"}),
+            ("`Forcing term`", "Eisenstat-Walker", {}),
             (
-                "`Forcing`, `Linear tolerance` 1e-3",
+                "`Forcing term`, `Linear tolerance` 1e-3",
                 "fixed",
-                {"Solver/Forcing": "fixed", "Solver/Linear tolerance": 1e-3},
+                {"Solver/Forcing term": "fixed", "Solver/Linear tolerance": 1e-3},
             ),
         ],
     ),
@@ -143,9 +143,9 @@ publish(
     "What the other knobs cost, and change",
     options,
     (
-        "Knobs without a page of their own. The billet of `prm/billet_upsetting.prm`, for `Forcing` with 480"
-        " bricks and GMRES; `prm/ironing.prm` until the die has been drawn 3 mm (time 1.6). Difference: ∫Σ|F"
-        " − F*| dt over ∫Σ|F*| dt of the forces of the first of each group. The spheres of"
+        "Knobs without a page of their own. The billet of `prm/billet_upsetting.prm`, for `Forcing term` with"
+        " 480 bricks and GMRES; `prm/ironing.prm` until the die has been drawn 3 mm (time 1.6). Difference:"
+        " ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of the first of each group. The spheres of"
         " `prm/passing_spheres.prm` begin and end apart: with soft penalties what differs is mostly how far"
         " they give way, with stiff ones what the facets make. Symmetry: between two dies, without the plane"
         " z = 0. Each run once."

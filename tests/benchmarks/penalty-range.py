@@ -44,7 +44,7 @@ for scene, (pair, column, _) in SCENES.items():
                 **settings,
                 f"Contact pairs/{pair}/Normal penalty": factor,
                 f"Contact pairs/{pair}/Penetration tolerance": tolerance,
-                "Solver/Most augmentations": 60,
+                "Solver/Maximum augmentations": 60,
                 "Solver/Force tolerance": 1e-8,
                 **more,
             },

@@ -79,7 +79,7 @@ for label, path, changes in SCENES:
         error, before, tight = (
             curve_error,
             each(Penetration_tolerance=0),
-            {**each(Penetration_tolerance=repr(1e-5 / flat**2)), "Solver/Most augmentations": 60},
+            {**each(Penetration_tolerance=repr(1e-5 / flat**2)), "Solver/Maximum augmentations": 60},
         )
     else:
         error, before, tight = (

@@ -47,7 +47,7 @@ def solve(inner, outer, tolerance):
         ),
         "Bodies/outer/Mesh/Arguments": f"{layers(outer)}, {outer}, 1 : {B}, 0, 0 : {C}, 90, 1 : true",
         PAIR + "Penetration tolerance": tolerance,
-        "Output/Every steps": 0,
+        "Output/Step interval": 0,
     }
     with tempfile.TemporaryDirectory() as folder:
         r = ExplicitRun(ROOT / "prm/press_fit.prm", changes, folder, options.ranks)

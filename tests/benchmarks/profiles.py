@@ -16,18 +16,18 @@ PROFILES = ("fast", "balanced", "accurate")
 PROFILED = {
     "Time stepping": (
         "Initial step",
-        "Smallest step",
-        "Largest step",
+        "Minimum step",
+        "Maximum step",
         "Error tolerance",
-        "Few iterations",
-        "Many iterations",
+        "Growth iterations",
+        "Shrink iterations",
         "Growth factor",
     ),
     "Implicit dynamics": ("Error tolerance",),
     "Solver": ("Force tolerance", "Energy tolerance", "Displacement tolerance", "Linear tolerance"),
     "Contact pairs": ("Penetration tolerance",),
     "Explicit dynamics": ("Contact resolution", "Safety factor"),
-    "Bodies": ("Element", "Kinematics"),
+    "Bodies": ("Element", "Elasticity"),
 }
 
 # Scenes that take long are cut: these are the ends that they get, and other changes.
@@ -143,12 +143,12 @@ def reference(path, changes, depth, residual, dynamic):
         return {"Solver/Force tolerance": max(residual, 1e-9), "Implicit dynamics/Error tolerance": dynamic}
     result = {
         "Solver/Force tolerance": residual,
-        "Solver/Most augmentations": 60,
+        "Solver/Maximum augmentations": 60,
         **{f"Contact pairs/{name}/Penetration tolerance": depth for name in names},
     }
     result["Time stepping/Initial step"] = repr(end / 400)
     if entries.get("Time stepping/Step control") != "fixed":
-        result["Time stepping/Largest step"] = repr(end / 400)
+        result["Time stepping/Maximum step"] = repr(end / 400)
     return result
 
 

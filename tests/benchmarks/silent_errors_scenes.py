@@ -33,13 +33,13 @@ def stepping(end, initial=None, largest=None, **more):
     return {
         "End time": f"{end:.12g}",
         "Initial step": initial and f"{initial:.12g}",
-        "Largest step": largest and f"{largest:.12g}",
+        "Maximum step": largest and f"{largest:.12g}",
         **more,
     }
 
 
 QUIET = {"Folder": "results", "Format": "none", "Verbosity": "quiet"}
-ONE_PICTURE = {"Folder": "results", "Every steps": 0, "Verbosity": "quiet"}
+ONE_PICTURE = {"Folder": "results", "Step interval": 0, "Verbosity": "quiet"}
 
 
 # --- bending: a strip between a roll that supports it and one that presses it down ----------------
@@ -735,7 +735,7 @@ def without_tool(scene, tool, at, end, release, largest):
         **scene,
         "Tools": {
             **scene["Tools"],
-            tool: {**scene["Tools"][tool], "Motion": {**motion, "Removed at": at, "Release time": release}},
+            tool: {**scene["Tools"][tool], "Motion": {**motion, "Removal time": at, "Release time": release}},
         },
         "Time stepping": stepping(end, None, largest),
     }

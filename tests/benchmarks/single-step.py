@@ -17,7 +17,7 @@ from billet_runs import (
 
 options = arguments("single-step")
 LEVELS = (1,) if options.quick else (1, 2)
-whole = {"Time stepping/Initial step": 1, "Time stepping/Largest step": 1, "Output/Verbosity": "steps"}
+whole = {"Time stepping/Initial step": 1, "Time stepping/Maximum step": 1, "Output/Verbosity": "steps"}
 
 
 def has_changed_tangent(run):

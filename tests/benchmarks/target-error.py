@@ -40,7 +40,7 @@ class Implicit:
     def steps(self, n):
         return {
             "Time stepping/Initial step": repr(self.end / n),
-            "Time stepping/Largest step": repr(self.end / n),
+            "Time stepping/Maximum step": repr(self.end / n),
         }
 
     def reference(self):
@@ -49,7 +49,7 @@ class Implicit:
             **self.steps(REFERENCE_STEPS),
             **pairs(self.pairs, Penetration_tolerance=self.depth),
             "Solver/Force tolerance": 1e-9,
-            "Solver/Most augmentations": 60,
+            "Solver/Maximum augmentations": 60,
         }
 
     def by_hand(self):
@@ -74,7 +74,7 @@ class Implicit:
             **self.changes,
             "Target error": target,
             "Time stepping/Initial step": None,
-            "Time stepping/Largest step": None,
+            "Time stepping/Maximum step": None,
             **pairs(self.pairs, Penetration_tolerance=None),
         }
 

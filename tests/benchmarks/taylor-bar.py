@@ -47,7 +47,7 @@ HEAD = [
     "CPU s",
 ]
 meshes = (1, 2) if options.quick else (1, 2, 3)
-ELEMENT, LAW = "Bodies/bar/Element", "Bodies/bar/Material/Kinematics"
+ELEMENT, LAW = "Bodies/bar/Element", "Bodies/bar/Material/Elasticity"
 variants = [
     ("assumed strain", "Hencky"),
     ("mean dilatation", "Hencky"),

@@ -41,9 +41,9 @@ def same_steps(run, path, cut):
     return {
         "Time stepping/Stops": ", ".join(f"{time:.17g}" for time in run.times),
         "Time stepping/Initial step": repr(end),
-        "Time stepping/Largest step": repr(end),
-        "Time stepping/Few iterations": 998,
-        "Time stepping/Many iterations": 999,
+        "Time stepping/Maximum step": repr(end),
+        "Time stepping/Growth iterations": 998,
+        "Time stepping/Shrink iterations": 999,
     }
 
 

@@ -247,8 +247,8 @@ def every_picture(r):
     return range(1, len(list((r.folder / "results").glob("fields_*.pvtu"))))
 
 
-control = {"Contact pairs/folds/Boundary ids": "5", "Explicit dynamics/Largest drift": 1}
-nodes = {"Contact pairs/folds/Edges": "false"}
+control = {"Contact pairs/folds/Boundary ids": "5", "Explicit dynamics/Maximum energy drift": 1}
+nodes = {"Contact pairs/folds/Edge contact": "false"}
 with ThreadPoolExecutor() as pool:
     runs = [
         pool.submit(run, changes, every_picture)
@@ -328,7 +328,7 @@ publish(
         " facet's plane or of the edge from one of the facet's. Nodes that lie inside a brick of another"
         " place of the wall, and how far from the nearest facet. Least coordinate across: symmetry planes are"
         " at 0. Without self-contact the same check finds a wall that passes through itself; with nodes"
-        " against facets alone (`Edges = false`), ridges of folds cross each other."
+        " against facets alone (`Edge contact = false`), ridges of folds cross each other."
     ),
     (
         f"With self-contact the deepest edge is {worst_edge[5]} mm,"

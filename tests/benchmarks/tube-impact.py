@@ -137,7 +137,7 @@ ways = {
         for b in BODIES
         for key, value in (
             (f"Bodies/{b}/Element", "one point"),
-            (f"Bodies/{b}/Material/Kinematics", "hypoelastic"),
+            (f"Bodies/{b}/Material/Elasticity", "hypoelastic"),
         )
     },
 }

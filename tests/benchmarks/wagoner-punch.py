@@ -43,7 +43,7 @@ def tangents():
     rows = []
     for tangent in ("exact", "numerical", "consistent", "continuum"):
         # A tangent that needs thousands of steps is no choice: it may give up.
-        changes = {**coarse, TANGENT: tangent, STEP + "Smallest step": 1e-4}
+        changes = {**coarse, TANGENT: tangent, STEP + "Minimum step": 1e-4}
         default, loose = run(changes), run({**changes, **LOOSE})
         rows.append(
             [tangent, outcome(default), default.cuts, outcome(loose), loose.cuts, PAPER.get(tangent, "–")]
@@ -65,7 +65,7 @@ def residuals():
     """Of the first step of 1.5 % of the travel that ends past a third of it."""
     rows = []
     for tangent in ("exact", "consistent"):
-        r = run({**coarse, TANGENT: tangent, STEP + "Largest step": 0.015, "Output/Verbosity": "iterations"})
+        r = run({**coarse, TANGENT: tangent, STEP + "Maximum step": 0.015, "Output/Verbosity": "iterations"})
         forces, found = [], None
         for line in r.said.splitlines():
             iteration = re.match(r"\s*iteration\s+\d+\s+force (\S+)", line)
@@ -122,7 +122,7 @@ class Shape:
 
 def run_with_shape(changes, friction):
     with tempfile.TemporaryDirectory() as folder:
-        r = run({"Output/Format": "vtu", "Output/Every steps": 0, **changes}, friction, folder)
+        r = run({"Output/Format": "vtu", "Output/Step interval": 0, **changes}, friction, folder)
         return r, Shape(folder)
 
 

@@ -44,7 +44,7 @@ end
 subsection Time stepping
   set End time     = 1
   set Initial step = 0.25
-  set Largest step = 0.25
+  set Maximum step = 0.25
 end
 subsection Output
   set Format = none
@@ -115,7 +115,7 @@ CASES = [
     Case("both", STATIC, f"{PLASTIC} & block: Element = one point",
          "Plasticity, Stabilisation, Moving support, Matrix"),
     Case("an unsymmetric tangent", STATIC,
-         "Material: Kinematics = hypoelastic & + subsection Solver\n set Material tangent = exact\nend",
+         "Material: Elasticity = hypoelastic & + subsection Solver\n set Material tangent = exact\nend",
          "Moving support, Matrix, Unsymmetric"),
     Case("a tool", STATIC, DIE + pair("set Tool = die"), "Contact, Moving support, Matrix"),
     Case("a tool instead of the support", STATIC, DIE + pair("set Tool = die") + " & Supports: delete",
@@ -140,7 +140,7 @@ CASES = [
          "Moving support, Error control, Matrix"),
     Case("an iterative solver", STATIC, "+ subsection Solver\n set Linear solver = CG\nend",
          "Moving support, Matrix, Iterative"),
-    Case("checkpoints", STATIC, "Output: + subsection Checkpoint\n set Every steps = 2\nend",
+    Case("checkpoints", STATIC, "Output: + subsection Checkpoint\n set Step interval = 2\nend",
          "Moving support, Checkpoints, Matrix"),
     Case("implicit dynamics", STATIC, dynamic("0"), "Moving support, Inertia, Matrix"),
     Case("a load", STATIC, f"{dynamic('0')} & {LOAD}", "Moving support, Inertia, Loads, Matrix"),
@@ -163,7 +163,7 @@ CASES = [
          "Plasticity, Stabilisation, Loads, Inertia"),
     Case("explicit: friction", IMPACT, "block on slab: Friction coefficient = 0.1",
          "Plasticity, Stabilisation, Contact, Friction, Body contact, Edges, Driven tools, Loads, Inertia"),
-    Case("explicit: edges that are free", IMPACT, "block on slab: Edges = false",
+    Case("explicit: edges that are free", IMPACT, "block on slab: Edge contact = false",
          f"{BLOW}, Driven tools, Loads, Inertia"),
     Case("explicit: self-contact", IMPACT, FOLDS,
          f"{BLOW}, Self-contact, Edges, Driven tools, Loads, Inertia"),

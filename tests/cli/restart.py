@@ -105,16 +105,16 @@ class Resumed(NamedTuple):
 
 # With a target error, what was measured so far goes on, too.
 AIMED = (
-    " & Target error = 1 % & Time stepping: - Initial step & Time stepping: - Largest step"
+    " & Target error = 1 % & Time stepping: - Initial step & Time stepping: - Maximum step"
     " & Solver: - Force tolerance & Solver: - Energy tolerance"
 )
 RESUMED = {
-    "block": Resumed(BLOCK, "set Every steps = 1"),
+    "block": Resumed(BLOCK, "set Step interval = 1"),
     "impact": Resumed(IMPACT, "set Interval = 0.1e-3", " & Output: Interval = 0.1e-3"),
-    "aimed": Resumed(BLOCK, "set Every steps = 1", AIMED),
+    "aimed": Resumed(BLOCK, "set Step interval = 1", AIMED),
     "drop": Resumed(
         DROP,
-        "set Every steps = 1",
+        "set Step interval = 1",
         (
             " & Target error = 1 % & Time stepping: End time = 0.1e-3"
             " & + subsection Solver\n set Force tolerance = 1e-10\nend"
@@ -191,7 +191,7 @@ ESTIMATE = r"^(note\[error-estimate\]: .*Newton iterations), "
 @check("which the next one goes on with")
 def _() -> None:
     edits = f"Output: Folder = aimed_late{AIMED}"
-    write_scene("aimed_late.prm", BLOCK, edits, "set Every steps = 1\nset Keep = 100")
+    write_scene("aimed_late.prm", BLOCK, edits, "set Step interval = 1\nset Keep = 100")
     told = says(ESTIMATE, resumes(1, "block1.whole/checkpoint_00002.h5", "aimed_late.prm"))[1]
     says(r"from time \S+ on", told)
     equal("told", says(ESTIMATE, resumes(1, checkpoints_of("aimed_late")[1], "aimed_late.prm"))[1], told)
@@ -205,7 +205,7 @@ def _() -> None:
     )
     named = re.sub(r"subsection die$", "subsection die/left", BLOCK, count=1, flags=re.MULTILINE)
     named = re.sub(r"= die$", "= die/left", named, count=1, flags=re.MULTILINE)
-    write_scene("driven.prm", named, edits, "set Every steps = 1\nset Keep = 100")
+    write_scene("driven.prm", named, edits, "set Step interval = 1\nset Keep = 100")
     told = says(ESTIMATE, runs(0, 1, "driven.prm"))[1]
     says("of the travel of 'die/left'", told)
     equal("told", says(ESTIMATE, resumes(1, checkpoints_of("driven")[2], "driven.prm"))[1], told)
@@ -213,7 +213,7 @@ def _() -> None:
 
 @check("HDF5 pictures go on")
 def _() -> None:
-    write_scene("hdf5.prm", BLOCK, "Output: Folder = hdf5 & Output: Format = hdf5", "set Every steps = 2")
+    write_scene("hdf5.prm", BLOCK, "Output: Folder = hdf5 & Output: Format = hdf5", "set Step interval = 2")
     runs(0, 1, "hdf5.prm")
     index = read_text("hdf5/fields.xdmf")
     resumes(1, checkpoints_of("hdf5")[0], "hdf5.prm")
@@ -271,11 +271,11 @@ def _() -> None:
 
 @check("quasi-static, then explicit, into the same folder")
 def _() -> None:
-    write_scene("first.prm", BLOCK, "Output: Folder = both", "set Every steps = 1")
+    write_scene("first.prm", BLOCK, "Output: Folder = both", "set Step interval = 1")
     runs(0, 1, "first.prm")
     edits = (
-        "Output: Folder = both & Output: Every steps = 0 & Material: Density = 1e-6 & Solver: delete"
-        " & Time stepping: Scheme = explicit & Time stepping: - Initial step & Time stepping: - Largest step"
+        "Output: Folder = both & Output: Step interval = 0 & Material: Density = 1e-6 & Solver: delete"
+        " & Time stepping: Scheme = explicit & Time stepping: - Initial step & Time stepping: - Maximum step"
         " & Time stepping: End time = 1.0001"
     )
     write_scene("then.prm", BLOCK, edits)
@@ -473,9 +473,9 @@ for limit, room, edits in ((16, "none of it", ""), (700, "a part of it", LARGE))
     def _() -> None:
         small = (
             "Output: Folder = full & Output: Format = none & Time stepping: End time = 0.2"
-            f" & Time stepping: Largest step = 0.2{edits}"
+            f" & Time stepping: Maximum step = 0.2{edits}"
         )
-        write_scene("full.prm", BLOCK, small, "set Every steps = 1")
+        write_scene("full.prm", BLOCK, small, "set Step interval = 1")
         # MPI's own files are to stay out of it.
         without_files = {"OMPI_MCA_btl": "self", "PMIX_MCA_gds": "hash"}
         ended = run(*program.on(1, "full.prm"), file_limit=1024 * limit, environment=without_files)
@@ -489,7 +489,9 @@ for limit, room, edits in ((16, "none of it", ""), (700, "a part of it", LARGE))
 
 @check("a disk that becomes full")
 def _() -> None:
-    write_scene("fuller.prm", BLOCK, "Output: Folder = fuller & Output: Format = none", "set Every steps = 1")
+    write_scene(
+        "fuller.prm", BLOCK, "Output: Folder = fuller & Output: Format = none", "set Step interval = 1"
+    )
     # A link to where nothing can be written takes the place of the third.
     os.mkdir("fuller")
     os.symlink("/proc/nowhere", "fuller/checkpoint_00002.h5.tmp")

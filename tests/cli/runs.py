@@ -40,7 +40,7 @@ from edits import edit
 
 BLOCK, IMPACT, CAVITY = (read_text(HERE / f"{name}.prm") for name in ("block", "impact", "cavity"))
 NO_MESH = "Mesh: - Primitive & Mesh: - Arguments & Mesh: - Boundary ids & Mesh: Source = file & Mesh: File = "
-FIXED = "Time stepping: Step control = fixed & Time stepping: - Largest step"
+FIXED = "Time stepping: Step control = fixed & Time stepping: - Maximum step"
 NO_LAW = "Material: - Yield stress & Material: - Hardening modulus & Material: Hardening = "
 ELASTIC = (
     "Material: Law = elastic & Material: - Hardening & Material: - Yield stress"
@@ -238,7 +238,7 @@ for part in ("upper", "lower", "mean"):
         f"symmetrised {part}",
         (
             f"{FIXED_SOFT} & Solver: Contact tangent = symmetrised {part}"
-            " & Solver: Linear solver = MUMPS symmetric & Solver: Most iterations = 100"
+            " & Solver: Linear solver = MUMPS symmetric & Solver: Maximum iterations = 100"
         ),
         as_run=steady,
         tolerance=1e-4,
@@ -255,15 +255,15 @@ def _() -> None:
 # --- profiles and target errors -------------------------------------------------------------------
 
 TOLERANCES = "Solver: - Force tolerance & Solver: - Energy tolerance"
-OPEN = f"Time stepping: - Initial step & Time stepping: - Largest step & {TOLERANCES}"
+OPEN = f"Time stepping: - Initial step & Time stepping: - Maximum step & {TOLERANCES}"
 SMALL_STEPS = f"{FIXED} & Time stepping: Initial step = 0.002"
 EXACT = f"{SMALL_STEPS} & top on die: Penetration tolerance = 1e-4"
 same("the balanced profile", "Profile = balanced")
 for profile, sets in (
-    ("fast", r"Time stepping / Largest step = 0\.1, .*Solver / Linear tolerance = 1e-4"),
+    ("fast", r"Time stepping / Maximum step = 0\.1, .*Solver / Linear tolerance = 1e-4"),
     (
         "accurate",
-        r"Time stepping / Largest step = 0\.1, Time stepping / Error tolerance = 1e-3,"
+        r"Time stepping / Maximum step = 0\.1, Time stepping / Error tolerance = 1e-3,"
         r" .*Solver / Force tolerance = 1e-8, .*Contact pairs / top on die / Penetration tolerance ="
         r" automatic",
     ),
@@ -271,7 +271,7 @@ for profile, sets in (
 
     @check(f"the profile {profile} is told, and what the scene sets stays")
     def _() -> None:
-        ran = billet(f"Profile = {profile} & Time stepping: - Largest step & {TOLERANCES}")
+        ran = billet(f"Profile = {profile} & Time stepping: - Maximum step & {TOLERANCES}")
         says(f"^Profile {profile}: .*{sets}", ran.said)
         require("Initial step =" not in ran.said, f"says {ran.said}")
         near("force", ran.force("die"), reference.force("die"), 0.05)
@@ -306,13 +306,13 @@ for ranks in (1, 2):
 def _() -> None:
     ran = billet(
         (
-            "Target error = 0.01 % & Time stepping: Initial step = 0.5 & Time stepping: Smallest step = 0.5"
-            " & Time stepping: Largest step = 0.5 & top on die: Penetration tolerance = 1e-6"
+            "Target error = 0.01 % & Time stepping: Initial step = 0.5 & Time stepping: Minimum step = 0.5"
+            " & Time stepping: Maximum step = 0.5 & top on die: Penetration tolerance = 1e-6"
         ),
         code=7,
     )
     says(
-        r"^warning\[target-error-missed\]: .*; most of it is due to steps\. Reduce 'Largest step'",
+        r"^warning\[target-error-missed\]: .*; most of it is due to steps\. Reduce 'Maximum step'",
         ran.said,
     )
 
@@ -326,7 +326,7 @@ def _() -> None:
     for steps in (OPEN, f"Target error = 1 % & {OPEN}", FIXED):
         times = billet(f"{TURNING} & {steps}").column("time")
         require(any(abs(time - 0.7371) < 1e-9 for time in times), f"{steps}: steps end at {times}")
-    ran = billet(f"{TURNING} & Time stepping: Initial step = 0.4 & Time stepping: Largest step = 0.4")
+    ran = billet(f"{TURNING} & Time stepping: Initial step = 0.4 & Time stepping: Maximum step = 0.4")
     times = ran.column("time")
     require(not any(abs(time - 0.3) < 1e-3 for time in times), f"steps end at {times}")
 
@@ -636,8 +636,8 @@ def _() -> None:
 for edits, times in (
     ("Output: Interval = 0.25", "0 0.25 0.5 0.75 1"),
     (f"{FIXED} & Output: Interval = 0.25", "0 0.25 0.5 0.75 1"),
-    (f"{FIXED} & Output: Every steps = 3", "0 0.3 0.6 0.9 1"),
-    ("Output: Every steps = 0", "0 1"),
+    (f"{FIXED} & Output: Step interval = 3", "0 0.3 0.6 0.9 1"),
+    ("Output: Step interval = 0", "0 1"),
 ):
 
     @check(edits)
@@ -655,7 +655,7 @@ for ranks in (1, 2):
 
     @check(f"HDF5 on {ranks} ranks")
     def _() -> None:
-        ran = billet("Output: Format = hdf5 & Output: Every steps = 0", ranks=ranks)
+        ran = billet("Output: Format = hdf5 & Output: Step interval = 0", ranks=ranks)
         index = ran.text("fields.xdmf")
         files = set(re.findall(r"([\w.]+\.h5):", index))
         require(len(files) == 2, f"{len(files)} files in fields.xdmf, not 2")
@@ -669,8 +669,8 @@ for ranks in (1, 2):
 @check("layers of points through the thickness")
 def _() -> None:
     ran = billet(
-        "block: Points through thickness = 3 & block: Thickness direction = 0 ; 0 ; 1 & Output: Every"
-        " steps = 0"
+        "block: Points through thickness = 3 & block: Thickness direction = 0 ; 0 ; 1 & Output: Step"
+        " interval = 0"
     )
     two, three = (each.text("fields_00001.pvtu") for each in (reference, ran))
     for layer in ("inner", "membrane", "outer"):
@@ -687,7 +687,7 @@ for key, field in (
 
     @check(f"without {key}")
     def _() -> None:
-        ran = billet(f"Output: Every steps = 0 & Output: {key} = false")
+        ran = billet(f"Output: Step interval = 0 & Output: {key} = false")
         require(f'"{field}"' in reference.text("fields_00001.pvtu"), f"{field} was never there")
         require(f'"{field}"' not in ran.text("fields_00001.pvtu"), f"{field} is there")
 
@@ -730,7 +730,7 @@ def _() -> None:
     says(
         r"the step from .* failed .*: nodes of contact pair 'foot' go through tool 'ball', which is 0\.002"
         r" thick:"
-        r" .* Try a smaller 'Largest step', a larger 'Normal penalty', or facets as small as the tool\."
+        r" .* Try a smaller 'Maximum step', a larger 'Normal penalty', or facets as small as the tool\."
         r" What was",
         ran.complained,
     )
@@ -794,7 +794,7 @@ for name, ranks, edits in (
     (
         "a step that is cut too often",
         1,
-        "Time stepping: Smallest step = 0.01 & Output: Every steps = 0",
+        "Time stepping: Minimum step = 0.01 & Output: Step interval = 0",
     ),
 ):
 
@@ -865,9 +865,9 @@ BROKEN = [
     Broken("a pressure that is not a number", "push: Pressure = if(t > 1e-4, log(-t), 0)", r"0\.0001"),
     Broken(
         "energies that do not balance",
-        "Explicit dynamics: Largest drift = 1e-9",
+        "Explicit dynamics: Maximum energy drift = 1e-9",
         r"[-\d.e]+ after \d+ steps the energies fail to balance by [-\d.e]+ % .* allowed are 1e-07 %"
-        r" \('Largest drift'\): try ",
+        r" \('Maximum energy drift'\): try ",
     ),
     Broken(
         "a step too short for the clock",
@@ -951,11 +951,11 @@ def _() -> None:
         " & Plane: + set Shape = cylinder\nset Axis = 0, 1, 0\nset Radius = 3"
         " & Motion: Translation = 2*max(0,t-1) ; 0 ; -0.1*min(t,1) & top on die: Boundary ids = 5"
         " & top on die: Friction coefficient = 0.2 & top on die: Normal penalty = 40"
-        " & Time stepping: End time = 2 & Time stepping: - Initial step & Time stepping: - Largest step"
+        " & Time stepping: End time = 2 & Time stepping: - Initial step & Time stepping: - Maximum step"
     )
     dissipations = [
         billet(edits).last("friction_dissipation")
-        for edits in (roll, f"{roll} & Time stepping: + set Largest step = 0.02")
+        for edits in (roll, f"{roll} & Time stepping: + set Maximum step = 0.02")
     ]
     near("dissipation", *dissipations, 0.03)
 
@@ -965,15 +965,15 @@ SWING = (
     "Motion: Translation = 0.2*sin(20*pi*max(0,t-1)) ; 0 ; -ramp & ramp: Times = 0, 1, 2"
     " & ramp: Values = 0, 0.05, 0.05 & top on die: Friction coefficient = 0.3 & Time stepping: End time = 2"
 )
-SHORT = "Time stepping: Initial step = 0.01 & Time stepping: Largest step = 0.01"
+SHORT = "Time stepping: Initial step = 0.01 & Time stepping: Maximum step = 0.01"
 
 
 @check("steps see a tool that swings by whole periods, and one spike")
 def _() -> None:
-    long = billet(f"{SWING} & Time stepping: Largest step = 0.1").last("friction_dissipation")
+    long = billet(f"{SWING} & Time stepping: Maximum step = 0.1").last("friction_dissipation")
     near("dissipation", long, billet(f"{SWING} & {SHORT}").last("friction_dissipation"), 0.05)
     spike = "Motion: Translation = 0 ; 0 ; -0.1*max(0,1-abs(t-0.54)/0.05)"
-    long = billet(f"{spike} & Time stepping: Largest step = 0.2").last("plastic_work")
+    long = billet(f"{spike} & Time stepping: Maximum step = 0.2").last("plastic_work")
     near("plastic work", long, billet(f"{spike} & {SHORT}").last("plastic_work"), 0.03)
 
 
@@ -988,7 +988,7 @@ def _() -> None:
         " 2, 2, 2 : -1, -1, 0 : 1, 1, 2 : true & ramp: Times = 0, 1, 2 & ramp: Values = 0, 0.02, 0.02 & top"
         " on die: Friction coefficient = 0.3 & Time stepping: End time = 2"
     )
-    long = billet(f"{turn} & Time stepping: Largest step = 0.34").last("die.moment_z")
+    long = billet(f"{turn} & Time stepping: Maximum step = 0.34").last("die.moment_z")
     near("moment", long, billet(f"{turn} & {SHORT}").last("die.moment_z"), 0.03)
 
 
@@ -1019,15 +1019,15 @@ def pair(partner: str, boundary_id: int) -> str:
 # Between bed and die, which both go; a third tool, which may come to touch, does not.
 FAR = tool("far", "set Point = 0, 0, 3\n set Normal = 0, 0, -1", "")
 LET_GO = (
-    "Motion: Removed at = 0.5 & Motion: Release time = 0.2 & floor: delete"
-    f" & Tools: + {FAR}\n{tool('bed', '', 'set Removed at = 0.5')}"
+    "Motion: Removal time = 0.5 & Motion: Release time = 0.2 & floor: delete"
+    f" & Tools: + {FAR}\n{tool('bed', '', 'set Removal time = 0.5')}"
     f" & Contact pairs: + {pair('far', 7)}\n{pair('bed', 4)}"
 )
 for ranks in (1, 2):
 
     @check(f"a body that removed tools leave free, on {ranks} ranks")
     def _() -> None:
-        ran = billet(f"{LET_GO} & Output: Every steps = 0", ranks=ranks, code=3)
+        ran = billet(f"{LET_GO} & Output: Step interval = 0", ranks=ranks, code=3)
         message = (
             "error[solution-failed]: scene.prm: at time 0.5, without tool 'bed', tool 'die', which are"
             " removed then, body 'block' is left without support: neither supports, nor symmetry planes, nor"
@@ -1045,7 +1045,7 @@ for ranks in (1, 2):
 def _() -> None:
     ran = billet(
         (
-            f"Motion: Removed at = 0.5 & floor: delete & Tools: + {tool('bed', '', '')}"
+            f"Motion: Removal time = 0.5 & floor: delete & Tools: + {tool('bed', '', '')}"
             f" & Contact pairs: + {pair('bed', 4)}"
         ),
         code=3,
@@ -1059,7 +1059,7 @@ def _() -> None:
 
 @check("a body that its supports hold when the tool goes")
 def _() -> None:
-    billet("Motion: Removed at = 0.5 & Motion: Release time = 0.2")
+    billet("Motion: Removal time = 0.5 & Motion: Release time = 0.2")
 
 
 # --- --check --------------------------------------------------------------------------------------
@@ -1086,7 +1086,7 @@ def _() -> None:
 @check("--check tells what a profile sets, and what the scene requires")
 def _() -> None:
     output = checked(
-        "Profile = accurate & Time stepping: - Largest step & top on die: Friction coefficient = 0"
+        "Profile = accurate & Time stepping: - Maximum step & top on die: Friction coefficient = 0"
         " & Solver: - Contact tangent"
     )
     for line in (

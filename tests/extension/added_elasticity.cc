@@ -66,7 +66,7 @@ SharedLaw make_law(const ElasticModuli &moduli, SharedFlow flow) {
 }
 
 std::string material(const double poisson) {
-  return "set Law = elastic\nset Kinematics = quadratic volume\nset Young modulus = 200e3\nset Poisson ratio "
+  return "set Law = elastic\nset Elasticity = quadratic volume\nset Young modulus = 200e3\nset Poisson ratio "
          "= " +
          std::to_string(poisson);
 }

@@ -108,7 +108,7 @@ constexpr ElementKind kind = {"fully integrated", &make_law_block<FullyIntegrate
 const BrickElement fully_integrated(kind);
 
 const std::string plastic = "set Young modulus = 200e3\nset Poisson ratio = 0.3\nset Yield stress = 300\n"
-                            "set Hardening modulus = 500\nset Kinematics = ",
+                            "set Hardening modulus = 500\nset Elasticity = ",
                   elastic = "set Law = elastic\nset Young modulus = 200e3\nset Poisson ratio = 0.3";
 
 } // namespace

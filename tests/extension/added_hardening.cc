@@ -45,7 +45,7 @@ HardeningType hyperbolic_type() {
 const HyperbolicHardening sample{300., 500., 0.05};
 
 std::string material(const std::string &elasticity) {
-  return "set Young modulus = 200e3\nset Poisson ratio = 0.3\nset Kinematics = " + elasticity +
+  return "set Young modulus = 200e3\nset Poisson ratio = 0.3\nset Elasticity = " + elasticity +
          "\nset Hardening = hyperbolic\nset Yield stress = 300\nset Limit stress = 500\nset Half strain = "
          "0.05";
 }

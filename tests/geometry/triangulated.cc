@@ -106,8 +106,8 @@ void check_order(const std::string &name, const Surface &exact, const Mesh &mesh
   for (unsigned int i = 0; i < 3; ++i)
     errors[i] = errors_near(exact, read(mesh(i), lines), size, least_z);
   const Errors flat = errors_near(
-      exact, read(mesh(2), lines.substr(0, lines.find("set Sharp angle")) + "set Smoothing = false\n"), size,
-      least_z);
+      exact, read(mesh(2), lines.substr(0, lines.find("set Feature angle")) + "set Smoothing = false\n"),
+      size, least_z);
   double gap = 10., normal = 10.;
   for (unsigned int i = 0; i < 2; ++i) {
     gap = std::min(gap, std::log2(errors[i].gap / errors[i + 1].gap));
@@ -190,7 +190,7 @@ void check_closed(const double sharp_angle) {
         mesh.points[i] = j < i ? mesh.points[j] : points[i] + random.vector(0.25);
         break;
       }
-  const auto surface = read(mesh, "set Sharp angle = " + std::to_string(sharp_angle));
+  const auto surface = read(mesh, "set Feature angle = " + std::to_string(sharp_angle));
   unsigned int n_missing = 0;
   for (unsigned int i = 0; i < 6000; ++i) {
     const double reach = i % 3 == 0 ? 5. : i % 3 == 1 ? 30. : 1000.;
@@ -287,7 +287,7 @@ int main() {
   check_sliver();
 
   const Tensor<1, 3> origin;
-  check_surface("sphere of 80 triangles", *read(icosphere(1), "set Sharp angle = 60"), origin, 2.);
+  check_surface("sphere of 80 triangles", *read(icosphere(1), "set Feature angle = 60"), origin, 2.);
   check_surface("sphere of 1280 triangles", *read(icosphere(3)), origin, 2.);
   check_surface("sphere of 320 triangles from inside", *read(icosphere(2), "set Side = inside"), origin, 0.9);
   check_surface("sphere of 320 flat triangles", *read(icosphere(2), "set Smoothing = false"), origin, 2.);
@@ -302,10 +302,10 @@ int main() {
 
   check_order(
       "sphere", make_surface("sphere", "set Radius = 1"),
-      [](const unsigned int i) { return icosphere(i + 1); }, 1.2, "set Sharp angle = 60\n", 3.5, 2.5, 500.);
+      [](const unsigned int i) { return icosphere(i + 1); }, 1.2, "set Feature angle = 60\n", 3.5, 2.5, 500.);
   check_order(
       "torus", make_surface("torus", "set Ring radius = 3\nset Tube radius = 1"),
-      [](const unsigned int i) { return torus(3., 1., 12U << i); }, 4., "set Sharp angle = 60\n", 2.8, 1.8,
+      [](const unsigned int i) { return torus(3., 1., 12U << i); }, 4., "set Feature angle = 60\n", 2.8, 1.8,
       30.);
   // A die: flange, fillet and wall.
   check_order(

@@ -214,7 +214,7 @@ void test_vibration(const Formulation &formulation) {
         largest < 2. * start && kinetic() > 0.1 * start);
 }
 
-/// Smallest step of `body`'s elements, at rest.
+/// The smallest step of `body`'s elements, at rest.
 double step_at_rest(Body &body) {
   body.advance(NodalArray(body.mesh().positions.size()), 0.);
   return body.result().stable_step;

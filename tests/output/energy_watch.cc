@@ -65,7 +65,7 @@ int main() {
           tells(watch.check(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::unstable_law)),
                 "lost its ellipticity") &&
               tells(other.check(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::inexact_dissipation)),
-                    "'Kinematics = Hencky'"));
+                    "'Elasticity = Hencky'"));
     unsigned int n_asked = 0;
     EnergyWatch balanced(EnergyWatch::Balance::is_told);
     balanced.check(0.1, flight(0.6, 0.4), [&] {
@@ -80,7 +80,7 @@ int main() {
           watch.check(0.3, flight(0.8, 0.4)).empty() && watch.imbalance().empty());
     check("more does", watch.check(0.4, flight(1., 0.4)).empty() &&
                            tells(watch.imbalance(), "by 40 % of the largest so far, allowed are 30 % "
-                                                    "('Largest drift'): the steps do not resolve"));
+                                                    "('Maximum energy drift'): the steps do not resolve"));
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_told);

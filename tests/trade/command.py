@@ -329,7 +329,7 @@ class TestCommand(unittest.TestCase):
             "--cost",
             "work",
             "--knob",
-            "pace: Time stepping/Largest step=0.2,0.5",
+            "pace: Time stepping/Maximum step=0.2,0.5",
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = self.rows("combined/trade")
@@ -436,6 +436,15 @@ class TestCommand(unittest.TestCase):
             self.said(scene="wrong.prm")[1],
             "billet-trade: billet refuses the scene:\nwrong.prm:1: 'Speed': there is no such parameter\n",
         )
+        (self.folder / "old.prm").write_text("set Old name = 1\n")
+        self.assertEqual(
+            self.said(scene="old.prm"),
+            (
+                2,
+                "billet-trade: old.prm: the scene uses old names of parameters; convert it by"
+                " 'billet --update-scene'\n",
+            ),
+        )
 
     def test_one_at_a_time(self):
         (self.folder / "busy").mkdir()
@@ -481,7 +490,7 @@ class TestCommand(unittest.TestCase):
             "--set",
             "Solver/Linear solver=MUMPS",
             "--set",
-            "Time stepping/Largest step=0.33333333333333",
+            "Time stepping/Maximum step=0.33333333333333",
             "--outputs",
             "force",
             "--repeat",
@@ -522,7 +531,7 @@ class TestCommand(unittest.TestCase):
         ).stdout
         presets = read_presets(json.loads(said))
         penalty = "Contact pairs/bar on wall/Normal penalty"
-        self.assertEqual((presets[penalty], presets["Bodies/bar/Material/Kinematics"]), ("1", "hypoelastic"))
+        self.assertEqual((presets[penalty], presets["Bodies/bar/Material/Elasticity"]), ("1", "hypoelastic"))
         defaults = subprocess.run(
             [os.environ["BILLET"], "--print-parameters"], capture_output=True, text=True
         ).stdout

@@ -34,9 +34,9 @@ end
 subsection Time stepping
   set End time = 1
   set Initial step = 0.1
-  set Largest step = 0.1
-  set Few iterations = 5
-  set Many iterations = 9
+  set Maximum step = 0.1
+  set Growth iterations = 5
+  set Shrink iterations = 9
   set Step control = automatic
 end
 subsection Solver
@@ -50,7 +50,7 @@ end
 subsection Output
   set Folder = results
   set Format = vtu
-  set Every steps = 1
+  set Step interval = 1
   set Verbosity = steps
   set Stress = true
 end
@@ -76,7 +76,7 @@ def check(file):
         return {}, f"{file}: the scene file cannot be read"
     for path, value in scene.items():
         key = path.split("/")[-1]
-        if not known(path) and key != "Title":
+        if not known(path) and key not in ("Title", "Old name"):
             return scene, f"{file}:1: '{key}': there is no such parameter"
         if key in WORDS and value not in WORDS[key]:
             return scene, f"{file}:1: '{key}': found '{value}', allowed is one of: {', '.join(WORDS[key])}"
@@ -134,7 +134,7 @@ def run(scene):
 
     n, step, penalty = (
         int(get("Layers", 4)),
-        float(get("Largest step", 0.1)),
+        float(get("Maximum step", 0.1)),
         float(get("Normal penalty", 10)),
     )
     tangent = get("Contact tangent", "automatic")
@@ -199,6 +199,8 @@ def main():
     if sys.argv[1] == "--check":
         layers = next((v for path, v in scene.items() if path.endswith("/Layers")), 4)
         messages = [{"key": "bad-input", "severity": "error", "message": against}] if against else []
+        if "Old name" in scene:
+            messages.append({"key": "old-name", "severity": "warning", "message": "'Old name' is one"})
         print(
             json.dumps({"file": file, "valid": not against, "elements": int(layers), "diagnostics": messages})
         )

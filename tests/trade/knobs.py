@@ -30,7 +30,7 @@ subsection Contact pairs
 end
 subsection Time stepping
  set Initial step = 0.01
- set Largest step = 0.1
+ set Maximum step = 0.1
  set Step control = automatic
 end
 subsection Solver
@@ -99,7 +99,7 @@ class TestKnobs(unittest.TestCase):
     def test_equal_steps(self):
         changes = knobs.make_steps(shipped("ironing"), "35")
         self.assertEqual(changes["Time stepping/Initial step"], "0.1")
-        self.assertEqual(changes["Time stepping/Largest step"], "0.1")
+        self.assertEqual(changes["Time stepping/Maximum step"], "0.1")
         with self.assertRaises(knobs.CannotTurn):
             knobs.make_steps(shipped("taylor_bar"), "10")
 
@@ -140,10 +140,12 @@ class TestKnobs(unittest.TestCase):
         )
 
     def test_own_knob(self):
-        knob = knobs.own_knob("pace: Time stepping/Growth factor=1.2, 2 & Time stepping/Few  iterations=3,6")
+        knob = knobs.own_knob(
+            "pace: Time stepping/Growth factor=1.2, 2 & Time stepping/Growth  iterations=3,6"
+        )
         self.assertEqual((knob.name, knob.arguments), ("pace", ["1.2", "2"]))
         self.assertEqual(
-            knob.make(None, "2"), {"Time stepping/Growth factor": "2", "Time stepping/Few iterations": "6"}
+            knob.make(None, "2"), {"Time stepping/Growth factor": "2", "Time stepping/Growth iterations": "6"}
         )
         self.assertEqual(
             knobs.own_knob("Bodies/b/Mesh/Arguments=1, 2 : 3|2, 4 : 3").arguments, ["1, 2 : 3", "2, 4 : 3"]
@@ -189,7 +191,7 @@ class TestPlan(unittest.TestCase):
         self.assertEqual(plan.centre.get("Solver/Force tolerance"), "1e-08")
         self.assertEqual(plan.cross.get("Bodies/billet/Mesh/Layers"), "10")
         self.assertEqual(plan.cross.get("Contact pairs/billet on die/Normal penalty"), "1.4e+06")
-        self.assertEqual(plan.cross.get("Time stepping/Largest step"), "0.0625")
+        self.assertEqual(plan.cross.get("Time stepping/Maximum step"), "0.0625")
 
     def test_augmented_and_given(self):
         plan = Plan(shipped("hertz_cylinders"), lambda scene: 1, GIVEN)
@@ -199,7 +201,7 @@ class TestPlan(unittest.TestCase):
             [scene.get("Contact pairs/faces/Penetration tolerance") for _, scene in plan.axes[1].levels],
             ["0.001", "0.00025", "6.25e-05"],
         )
-        self.assertEqual((plan.axes[1].centre, plan.centre.get("Solver/Most augmentations")), (1, "100"))
+        self.assertEqual((plan.axes[1].centre, plan.centre.get("Solver/Maximum augmentations")), (1, "100"))
         # Bodies that touch in an implicit scene: augmented, though the scene is not.
         plan = Plan(shipped("ironing"), lambda scene: 1, GIVEN)
         self.assertEqual(
@@ -209,14 +211,14 @@ class TestPlan(unittest.TestCase):
 
     def test_explicit(self):
         scene = shipped("taylor_bar").changed(
-            {"Bodies/bar/Material/Kinematics": "hypoelastic", "Explicit dynamics/Mass scaling step": 1e-7}
+            {"Bodies/bar/Material/Elasticity": "hypoelastic", "Explicit dynamics/Mass scaling step": 1e-7}
         )
         plan = Plan(scene, lambda scene: 1)
         self.assertEqual(
             [scene.get("Explicit dynamics/Safety factor") for _, scene in plan.axes[0].levels],
             ["0.75", "0.375", "0.1875"],
         )
-        self.assertEqual(plan.centre.get("Bodies/bar/Material/Kinematics"), "Hencky")
+        self.assertEqual(plan.centre.get("Bodies/bar/Material/Elasticity"), "Hencky")
         self.assertEqual(plan.centre.get("Explicit dynamics/Mass scaling step"), "0")
 
 

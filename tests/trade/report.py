@@ -173,7 +173,7 @@ class Judging(unittest.TestCase):
         reason = (
             "scene.prm: the step from time 0 to 1e-06 failed after 0 accepted steps and 18 cuts: given up"
             " after 20 iterations, since at their pace 60 will not do; the largest residual is in body"
-            " 'blank' at (38.4833, 46.7199, -2.4e-10). The step cannot be cut below 'Smallest step' = 1e-06:"
+            " 'blank' at (38.4833, 46.7199, -2.4e-10). The step cannot be cut below 'Minimum step' = 1e-06:"
             " try a softer penalty"
         )
         self.assertEqual(first_sentence(reason), reason[: reason.index(". The step")])
@@ -188,11 +188,11 @@ class Cancellation(unittest.TestCase):
         return [
             point("", "as written", force=1.025, elements=8),
             point("mesh", "0.5", layers(2), force=0.995, elements=2),
-            point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.004, elements=16),
+            point("steps", "80", {"Time stepping/Maximum step": "0.01"}, force=1.004, elements=16),
             point(
                 "mesh 0.5 × steps",
                 "80",
-                layers(2, **{"Time stepping/Largest step": "0.01"}),
+                layers(2, **{"Time stepping/Maximum step": "0.01"}),
                 force=0.97,
                 elements=3,
             ),
@@ -228,7 +228,7 @@ class Cancellation(unittest.TestCase):
         self.assertEqual(said.count("That mesh is coarser than the scene's"), 2)
         points = [
             point("", "as written", force=1.04, elements=8),
-            point("steps", "80", {"Time stepping/Largest step": "0.01"}, force=1.02, elements=8),
+            point("steps", "80", {"Time stepping/Maximum step": "0.01"}, force=1.02, elements=8),
         ]
         said = " ".join(sweep(points, Reference(0.01)).words())
         self.assertIn("Most accuracy is bought by `steps = 80`", said)
@@ -243,7 +243,7 @@ class Cancellation(unittest.TestCase):
 
     def test_shorter_steps_on_the_same_mesh(self):
         def steps(n, **changes):
-            return {"Time stepping/Largest step": str(1 / n), **changes}
+            return {"Time stepping/Maximum step": str(1 / n), **changes}
 
         # As of the billet: 60 bricks get worse with each refinement of the steps, by less than the reference
         # is uncertain.

@@ -194,14 +194,14 @@ class Scene:
         return float(self.get("Time stepping/End time") or 1)
 
     def step(self, name: str) -> float:
-        """Returns 'Initial step' or 'Largest step' of an implicit scene, with what `automatic` makes of
+        """Returns 'Initial step' or 'Maximum step' of an implicit scene, with what `automatic` makes of
         it."""
 
         def given(key: str, otherwise: float) -> float:
             value = self.get("Time stepping/" + key)
             return otherwise if value in ("automatic", "") else float(value)
 
-        largest = given("Largest step", 0.1 * self.end_time)
+        largest = given("Maximum step", 0.1 * self.end_time)
         initial = given("Initial step", min(0.01 * self.end_time, largest))
         return initial if name == "Initial step" else max(largest, initial)
 

@@ -30,7 +30,7 @@ std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile
 /// InputError.
 double read_target_error(const SceneFile &file);
 
-/// "Time stepping / Largest step = 0.2".
+/// "Time stepping / Maximum step = 0.2".
 std::string to_string(const Preset &preset);
 
 } // namespace billet::parameters

@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_SCENE_H
 #define BILLET_PARAMETERS_SCENE_H
 
+#include "billet/diagnostics.h"
 #include "billet/parameters/body.h"
 #include "billet/parameters/control.h"
 #include "billet/parameters/implicit_dynamics.h"
@@ -21,6 +22,7 @@ struct Scene {
   double target_error = 0.; ///< part of the forces; 0: none is asked for
   bool warnings_are_errors = false;
   std::vector<Preset> presets; ///< what the profile, or the target error, has set
+  DiagnosticList warnings;     ///< about old names of parameters
   std::vector<Amplitude> amplitudes;
   std::vector<Body> bodies;
   std::vector<Tool> tools;

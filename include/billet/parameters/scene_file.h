@@ -19,11 +19,17 @@ class SceneFile {
 public:
   using Path = std::vector<std::string>;
 
+  /// Key and value under today's names (renames.h), and as they are written.
   struct Entry {
     Path path;
     std::string key;
     std::string value;
     std::string where; ///< "file:line"
+    std::string written_key, written_value;
+    unsigned int line; ///< in its file, from 1
+    bool is_included;  ///< it stands in a file that the scene file includes
+
+    bool has_old_name() const { return key != written_key || value != written_value; }
   };
   struct Subsection {
     Path path;
@@ -31,12 +37,15 @@ public:
   };
 
   /// Reads `file_name` and what it includes. Understands ParameterHandler's text format: `set`, `subsection`,
-  /// `end`, `include` (relative to the including file), `#` comments and `\` at a line's end. Throws
-  /// InputError.
+  /// `end`, `include` (relative to the including file), `#` comments and `\` at a line's end. Old names of
+  /// parameters stand for today's. Throws InputError.
   static SceneFile read(const std::string &file_name);
 
   /// The same for text at hand; `name` stands for the file in messages.
   static SceneFile scan(std::istream &text, const std::string &name);
+
+  /// All entries in the order of their appearance.
+  const std::vector<Entry> &entries() const { return entries_; }
 
   /// Names of the subsections right below `path`, in the order of their appearance.
   std::vector<std::string> names_below(const Path &path) const;

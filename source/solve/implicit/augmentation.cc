@@ -202,7 +202,7 @@ void Augmentation::give_up(const Series &series, const unsigned int n, const dou
   message << ": try a larger penalty or 'Penetration tolerance', "
           << (problem_.scheme().has_inertia()
                   ? "or none: nodes that have come in would have to stop within a step"
-                  : "or more 'Most augmentations'");
+                  : "or a larger 'Maximum augmentations'");
   report.converged = false;
   report.failure = message.str();
 }

@@ -120,7 +120,7 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
     return false;
   }
   text << ", more than the allowed " << 100. * StepEnergy::max_part
-       << " %. The solution jumped to another branch, or bodies passed through each other. Reduce 'Largest "
+       << " %. The solution jumped to another branch, or bodies passed through each other. Reduce 'Maximum "
           "step' or the penalty, or use a finer mesh where they touch";
   report.converged = false;
   report.is_explained = true;
@@ -146,7 +146,7 @@ DiagnosticList StaticBalance::finish() const {
   return {Diagnostic(diagnostic::energy_imbalance, text.str())
               .time(problem_.state().time)
               .measure("part of all work [%]", percent)
-              .advice("Forces of contact do not fit its motion: reduce 'Largest step', or use a finer mesh "
+              .advice("Forces of contact do not fit its motion: reduce 'Maximum step', or use a finer mesh "
                       "where bodies touch, and check in the field output that they touch where they should")};
 }
 
@@ -179,14 +179,14 @@ bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
   std::ostringstream message;
   message.precision(3);
   message << "the error of the step's time integration is " << time_error_
-          << " times the 'Error tolerance'. Try a smaller 'Smallest step' or a larger 'Error tolerance'";
+          << " times the 'Error tolerance'. Try a smaller 'Minimum step' or a larger 'Error tolerance'";
   trial_imbalance_ = element_imbalance().unexplained;
   if (paths_.may_be_cut(t)) {
     const double error = energy_error(trial_imbalance_);
     if (error > std::max(1., time_error_)) {
       message.str("");
       message << "the work of the elements' forces in the step differs from their energy by " << error
-              << " times what is allowed. Try a smaller 'Smallest step'";
+              << " times what is allowed. Try a smaller 'Minimum step'";
     }
     time_error_ = std::max(time_error_, error);
   }

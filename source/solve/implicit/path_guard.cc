@@ -38,7 +38,7 @@ bool PathGuard::goes_through(const bool is_thorough, NewtonReport &report) {
   if (problem_.find_free_part(is_thorough) == 1.)
     return false;
   return fail(report, problem_.obstacle() +
-                          ", or deeper into it than contact follows them. Try a smaller 'Smallest step', a "
+                          ", or deeper into it than contact follows them. Try a smaller 'Minimum step', a "
                           "larger 'Normal penalty' or smaller facets");
 }
 
@@ -60,7 +60,7 @@ bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
          << ". Try a smaller "
          << (problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed
                  ? "'Initial step'"
-                 : "'Smallest step'");
+                 : "'Minimum step'");
     return fail(report, text.str());
   }
   return false;

@@ -156,7 +156,7 @@ def material(k, f, young=None, density=None):
     e = young or k.young
     m = {"Law": k.law, "Young modulus": number(e * f.stress), "Poisson ratio": number(k.nu)}
     if k.kinematics != "Hencky":
-        m["Kinematics"] = k.kinematics
+        m["Elasticity"] = k.kinematics
     if density:
         m["Density"] = number(density * f.density)
     if k.law == "elastoplastic":
@@ -219,12 +219,12 @@ def pair(k, f, **more):
         p["Friction law"] = k.friction_law
         law = friction(k)
         if k.friction_law == "shear limited":
-            p["Largest shear stress"] = number(law["largest"] * f.stress)
+            p["Maximum shear stress"] = number(law["largest"] * f.stress)
         elif k.friction_law == "static-kinetic":
             p.update(
                 {
                     "Kinetic friction coefficient": number(law["kinetic"]),
-                    "Decay": number(law["decay"] / f.speed),
+                    "Decay coefficient": number(law["decay"] / f.speed),
                 }
             )
         elif k.friction_law == "pressure dependent":
@@ -234,7 +234,7 @@ def pair(k, f, **more):
                     "Pressure exponent": number(law["exponent"]),
                 }
             )
-    for knob, key in (("edges", "Edges"), ("smoothing", "Smoothing"), ("margin", "Search margin")):
+    for knob, key in (("edges", "Edge contact"), ("smoothing", "Smoothing"), ("margin", "Search margin")):
         if k.all[knob] is not None and "Second body" in more:
             p[key] = k.all[knob]
     p.update(more)
@@ -266,8 +266,8 @@ def statics(k, f, end=1.0, first=None, stops=()):
     t = {
         "End time": number(end * f.time),
         "Initial step": number((first or k.first_step) * f.time),
-        "Largest step": number(k.largest_step * f.time),
-        "Smallest step": number(1e-5 * f.time),
+        "Maximum step": number(k.largest_step * f.time),
+        "Minimum step": number(1e-5 * f.time),
     }
     if k.step is not None:
         t = {"End time": t["End time"], "Step control": "fixed", "Initial step": number(k.step * f.time)}
@@ -290,7 +290,7 @@ def statics(k, f, end=1.0, first=None, stops=()):
 
 
 def output(**more):
-    return {"Folder": "results", "Every steps": 1000000, "Verbosity": "steps", **more}
+    return {"Folder": "results", "Step interval": 1000000, "Verbosity": "steps", **more}
 
 
 def top(k):
@@ -308,24 +308,24 @@ def dynamics(k, f, scheme, end, rows=400):
         x = {
             "Safety factor": k.safety,
             "Contact resolution": k.resolution,
-            "Instructions": k.instructions,
+            "Instruction set": k.instructions,
             "Number type": k.number_type,
             "Linear bulk viscosity": k.linear_viscosity,
             "Mass scaling step": None if k.mass_scaling is None else number(k.mass_scaling * f.time),
         }
         whole["Explicit dynamics"] = {a: b for a, b in x.items() if b is not None}
-        whole["Output"] = output(**{"Every steps": 0, "History interval": number(end * f.time / rows)})
+        whole["Output"] = output(**{"Step interval": 0, "History interval": number(end * f.time / rows)})
     else:
         whole["Time stepping"].update(
             {
                 "Initial step": number(end / 200 * f.time),
-                "Largest step": number(end / 50 * f.time),
-                "Smallest step": number(end * 1e-7 * f.time),
+                "Maximum step": number(end / 50 * f.time),
+                "Minimum step": number(end * 1e-7 * f.time),
             }
         )
         if k.step is not None:
             whole["Time stepping"].update(
-                {"Initial step": number(k.step * end * f.time), "Largest step": number(k.step * end * f.time)}
+                {"Initial step": number(k.step * end * f.time), "Maximum step": number(k.step * end * f.time)}
             )
         x = {
             "Method": k.method,

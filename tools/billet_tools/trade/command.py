@@ -22,9 +22,13 @@ def read_user_scene(options: Options, program: Program) -> tuple[Scene, Path]:
     file = Path(options.scene)
     if not file.is_file():
         raise UserError(f"{options.scene}: there is no such scene file")
-    code, _, against = program.check(file)
+    code, checked, against = program.check(file)
     if code != 0:
         raise UserError(f"billet refuses the scene:\n{against}", 2)
+    if any(message["key"] == "old-name" for message in checked.get("diagnostics", [])):
+        raise UserError(
+            f"{options.scene}: the scene uses old names of parameters; convert it by 'billet --update-scene'"
+        )
     try:
         return Scene(read_scene(file), program.parameters), file
     except (OSError, UnicodeDecodeError) as error:

@@ -154,7 +154,7 @@ def explicit(scene: Scene) -> None:
 
 def longest_steps(scene: Scene) -> int:
     """How many steps of the largest length the scene has."""
-    key = "Initial step" if scene.get("Time stepping/Step control") == "fixed" else "Largest step"
+    key = "Initial step" if scene.get("Time stepping/Step control") == "fixed" else "Maximum step"
     return max(1, math.ceil(scene.end_time / scene.step(key) - 1e-9))
 
 
@@ -165,9 +165,9 @@ def equal_steps(scene: Scene, n: float) -> Changes:
     changes = {
         "Time stepping/Step control": "automatic",
         "Time stepping/Initial step": step,
-        "Time stepping/Largest step": step,
-        "Time stepping/Few iterations": 9998,
-        "Time stepping/Many iterations": 9999,
+        "Time stepping/Maximum step": step,
+        "Time stepping/Growth iterations": 9998,
+        "Time stepping/Shrink iterations": 9999,
     }
     if scene.scheme == "implicit dynamics":
         changes["Implicit dynamics/Error tolerance"] = 0
@@ -187,14 +187,14 @@ def make_largest_step(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
     need(
-        "Time stepping/Largest step" in scene.entries
+        "Time stepping/Maximum step" in scene.entries
         or number(argument) <= 1
-        or scene.end_time / 4 >= scene.step("Largest step"),
+        or scene.end_time / 4 >= scene.step("Maximum step"),
         "the largest step is a good part of the time already",
     )
-    largest = number(argument) * scene.step("Largest step")
+    largest = number(argument) * scene.step("Maximum step")
     return {
-        "Time stepping/Largest step": shown(largest),
+        "Time stepping/Maximum step": shown(largest),
         "Time stepping/Initial step": shown(min(largest, scene.step("Initial step"))),
     }
 
@@ -263,7 +263,7 @@ def make_viscosity(scene: Scene, argument: str) -> Changes:
 )
 def make_instructions(scene: Scene, argument: str) -> Changes:
     explicit(scene)
-    return {"Explicit dynamics/Instructions": argument}
+    return {"Explicit dynamics/Instruction set": argument}
 
 
 @knob(
@@ -291,7 +291,7 @@ def pairs(scene: Scene, of_bodies: bool = False) -> list[str]:
 
 def has_friction(scene: Scene) -> bool:
     return any(
-        scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Largest shear stress") > 0
+        scene.number(pair + "Friction coefficient") > 0 or scene.number(pair + "Maximum shear stress") > 0
         for pair in pairs(scene)
     )
 
@@ -422,7 +422,7 @@ def make_linear_tolerance(scene: Scene, argument: str) -> Changes:
 @knob("forcing", "how exactly an iterative solver solves", "Eisenstat-Walker", "fixed")
 def make_forcing(scene: Scene, argument: str) -> Changes:
     implicit(scene)
-    return {**iterative(scene), "Solver/Forcing": argument}
+    return {**iterative(scene), "Solver/Forcing term": argument}
 
 
 # --- bodies ---------------------------------------------------------------------------------------
@@ -435,11 +435,11 @@ def make_element(scene: Scene, argument: str) -> Changes:
 
 @knob("kinematics", "of all bodies' laws", "Hencky", "neo-Hookean", "hypoelastic")
 def make_kinematics(scene: Scene, argument: str) -> Changes:
-    return {f"Bodies/{body}/Material/Kinematics": argument for body in scene.names("Bodies")}
+    return {f"Bodies/{body}/Material/Elasticity": argument for body in scene.names("Bodies")}
 
 
 def has_unsymmetric_tangent(scene: Scene, body: str) -> bool:
-    law = scene.get(f"{body}/Material/Kinematics")
+    law = scene.get(f"{body}/Material/Elasticity")
     return law == "hypoelastic" or (
         scene.get(f"{body}/Material/Law") == "elastoplastic" and law == "neo-Hookean"
     )
@@ -529,7 +529,7 @@ def reference_settings(scene: Scene) -> Changes:
     exact."""
     changes: dict[str, object] = {path: None for path in ("Profile", "Target error") if path in scene.entries}
     for body in scene.names("Bodies"):
-        path = f"Bodies/{body}/Material/Kinematics"
+        path = f"Bodies/{body}/Material/Elasticity"
         if scene.entries.get(path, "Hencky") != "Hencky":
             changes[path] = "Hencky"
     if scene.is_explicit:

@@ -117,7 +117,7 @@ class Plan:
             pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0
         }
         if augmented:
-            augmented["Solver/Most augmentations"] = 100
+            augmented["Solver/Maximum augmentations"] = 100
         self.centre = base.changed({**levels[0][1], **augmented})
         self.axes = [
             Axis("step", 2.0, [(label, self.centre.changed(changes)) for label, changes in levels], 0)

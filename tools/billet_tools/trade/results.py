@@ -35,13 +35,13 @@ def output_settings(scene: Scene) -> Changes:
     changes = {
         "Output/Folder": "results",
         "Output/Format": "vtu",
-        "Output/Every steps": 0,
+        "Output/Step interval": 0,
         "Output/Verbosity": "steps",
         "Output/Stress": "false",
     }
     if scene.number("Output/Interval") > 0:
         changes["Output/Interval"] = 0
-    for key in ("Every steps", "Interval"):
+    for key in ("Step interval", "Interval"):
         if scene.number("Output/Checkpoint/" + key) > 0:
             changes["Output/Checkpoint/" + key] = 0
     if scene.is_explicit:

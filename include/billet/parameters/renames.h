@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_PARAMETERS_RENAMES_H
+#define BILLET_PARAMETERS_RENAMES_H
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace billet {
+
+/// A parameter that had another name, or values of other names. Scenes may use the old ones until version
+/// 1.0.
+struct Rename {
+  std::vector<std::string> path; ///< the subsections; "*" stands for a name of the user's choice
+  std::string old_key, key;
+  std::vector<std::pair<std::string, std::string>> values; ///< old and new name of each value that changed
+};
+
+/// The table of all renamed parameters: the only place that knows old names.
+const std::vector<Rename> &renames();
+
+/// A parameter and its value as they are called today.
+struct CurrentNames {
+  std::string key, value;
+};
+
+/// Returns today's names of a parameter and of its value, which are the given ones unless they are old.
+CurrentNames current_names(const std::vector<std::string> &path, const std::string &key,
+                           const std::string &value);
+
+} // namespace billet
+
+#endif
