@@ -31,15 +31,11 @@ Sizes = dict[str, dict[str, int]]  # by name of a class or function, and by limi
 
 # What exceeds a limit today, and how large it may be at most.
 EXCEPTIONS: Sizes = {
-    "billet::BodyContact": {"functions": 52},
+    "billet::BodyContact": {"functions": 48},
     "billet::ContactInterface": {"functions": 62},
-    "billet::FacetContact": {"data members": 51, "functions": 74},
-    "billet::FacetContact::follow_forces": {"lines": 102},
-    "billet::RigidContact": {"data members": 41, "functions": 112},
-    "billet::RigidContact::divide_facets": {"lines": 97},
+    "billet::RigidContact": {"data members": 32, "functions": 95},
     "billet::TangentSolver": {"data members": 21},
     "billet::add_point_rates": {"lines": 98},
-    "billet::parameters::ContactPair::declare": {"lines": 92},
 }
 
 ANONYMOUS = re.compile(r"__anon[0-9a-f]+")

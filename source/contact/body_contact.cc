@@ -81,9 +81,7 @@ void BodyContact::add_tangent(const TangentSystem &system) const { blocks_->add_
 bool BodyContact::has_new_couplings() const { return blocks_->has_new(); }
 void BodyContact::find_couplings() { blocks_->find(tangent_); }
 void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) const { blocks_->add_foreign_dofs(dofs); }
-void BodyContact::add_couplings(SparsityPattern &pattern) const {
-  blocks_->add_entries(pattern);
-}
+void BodyContact::add_couplings(SparsityPattern &pattern) const { blocks_->add_entries(pattern); }
 void BodyContact::save_couplings(StateWriter &writer) const {
   blocks_->save(writer, surfaces_.keys, describe_couplings());
 }

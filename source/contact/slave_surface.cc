@@ -28,6 +28,29 @@ const double same_length = std::pow(2., 0.125);
 
 constexpr std::uint64_t points_per_key = 1024; // > (FacetDivision::max_parts + 1)²
 
+/// Sets the spacing of each node: the root of the mean area of the parts of facets around it. Collective.
+void measure_spacings(const Discretization &discretization,
+                      const std::vector<std::array<unsigned int, 4>> &corners,
+                      const std::vector<std::array<unsigned int, 2>> &n_parts,
+                      std::vector<ContactPoint> &nodes) {
+  Vector sums = discretization.make_additive_vector();
+  for (std::size_t f = 0; f < corners.size(); ++f) {
+    const auto x = [&](const unsigned int a) { return nodes[corners[f][a]].reference; };
+    const double area = 0.5 * dealii::cross_product_3d(x(3) - x(0), x(2) - x(1)).norm();
+    const unsigned int n = n_parts[f][0] * n_parts[f][1];
+    const std::array<double, 3> values{area / n, 1., n > 1 ? 1. : 0.};
+    for (const unsigned int i : corners[f])
+      sums.add(3, nodes[i].dofs.data(), values.data());
+  }
+  sums.compress(dealii::VectorOperation::add);
+  Vector ghosted = discretization.make_ghosted_vector();
+  ghosted = sums;
+  for (auto &node : nodes) {
+    node.spacing = std::sqrt(ghosted(node.dofs[0]) / ghosted(node.dofs[1]));
+    node.is_divided = ghosted(node.dofs[2]) > 0.;
+  }
+}
+
 } // namespace
 
 SlaveSurface::SlaveSurface(const ContactPair &pair, const Tool &tool, const Discretization &discretization,
@@ -144,24 +167,7 @@ void SlaveSurface::divide_facets(const Tool &tool, const Discretization &discret
   if (!has_divided_facets)
     return;
 
-  // The root of the mean area of the parts around each node.
-  Vector sums = discretization.make_additive_vector();
-  for (std::size_t f = 0; f < corners.size(); ++f) {
-    const auto x = [&](const unsigned int a) { return nodes[corners[f][a]].reference; };
-    const double area = 0.5 * dealii::cross_product_3d(x(3) - x(0), x(2) - x(1)).norm();
-    const unsigned int n = n_parts[f][0] * n_parts[f][1];
-    const std::array<double, 3> values{area / n, 1., n > 1 ? 1. : 0.};
-    for (const unsigned int i : corners[f])
-      sums.add(3, nodes[i].dofs.data(), values.data());
-  }
-  sums.compress(dealii::VectorOperation::add);
-  Vector ghosted = discretization.make_ghosted_vector();
-  ghosted = sums;
-  for (auto &node : nodes) {
-    node.spacing = std::sqrt(ghosted(node.dofs[0]) / ghosted(node.dofs[1]));
-    node.is_divided = ghosted(node.dofs[2]) > 0.;
-  }
-
+  measure_spacings(discretization, corners, n_parts, nodes);
   std::vector<ContactFacet> whole;
   for (std::size_t f = 0; f < corners.size(); ++f)
     if (n_parts[f][0] * n_parts[f][1] == 1)
