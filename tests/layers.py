@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: layers.py [ROOT]
 
-Holds the floors of the code apart: a file in include/billet/FLOOR or source/FLOOR includes only files of its
-own floor and of floors before it in the list below. doc/ tells what lives on each. Solver packages are named
+Keeps the layers of the code apart: a file in include/billet/LAYER or source/LAYER includes only files of its
+own layer and of layers before it in the list below. doc/ tells what lives on each. Solver packages are named
 in algebra/ alone, in tests, too.
 """
 
@@ -14,18 +14,18 @@ import re
 import sys
 from pathlib import Path
 
-FLOORS = (
+LAYERS = (
     "geometry material friction integration mechanics loads algebra parameters scene discretization forces"
     " contact solve output run"
 ).split()
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
-# billet/NAME.h, for every floor
+# billet/NAME.h, for every layer
 FOR_ALL = set(
     "compatibility diagnostic_kinds diagnostics errors registered_type state usage version"
     " without_traps".split()
 )
 ABOVE_ALL = {"main"}  # files that may include everything
-LEVELS = {floor: level for level, floor in enumerate(FLOORS)}
+LEVELS = {layer: level for level, layer in enumerate(LAYERS)}
 
 PLACE = re.compile(r"(?:include/billet|source)/(?:(\w+)/)?(?:.*/)?(\w+)[^/]*")
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)')
@@ -42,24 +42,24 @@ def without_comments(text: str) -> str:
     return COMMENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
 
 
-def fault_of_include(floor: str | None, name: str, quote: str, path: str) -> str:
-    """Returns what is wrong with an include of a file on this floor; nothing, where it is allowed."""
+def fault_of_include(layer: str | None, name: str, quote: str, path: str) -> str:
+    """Returns what is wrong with an include of a file on this layer; nothing, where it is allowed."""
     if not path.startswith("billet/"):
         return f'write "billet/..." instead of "{path}"' if quote == '"' and "/" in path else ""
-    if floor is None and name in ABOVE_ALL:
+    if layer is None and name in ABOVE_ALL:
         return ""
     match = HEADER.fullmatch(path)
     other, header = match.groups() if match else (None, None)
     if other is None:
-        return "" if header in FOR_ALL else f"{path} is above the floors"
+        return "" if header in FOR_ALL else f"{path} is above the layers"
     if other not in LEVELS:
-        return f"{path} is on no floor"
-    if floor is None:
-        return f"what every floor includes must not include {path}"
-    if LEVELS[other] > LEVELS[floor]:
-        return f"{floor}/ comes before {other}/, so it must not include {path}"
-    if {floor, other} in APART:
-        return f"{floor}/ and {other}/ must not know each other: {path}"
+        return f"{path} is on no layer"
+    if layer is None:
+        return f"what every layer includes must not include {path}"
+    if LEVELS[other] > LEVELS[layer]:
+        return f"{layer}/ comes before {other}/, so it must not include {path}"
+    if {layer, other} in APART:
+        return f"{layer}/ and {other}/ must not know each other: {path}"
     return ""
 
 
@@ -78,15 +78,15 @@ def faults_of_packages(file: str) -> list[str]:
 def faults_of(file: str) -> list[str]:
     """Returns what is wrong with a file."""
     match = PLACE.fullmatch(file)
-    floor, name = match.groups() if match else (None, "")
-    if floor not in LEVELS if floor is not None else name not in ABOVE_ALL | FOR_ALL:
-        return [f"{file}: on no floor of the list in tests/layers.py"]
+    layer, name = match.groups() if match else (None, "")
+    if layer not in LEVELS if layer is not None else name not in ABOVE_ALL | FOR_ALL:
+        return [f"{file}: on no layer of the list in tests/layers.py"]
     faults = []
     for number, line in enumerate(without_comments(Path(file).read_text(encoding="utf-8")).split("\n"), 1):
-        if re.search(r"\bParameterHandler\b", line) and floor != "parameters":
+        if re.search(r"\bParameterHandler\b", line) and layer != "parameters":
             faults.append(f"{file}:{number}: only parameters/ knows ParameterHandler")
         if include := INCLUDE.match(line):
-            if fault := fault_of_include(floor, name, *include.groups()):
+            if fault := fault_of_include(layer, name, *include.groups()):
                 faults.append(f"{file}:{number}: {fault}")
     return faults
 
