@@ -19,7 +19,7 @@ SlaveFriction::SlaveFriction(const FrictionLaw &law, const TouchingSlaves &slave
                              const SlaveStart &start)
     : law_(law), slaves_(slaves), penalties_(penalties), offsets_(offsets), start_(start),
       history_n_(slaves.size()), history_(slaves.size()), base_(slaves.size()), works_(slaves.size()) {
-  memory_.set(3 * history_.size() * sizeof(SlaveHistory));
+  memory_.set(history_.size() * (3 * sizeof(SlaveHistory) + sizeof(FrictionWorks)));
 }
 
 void SlaveFriction::release(const std::size_t s) {

@@ -110,7 +110,9 @@ bool depends_on_path(const SceneFile &file) {
 bool has_friction(const SceneFile &file) {
   const std::vector<std::string> pairs = file.names_below({"Contact pairs"});
   return std::any_of(pairs.begin(), pairs.end(), [&file](const std::string &name) {
-    return number_in(file.value({"Contact pairs", name}, "Friction coefficient", "0"), 1.) != 0.;
+    const Path path = {"Contact pairs", name}; // of all laws, Coulomb's alone may be none
+    return file.value(path, "Friction law", "Coulomb") != "Coulomb" ||
+           number_in(file.value(path, "Friction coefficient", "0"), 1.) != 0.;
   });
 }
 

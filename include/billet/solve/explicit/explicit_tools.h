@@ -46,8 +46,6 @@ public:
   void move(const ExplicitClock &clock);
   /// Adds works in one half of a step, of this rank, at time t [energy].
   void add_works(double t, double &external_work) const;
-  /// Adds the kinetic energies of all tools.
-  void add_kinetic_energies(double &energy) const;
 
   // For checkpoints. Groups are those of tools.
   /// Forces of removed tools act at these nodes. Collective.
