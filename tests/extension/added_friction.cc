@@ -68,7 +68,7 @@ parameters::Scene read_scene(const bool is_on_body, const bool is_explicit, cons
     text << "    set Initial velocity = 10 ; 0 ; 0\n"
             "    subsection Loads\n"
             "      subsection weight\n"
-            "        set Kind = acceleration\n"
+            "        set Type = acceleration\n"
             "        set Acceleration = 0 ; 0 ; -200\n"
             "      end\n"
             "    end\n";
@@ -77,7 +77,7 @@ parameters::Scene read_scene(const bool is_on_body, const bool is_explicit, cons
             "      subsection top\n"
             "        set Boundary ids = 5\n"
             "        set Displacement = "
-         << speed << "*t ; 0 ; -0.05*min(10*t, 1)\n      end\n    end\n";
+         << speed << "*t ; 0 ; -0.01*min(10*t, 1)\n      end\n    end\n";
   text << "  end\n";
   if (is_on_body)
     text << "  subsection ground\n"
@@ -108,9 +108,10 @@ parameters::Scene read_scene(const bool is_on_body, const bool is_explicit, cons
           "end\n"
           "subsection Time stepping\n"
        << (is_explicit ? "  set Scheme = explicit\n  set End time = 0.08\n"
-                       : "  set Step control = fixed\n  set Initial step = 0.01\n  set End time = 0.2\n")
+                       : "  set Step control = fixed\n  set Initial step = 0.01\n  set End time = 0.4\n")
        << "end\n"
-          "subsection Output\n"
+       << (is_explicit ? "" : "subsection Solver\n  set Force tolerance = 1e-9\nend\n")
+       << "subsection Output\n"
           "  set Format = none\n"
           "end\n";
   text.close();
